@@ -1,0 +1,23 @@
+//! Contact stiffness by Hertz for two spheres, as the study computes it.
+//!
+//! K = 4/3 √R E*, 1/R = 1/r_p + 1/r_s with the outer pitch radii, E* = E / (2(1−ν²)) for equal materials.
+
+use crate::numeric::sqrt;
+
+/// Stiffness K [N/m^1.5] of spheres with the pair's outer pitch radii `r_p`, `r_s` [m], modulus [Pa] and Poisson's ratio.
+pub fn stiffness(r_p: f64, r_s: f64, young_modulus: f64, poisson_ratio: f64) -> f64 {
+    let radius = r_p * r_s / (r_p + r_s);
+    let modulus = young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio));
+    4.0 / 3.0 * sqrt(radius) * modulus
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_study_s_stiffness_without_its_slip() {
+        let k = super::stiffness(22.5e-3, 36e-3, 2.07e11, 0.25);
+        assert!((k / 1.7321e10 - 1.0).abs() < 1e-5, "{k}");
+        // in N/mm^1.5, as the study prints it
+        assert!((k / 1e3f64.powf(1.5) / 5.4774e5 - 1.0).abs() < 1e-4);
+    }
+}

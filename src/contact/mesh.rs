@@ -1,0 +1,221 @@
+//! The elastic potential of one mesh: from it force, Jacobian, energy and heat, all at one place.
+//!
+//! Coordinates: q = sinδ_bs·α − σ·sinδ_bp·ψ, the relative position measured from "tooth in the middle of the gap", and
+//! x = σ·sinδ_bp·ψ + h, the planet's travel along the line of action. Both are arcs on the unit sphere [rad].
+//! The drive flanks approach by a = −q − b_n/2, the coast flanks by a = q − b_n/2. Tooth pair k stands at
+//! s = γ_p,pitch sinδ_bp ± x + k p_b (+ drive, − coast) and penetrates by d = R (a − g), where g is the corner gap
+//! beyond the planet's tip, at Δ = s − s_hi, or beyond the side gear's tip, at Δ = s_lo − s + a: that corner rides on
+//! the side gear, whose own position is s − a.
+//!
+//! V(q, x) = Σ U(d). Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves energy.
+
+use super::impact::Impact;
+use crate::geometry::Pair;
+use crate::geometry::corner::CornerGap;
+
+/// Flank of the planet tooth that carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flank {
+    /// Carrier drives the side gear forward.
+    Drive,
+    /// Side gear drives the carrier forward.
+    Coast,
+}
+
+/// Where a loaded pair touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// On the path of contact.
+    Path,
+    /// The planet's tip corner on the side gear's flank.
+    PlanetTip,
+    /// The side gear's tip corner on the planet's flank.
+    SideTip,
+}
+
+/// One tooth pair within reach, with the derivatives of its penetration arc p = d/R by q and x.
+#[derive(Clone, Copy, Debug)]
+pub struct ToothPair {
+    /// Flank in contact.
+    pub flank: Flank,
+    /// Kind of contact.
+    pub spot: Spot,
+    /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
+    pub place: f64,
+    /// Penetration arc p = a − g [rad], positive.
+    pub depth: f64,
+    /// ∂p/∂q and ∂p/∂x.
+    pub slope: [f64; 2],
+    /// ∂²p/∂q², ∂²p/∂q∂x, ∂²p/∂x² [1/rad].
+    pub curvature: [f64; 3],
+}
+
+/// Mesh state: q, x and their rates.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeshState {
+    /// Relative position and planet travel [rad].
+    pub position: [f64; 2],
+    /// Their rates [rad/s].
+    pub rate: [f64; 2],
+}
+
+/// Forces of a mesh conjugate to (q, x) [N·m per rad on the unit sphere], with energy, heat and derivatives.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeshLoad {
+    /// −∂V/∂(q, x) with damping [N·m].
+    pub force: [f64; 2],
+    /// ∂force/∂(q, x) [N·m/rad].
+    pub by_position: [[f64; 2]; 2],
+    /// ∂force/∂(q̇, ẋ) [N·m·s/rad].
+    pub by_rate: [[f64; 2]; 2],
+    /// Power turned into heat [W].
+    pub heat: f64,
+}
+
+/// A planet meshing with a side gear under the IMPACT law.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Contact law.
+    pub law: Impact,
+    /// Cone distance at which the law acts: R_m [m].
+    pub cone: f64,
+    /// Gap functions of the planet's and the side gear's tip corner.
+    pub corner: [CornerGap; 2],
+    half_backlash: f64,
+    base_pitch: f64,
+    centred: f64,
+    low: f64,
+    high: f64,
+    corner_contact: bool,
+}
+
+/// Margin that keeps the rounding of ceil and floor from losing a pair that just touches [base pitches].
+const ROUNDING: f64 = 1e-9;
+
+impl Mesh {
+    /// Mesh of `pair` under `law`; gaps are exact up to an approach of `reach` [rad].
+    pub fn new(pair: &Pair, law: Impact, corner_contact: bool, reach: f64) -> Self {
+        let corner = [CornerGap::new(pair, 0, reach), CornerGap::new(pair, 1, reach)];
+        Self {
+            law,
+            cone: pair.mean_cone,
+            half_backlash: pair.normal_backlash / 2.0,
+            base_pitch: pair.base_pitch,
+            centred: pair.centred_position(),
+            low: -corner[1].end,
+            high: corner[0].end,
+            corner,
+            corner_contact,
+        }
+    }
+
+    /// Approach of the drive flanks a_d at relative position `q` [rad].
+    pub fn drive_approach(&self, q: f64) -> f64 {
+        -q - self.half_backlash
+    }
+
+    /// Approach of the flank pair that carries, negative inside the lash [rad].
+    pub fn approach(&self, q: f64) -> f64 {
+        q.abs() - self.half_backlash
+    }
+
+    /// Calls `visit` with each loaded tooth pair at position (q, x).
+    #[inline]
+    pub fn pairs(&self, [q, x]: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
+        // the two flanks of a gap cannot carry at once, but without backlash both may touch
+        if -q - self.half_backlash > 0.0 {
+            self.flank_pairs(Flank::Drive, -1.0, -q - self.half_backlash, self.centred + x, &mut visit);
+        }
+        if q - self.half_backlash > 0.0 {
+            self.flank_pairs(Flank::Coast, 1.0, q - self.half_backlash, self.centred - x, &mut visit);
+        }
+    }
+
+    /// Loaded pairs of one flank: `sign` = ∂a/∂q = −∂s/∂x.
+    #[inline]
+    fn flank_pairs(&self, flank: Flank, sign: f64, approach: f64, start: f64, visit: &mut impl FnMut(&ToothPair)) {
+        let (beyond_planet, beyond_side) = if self.corner_contact {
+            (self.corner[0].reach(approach), self.corner[1].reach(approach) - approach)
+        } else {
+            (0.0, 0.0)
+        };
+        let first = libm::ceil((self.low - beyond_side - start) / self.base_pitch - ROUNDING);
+        let last = libm::floor((self.high + beyond_planet - start) / self.base_pitch + ROUNDING);
+        let mut k = first;
+        while k <= last {
+            let s = start + k * self.base_pitch;
+            k += 1.0;
+            let past_planet_tip = s - self.high;
+            let past_side_tip = self.low - s + approach;
+            let pair = if !self.corner_contact || (past_planet_tip <= 0.0 && past_side_tip <= 0.0) {
+                ToothPair {
+                    flank,
+                    spot: Spot::Path,
+                    place: s,
+                    depth: approach,
+                    slope: [sign, 0.0],
+                    curvature: [0.0; 3],
+                }
+            } else if past_planet_tip > 0.0 {
+                let g = self.corner[0].at(past_planet_tip);
+                ToothPair {
+                    flank,
+                    spot: Spot::PlanetTip,
+                    place: past_planet_tip,
+                    depth: approach - g.v,
+                    slope: [sign, sign * g.d],
+                    curvature: [0.0, 0.0, -g.dd],
+                }
+            } else {
+                // Δ moves with q by `sign` and with x by `sign` too
+                let g = self.corner[1].at(past_side_tip);
+                ToothPair {
+                    flank,
+                    spot: Spot::SideTip,
+                    place: past_side_tip,
+                    depth: approach - g.v,
+                    slope: [sign * (1.0 - g.d), -sign * g.d],
+                    curvature: [-g.dd, -g.dd, -g.dd],
+                }
+            };
+            if pair.depth > 0.0 {
+                visit(&pair);
+            }
+        }
+    }
+
+    /// Forces and heat; with `JACOBIAN` also their derivatives.
+    #[inline]
+    pub fn load<const JACOBIAN: bool>(&self, state: &MeshState) -> MeshLoad {
+        let mut load = MeshLoad::default();
+        let r = self.cone;
+        self.pairs(state.position, |pair| {
+            let [p_q, p_x] = pair.slope;
+            let rate = r * (p_q * state.rate[0] + p_x * state.rate[1]);
+            let f = self.law.force(r * pair.depth, rate);
+            load.force[0] -= r * f.total * p_q;
+            load.force[1] -= r * f.total * p_x;
+            load.heat += (f.total - f.elastic) * rate;
+            if JACOBIAN {
+                let [qq, qx, xx] = pair.curvature;
+                let turn = [qq * state.rate[0] + qx * state.rate[1], qx * state.rate[0] + xx * state.rate[1]];
+                let hessian = [[qq, qx], [qx, xx]];
+                for a in 0..2 {
+                    for b in 0..2 {
+                        let along = f.by_depth * pair.slope[b] + f.by_rate * turn[b];
+                        load.by_position[a][b] -= r * (r * along * pair.slope[a] + f.total * hessian[a][b]);
+                        load.by_rate[a][b] -= r * r * f.by_rate * pair.slope[a] * pair.slope[b];
+                    }
+                }
+            }
+        });
+        load
+    }
+
+    /// Elastic energy V [J] at position (q, x).
+    pub fn energy(&self, position: [f64; 2]) -> f64 {
+        let mut energy = 0.0;
+        self.pairs(position, |pair| energy += self.law.energy(self.cone * pair.depth));
+        energy
+    }
+}

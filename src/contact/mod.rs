@@ -1,0 +1,8 @@
+//! Tooth contact: the law of one pair, and the elastic potential of a mesh.
+
+pub mod hertz;
+pub mod impact;
+pub mod mesh;
+mod spec;
+
+pub use spec::{ContactLaw, ContactSpec};

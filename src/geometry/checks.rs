@@ -1,0 +1,131 @@
+//! What cannot be built (errors) and what a gear engineer would question (warnings).
+
+use super::{GearSpec, Pair};
+use crate::numeric::{cos, sin};
+use crate::problem::Problem;
+
+const NAMES: [&str; 2] = ["planet", "side gear"];
+const MM: f64 = 1e3;
+
+/// Usual upper limit of face width over outer cone distance for straight bevel gears.
+const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
+/// A tip land narrower than this many modules is called pointed.
+const POINTED_LAND: f64 = 0.2;
+/// A rim thinner than this many modules at the toe weakens the root.
+const RIM: f64 = 2.0;
+
+/// Why the pair cannot be built; empty if it can.
+pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
+    let mut found = Vec::new();
+    if pair.inner_cone <= 0.1 * pair.outer_cone {
+        found.push(Problem::new(
+            "geometry.face_width",
+            format!(
+                "{:.3} mm leaves no teeth at the toe: the outer cone distance is {:.3} mm; use at most a third of it",
+                spec.face_width * MM,
+                pair.outer_cone * MM
+            ),
+        ));
+    }
+    for (i, gear) in pair.gears.iter().enumerate() {
+        if gear.root <= 0.02 {
+            found.push(Problem::new(
+                if i == 0 { "geometry.planet_dedendum" } else { "geometry.side_dedendum" },
+                format!("the {}'s root cone would reach its axis: dedendum {:.3} mm", NAMES[i], gear.dedendum * MM),
+            ));
+        }
+        if gear.half_pitch <= 0.0 {
+            found.push(Problem::new(
+                "geometry.backlash",
+                format!("{:.3} mm is more than the {}'s whole tooth", spec.backlash * MM, NAMES[i]),
+            ));
+        }
+        let (name, bore) = bore(spec, i);
+        let toe_root = 2.0 * pair.inner_cone * sin(gear.root);
+        if bore >= toe_root && pair.inner_cone > 0.0 {
+            found.push(Problem::new(
+                name,
+                format!("{:.3} mm is not less than the root circle at the toe, {:.3} mm", bore * MM, toe_root * MM),
+            ));
+        }
+    }
+    if pair.path.contact_ratio <= 0.0 {
+        found.push(Problem::new(
+            "geometry.addendum_system",
+            "the teeth have no path of contact: both tips are cut off by the mate's base circle",
+        ));
+    }
+    found
+}
+
+/// What is unusual about a pair that can be built.
+pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
+    let mut found = Vec::new();
+    let m = pair.module;
+    // the end clipped at a gear's base circle is where its mate's tip would cut or jam
+    for (i, gear) in pair.gears.iter().enumerate() {
+        let mate = &pair.gears[1 - i];
+        if pair.path.clipped[i] {
+            let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
+            found.push(Problem::new(
+                "geometry.addendum_system",
+                format!(
+                    "{what}: the {}'s addendum {:.3} mm = {:.3} m exceeds the limit {:.3} m at {:.1} deg; \
+                     the path of contact ends at the {}'s base circle",
+                    NAMES[1 - i],
+                    mate.addendum * MM,
+                    mate.addendum / m,
+                    pair.limit_addendum(1 - i) / m,
+                    pair.pressure_angle.to_degrees(),
+                    NAMES[i]
+                ),
+            ));
+        }
+        let land = 2.0 * gear.half_angle(gear.tip) * sin(gear.tip) * pair.outer_cone;
+        if land < POINTED_LAND * m {
+            found.push(Problem::new(
+                "geometry.addendum_system",
+                format!("pointed {} teeth: tip land {:.3} mm = {:.3} m at the heel", NAMES[i], land * MM, land / m),
+            ));
+        }
+        let (name, bore) = bore(spec, i);
+        let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);
+        let toe_module = m * pair.inner_cone / pair.outer_cone;
+        if bore > 0.0 && rim < RIM * toe_module {
+            found.push(Problem::new(
+                name,
+                format!(
+                    "the {}'s rim at the toe is {:.2} mm, thinner than 2 modules there ({:.2} mm)",
+                    NAMES[i],
+                    rim * MM,
+                    RIM * toe_module * MM
+                ),
+            ));
+        }
+    }
+    let share = spec.face_width / pair.outer_cone;
+    if share > FACE_WIDTH_LIMIT {
+        found.push(Problem::new(
+            "geometry.face_width",
+            format!(
+                "{:.1} mm is {share:.3} R_e, above the usual R_e/3 = {:.2} mm",
+                spec.face_width * MM,
+                pair.outer_cone * FACE_WIDTH_LIMIT * MM
+            ),
+        ));
+    }
+    if pair.path.contact_ratio < 1.0 && pair.path.contact_ratio > 0.0 {
+        found.push(Problem::new(
+            "geometry.addendum_system",
+            format!(
+                "contact ratio {:.3} is below 1: motion is passed on by tip corners in between",
+                pair.path.contact_ratio
+            ),
+        ));
+    }
+    found
+}
+
+fn bore(spec: &GearSpec, i: usize) -> (&'static str, f64) {
+    if i == 0 { ("geometry.planet_bore", spec.planet_bore) } else { ("geometry.side_bore", spec.side_bore) }
+}

@@ -1,0 +1,20 @@
+//! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and its FMI 2.0 face.
+//!
+//! The rooms, ground floor first; each uses only those before it:
+//! `numeric` → `geometry` → `contact` → `integrate` → `model` → `variables` → `fmi2`.
+//!
+//! All quantities are SI (m, rad, s, kg, N) unless a name says otherwise; symbols follow ISO 23509.
+
+#![deny(unsafe_code)]
+#![warn(missing_docs)]
+
+pub mod contact;
+pub mod geometry;
+pub mod integrate;
+pub mod model;
+pub mod numeric;
+pub mod problem;
+pub mod variables;
+
+#[allow(unsafe_code)] // the C ABI is the one place that must handle foreign pointers
+pub mod fmi2;

@@ -1,0 +1,47 @@
+//! Moments of inertia of the bodies, assembled from parameters and solids.
+
+use super::parameters::Parameters;
+use crate::geometry::Pair;
+use crate::geometry::mass::gear_mass;
+
+/// Inertias that the equations of motion need [kg·m²].
+///
+/// Planet axes are perpendicular to the carrier axis, so the kinetic energy is diagonal in the absolute speeds of
+/// carrier and side gears and the relative spins of the planets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertias {
+    /// Carrier with the transverse inertia of all planets.
+    pub carrier: f64,
+    /// Side gears with their rigid ends.
+    pub side: [f64; 2],
+    /// Wheel-side ends alone, left and right.
+    pub end: [f64; 2],
+    /// One planet about its own axis.
+    pub planet: f64,
+    /// Number of planets.
+    pub planets: f64,
+}
+
+impl Inertias {
+    /// Inertias of the scene; gear solids scaled to the given inertia where that is given instead.
+    pub fn new(p: &Parameters, pair: &Pair) -> Self {
+        let solid =
+            |i: usize, bore: f64| gear_mass(&pair.gears[i], pair.inner_cone, pair.outer_cone, bore, p.material.density);
+        let planet = solid(0, p.geometry.planet_bore);
+        let (side_axial, planet_axial) = if p.inertia.from_geometry {
+            (solid(1, p.geometry.side_bore).axial, planet.axial)
+        } else {
+            (p.inertia.side_gear, p.inertia.planet)
+        };
+        let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
+        let end = [p.inertia.left_end, p.inertia.right_end];
+        let planets = f64::from(p.geometry.planet_count);
+        Self {
+            carrier: p.inertia.carrier + planets * transverse,
+            side: end.map(|e| side_axial + e),
+            end,
+            planet: planet_axial,
+            planets,
+        }
+    }
+}

@@ -1,0 +1,131 @@
+//! The ideal differential: no teeth, Willis' equation as a constraint, two degrees of freedom ω_c and ψ̇.
+//!
+//! With ω_L,R = ω_c ± r ψ̇, r = z_p/z_s, the kinetic energy gives M (ω̇_c, ψ̈)ᵀ = (T_c − T_L − T_R, r (T_R − T_L) + T_ψ)ᵀ,
+//! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constant between communication
+//! points, so speeds are linear and angles quadratic in time: the step is exact.
+
+use super::bodies::Inertias;
+use super::parameters::Inputs;
+use super::plan::Plan;
+use super::state::{CARRIER, PLANET, State};
+
+/// Constants of the ideal differential.
+#[derive(Clone, Copy, Debug)]
+pub struct Ideal {
+    /// Scene plan.
+    pub plan: Plan,
+    /// Inertias.
+    pub inertia: Inertias,
+    /// r = z_p/z_s.
+    pub ratio: f64,
+}
+
+/// Accelerations and the torques of the drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IdealMotion {
+    /// ω̇_c [rad/s²].
+    pub carrier: f64,
+    /// ψ̈ [rad/s²].
+    pub spin: f64,
+    /// Torque on the carrier [N·m].
+    pub carrier_torque: f64,
+    /// Torque that imposes the spin, all planets together [N·m].
+    pub spin_torque: f64,
+}
+
+impl Ideal {
+    /// M of the equations of motion: m₁₁, m₁₂, m₂₂ [kg·m²].
+    fn mass(&self) -> [f64; 3] {
+        let (r, j) = (self.ratio, &self.inertia);
+        [
+            j.carrier + j.side[0] + j.side[1],
+            r * (j.side[0] - j.side[1]),
+            r * r * (j.side[0] + j.side[1]) + j.planets * j.planet,
+        ]
+    }
+
+    /// Lets imposed speeds jump to `inputs`; what is free follows the impulse through the gears. Work of the jump [J].
+    pub fn jump(&self, state: &mut State, inputs: &Inputs) -> f64 {
+        let before = self.kinetic_energy(state);
+        let [m11, m12, m22] = self.mass();
+        let v = &mut state.point.v;
+        let d_carrier = if self.plan.carrier_imposed { inputs.carrier_speed - v[CARRIER] } else { 0.0 };
+        let d_spin = if self.plan.spin_imposed { inputs.planet_spin - v[PLANET] } else { 0.0 };
+        if d_carrier == 0.0 && d_spin == 0.0 {
+            return 0.0;
+        }
+        v[CARRIER] += if self.plan.carrier_imposed { d_carrier } else { -m12 / m11 * d_spin };
+        v[PLANET] += if self.plan.spin_imposed { d_spin } else { -m12 / m22 * d_carrier };
+        self.constrain(state);
+        self.kinetic_energy(state) - before
+    }
+
+    /// Accelerations of the side gears.
+    pub fn side_accelerations(&self, m: &IdealMotion) -> [f64; 2] {
+        [m.carrier + self.ratio * m.spin, m.carrier - self.ratio * m.spin]
+    }
+
+    /// Accelerations under `inputs`.
+    pub fn motion(&self, inputs: &Inputs) -> IdealMotion {
+        let r = self.ratio;
+        let [left, right] = inputs.load_torque;
+        let [m11, m12, m22] = self.mass();
+        let (f1, f2) = (inputs.carrier_torque - left - right, r * (right - left));
+        let (carrier, spin) = match (self.plan.carrier_imposed, self.plan.spin_imposed) {
+            (true, true) => (0.0, 0.0),
+            (true, false) => (0.0, f2 / m22),
+            (false, true) => (f1 / m11, 0.0),
+            (false, false) => {
+                let determinant = m11 * m22 - m12 * m12;
+                ((f1 * m22 - f2 * m12) / determinant, (f2 * m11 - f1 * m12) / determinant)
+            }
+        };
+        let carrier_torque =
+            if self.plan.carrier_imposed { m11 * carrier + m12 * spin + left + right } else { inputs.carrier_torque };
+        let spin_torque = if self.plan.spin_imposed { m12 * carrier + m22 * spin - f2 } else { 0.0 };
+        IdealMotion { carrier, spin, carrier_torque, spin_torque }
+    }
+
+    /// Sets side gear speeds by Willis' equation.
+    pub fn constrain(&self, state: &mut State) {
+        let v = &mut state.point.v;
+        let (carrier, spin) = (v[CARRIER], v[PLANET]);
+        v[0] = carrier + self.ratio * spin;
+        v[1] = carrier - self.ratio * spin;
+        for g in 1..self.plan.groups().len() {
+            v[PLANET + g] = spin;
+        }
+    }
+
+    /// Exact step of size `h` under constant inputs.
+    pub fn advance(&self, state: &mut State, inputs: &Inputs, h: f64) {
+        let m = self.motion(inputs);
+        let v = state.point.v;
+        let turn = |speed: f64, acceleration: f64| h * (speed + 0.5 * h * acceleration);
+        let (carrier, spin) = (turn(v[CARRIER], m.carrier), turn(v[PLANET], m.spin));
+        let relative = self.ratio * spin;
+        state.point.q[0] += relative;
+        state.point.q[1] -= relative;
+        state.point.q[CARRIER] += carrier;
+        for g in 0..self.plan.groups().len() {
+            state.point.q[PLANET + g] += spin;
+        }
+        let [left, right] = inputs.load_torque;
+        state.work += m.carrier_torque * carrier + m.spin_torque * spin
+            - left * (carrier + relative)
+            - right * (carrier - relative);
+        state.point.v[CARRIER] += h * m.carrier;
+        state.point.v[PLANET] += h * m.spin;
+        self.constrain(state);
+        state.time += h;
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic_energy(&self, state: &State) -> f64 {
+        let (v, j) = (&state.point.v, &self.inertia);
+        0.5 * (j.carrier * v[CARRIER] * v[CARRIER]
+            + j.side[0] * v[0] * v[0]
+            + j.side[1] * v[1] * v[1]
+            + j.planets * j.planet * v[PLANET] * v[PLANET])
+    }
+}

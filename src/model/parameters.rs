@@ -1,0 +1,184 @@
+//! Everything a user can fix before the first step, and the inputs that may change at any communication point.
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::ContactSpec;
+use crate::geometry::GearSpec;
+
+/// Elastic and mass data of both gears.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Young's modulus E [Pa].
+    pub young_modulus: f64,
+    /// Poisson's ratio ν.
+    pub poisson_ratio: f64,
+    /// Density ρ [kg/m³].
+    pub density: f64,
+}
+
+/// Moments of inertia about the axis of rotation [kg·m²].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct InertiaSpec {
+    /// Gears from their solids; otherwise as given below.
+    pub from_geometry: bool,
+    /// Carrier with ring gear and cross-shaft, without planets.
+    pub carrier: f64,
+    /// One side gear, if not from geometry.
+    pub side_gear: f64,
+    /// One planet about its own axis, if not from geometry.
+    pub planet: f64,
+    /// Wheel side of the left half-shaft, rigid on the side gear; 0 = none.
+    pub left_end: f64,
+    /// Wheel side of the right half-shaft, rigid on the side gear; 0 = none.
+    pub right_end: f64,
+}
+
+/// How the carrier is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum CarrierDrive {
+    /// Its speed is imposed, the torque follows.
+    Speed = 1,
+    /// Its torque is imposed, the speed follows.
+    Torque = 2,
+}
+
+/// Whether the planets spin freely on their pins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum PlanetSpin {
+    /// Spin follows from the tooth forces.
+    Free = 1,
+    /// Spin is imposed, as the study does in its turn.
+    Imposed = 2,
+}
+
+/// How tooth contact is represented.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum GearContact {
+    /// No teeth: Willis' equation as a constraint.
+    Ideal = 1,
+    /// Tooth pair by tooth pair along the path of contact.
+    Tooth = 3,
+}
+
+/// State at the start time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum Start {
+    /// Meshes preloaded by the loads at the start time.
+    Equilibrium = 1,
+    /// Speeds by Willis' equation, teeth in the middle of their gaps, unloaded.
+    Rolling = 2,
+    /// Everything at rest that is not imposed.
+    Rest = 3,
+}
+
+/// What drives, what is free, what is represented.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Scene {
+    /// Carrier drive.
+    pub carrier_drive: CarrierDrive,
+    /// Planet spin.
+    pub planet_spin: PlanetSpin,
+    /// Representation of tooth contact.
+    pub gear_contact: GearContact,
+    /// State at the start time.
+    pub start: Start,
+}
+
+/// Switches of the effects.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Effects {
+    /// Backlash `geometry.backlash`; off = teeth without play.
+    pub backlash: bool,
+    /// Tip-corner contact outside the path of contact; off = pairs enter and leave abruptly.
+    pub corner_contact: bool,
+}
+
+/// Integration method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum Method {
+    /// Adaptive L-stable Rosenbrock method of order 4.
+    Adaptive = 1,
+}
+
+/// Accuracy and method of integration.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolverSpec {
+    /// Integration method.
+    pub method: Method,
+    /// Relative tolerance of the local error per step.
+    pub relative_tolerance: f64,
+}
+
+/// All parameters; the default is the study's straight case.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Parameters {
+    /// Gear pair and number of planets.
+    pub geometry: GearSpec,
+    /// Material of the gears.
+    pub material: Material,
+    /// Moments of inertia.
+    pub inertia: InertiaSpec,
+    /// Contact law.
+    pub contact: ContactSpec,
+    /// Drives and representation.
+    pub scene: Scene,
+    /// Effects.
+    pub effects: Effects,
+    /// Integration.
+    pub solver: SolverSpec,
+}
+
+impl Default for Parameters {
+    fn default() -> Self {
+        Self {
+            geometry: GearSpec::default(),
+            material: Material { young_modulus: 2.07e11, poisson_ratio: 0.25, density: 7800.0 },
+            inertia: InertiaSpec {
+                from_geometry: true,
+                carrier: 0.02,
+                side_gear: 9e-5,
+                planet: 2e-5,
+                left_end: 0.0,
+                right_end: 0.0,
+            },
+            contact: ContactSpec::default(),
+            scene: Scene {
+                carrier_drive: CarrierDrive::Speed,
+                planet_spin: PlanetSpin::Free,
+                gear_contact: GearContact::Tooth,
+                start: Start::Equilibrium,
+            },
+            effects: Effects { backlash: true, corner_contact: true },
+            solver: SolverSpec { method: Method::Adaptive, relative_tolerance: 1e-6 },
+        }
+    }
+}
+
+/// What the host feeds in at communication points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// Imposed carrier speed, or its initial speed when torque-driven [rad/s].
+    pub carrier_speed: f64,
+    /// Carrier torque when torque-driven [N·m].
+    pub carrier_torque: f64,
+    /// Load on left and right half-shaft, positive resists positive rotation [N·m].
+    pub load_torque: [f64; 2],
+    /// Imposed planet spin relative to the carrier, positive speeds the left side up [rad/s].
+    pub planet_spin: f64,
+}
+
+impl Default for Inputs {
+    fn default() -> Self {
+        Self {
+            carrier_speed: 2861f64.to_radians(),
+            carrier_torque: 1670.0,
+            load_torque: [835.0, 835.0],
+            planet_spin: 0.0,
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! What can be read from a model at an instant, in three groups by what they cost.
+
+/// Largest number of planets.
+pub const MAX_PLANETS: usize = 4;
+
+/// Angles and speeds: read straight from the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Carrier angle since the start [rad].
+    pub carrier_angle: f64,
+    /// Carrier speed [rad/s].
+    pub carrier_speed: f64,
+    /// Side gear angles, left and right, since the start [rad].
+    pub side_angle: [f64; 2],
+    /// Side gear speeds, left and right [rad/s].
+    pub side_speed: [f64; 2],
+    /// Spin angles of the planets relative to the carrier since the start [rad].
+    pub spin_angle: [f64; MAX_PLANETS],
+    /// Spin speeds of the planets relative to the carrier [rad/s].
+    pub spin_speed: [f64; MAX_PLANETS],
+    /// Tooth engagements per second of one mesh [Hz].
+    pub mesh_frequency: f64,
+}
+
+/// One mesh (a planet with one side gear).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeshForces {
+    /// Sum of the normal forces of its tooth pairs [N].
+    pub normal: f64,
+    /// Tooth pairs carrying load.
+    pub pairs: f64,
+    /// Thrust on the side gear, along its axis away from the apex [N].
+    pub side_thrust: f64,
+    /// Thrust on the planet, along its axis away from the apex [N].
+    pub planet_thrust: f64,
+    /// Force on the planet along the carrier's direction of rotation [N].
+    pub tangential: f64,
+    /// Transmission error: approach of the drive flanks at the mean cone distance [m].
+    pub transmission_error: f64,
+}
+
+/// Forces, torques and accelerations: one evaluation of the tooth forces.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Forces {
+    /// Carrier acceleration [rad/s²].
+    pub carrier_acceleration: f64,
+    /// Side gear accelerations [rad/s²].
+    pub side_acceleration: [f64; 2],
+    /// Torque the drive delivers to the carrier [N·m].
+    pub carrier_torque: f64,
+    /// Torque the half-shafts deliver to the wheels [N·m].
+    pub shaft_torque: [f64; 2],
+    /// Torque of all meshes on a side gear, referred to its outer pitch circle [N].
+    pub side_tangential: [f64; 2],
+    /// Normal forces of all meshes of a side gear [N].
+    pub side_normal: [f64; 2],
+    /// Thrust of all meshes on a side gear, away from the apex [N].
+    pub side_thrust: [f64; 2],
+    /// Torque that imposes the spin, all planets together [N·m].
+    pub spin_torque: f64,
+    /// Meshes, by planet and side.
+    pub mesh: [[MeshForces; 2]; MAX_PLANETS],
+    /// Resultant of a planet's mesh forces across its pin [N].
+    pub pin_force: [f64; MAX_PLANETS],
+    /// Thrust of both meshes on a planet, away from the apex [N].
+    pub planet_thrust: [f64; MAX_PLANETS],
+    /// Power delivered by the drives [W].
+    pub power_in: f64,
+    /// Power delivered to the wheels [W].
+    pub power_out: f64,
+    /// Power turned into heat [W].
+    pub power_loss: f64,
+}
+
+/// Ledger and solver statistics.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Books {
+    /// Heat of contact damping since the start [J].
+    pub heat_contact: f64,
+    /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
+    pub energy_residual: f64,
+    /// Accepted steps.
+    pub steps: f64,
+    /// Rejected steps.
+    pub rejected: f64,
+    /// Evaluations of the tooth forces.
+    pub rhs_calls: f64,
+    /// Size of the last accepted step [s].
+    pub step_size: f64,
+}
+
+/// Ratio of output to input power; 1 at zero power.
+pub fn efficiency(forces: &Forces) -> f64 {
+    if forces.power_in == 0.0 { 1.0 } else { forces.power_out / forces.power_in }
+}

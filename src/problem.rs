@@ -1,0 +1,30 @@
+//! What can be wrong with a value: which one, where it may lie, and what to do about it.
+
+use std::fmt;
+
+/// A value that cannot be used, told so that the reader knows what to change.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Dotted name of the offending variable, e.g. `geometry.module`.
+    pub variable: &'static str,
+    /// What is wrong: value, unit, allowed range and, where the mistake is known, a hint.
+    pub message: String,
+}
+
+impl Problem {
+    /// A problem with `variable`, described by `message`.
+    pub fn new(variable: &'static str, message: impl Into<String>) -> Self {
+        Self { variable, message: message.into() }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.variable, self.message)
+    }
+}
+
+/// Several problems in one text, a line each.
+pub fn list(problems: &[Problem]) -> String {
+    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,75 @@
+//! Rows of the inputs.
+
+use super::table::{Access, Causality, Range, Variability, Variable};
+use super::units::{self, DEG_PER_S, DisplayUnit, Unit};
+use crate::model::Inputs;
+
+/// Far beyond any differential, near enough that no intermediate result overflows.
+const MAX_SPEED: f64 = 1e5;
+const MAX_TORQUE: f64 = 1e8;
+
+fn input(
+    name: &'static str,
+    unit: Unit,
+    display: Option<DisplayUnit>,
+    limit: f64,
+    at: fn(&mut Inputs) -> &mut f64,
+    description: &'static str,
+) -> Variable {
+    Variable {
+        name,
+        description,
+        causality: Causality::Input,
+        variability: Variability::Continuous,
+        unit: Some(unit),
+        display,
+        range: Some(Range { min: -limit, max: limit }),
+        access: Access::Input(at),
+    }
+}
+
+/// Rows of all inputs.
+pub fn rows() -> Vec<Variable> {
+    vec![
+        input(
+            "carrier.speed_command",
+            units::RAD_PER_S,
+            Some(DEG_PER_S),
+            MAX_SPEED,
+            |i| &mut i.carrier_speed,
+            "Imposed carrier speed; initial speed when the carrier is torque-driven",
+        ),
+        input(
+            "carrier.torque_command",
+            units::NEWTON_METRE,
+            None,
+            MAX_TORQUE,
+            |i| &mut i.carrier_torque,
+            "Carrier torque when the carrier is torque-driven",
+        ),
+        input(
+            "left.load_torque",
+            units::NEWTON_METRE,
+            None,
+            MAX_TORQUE,
+            |i| &mut i.load_torque[0],
+            "Load on the left half-shaft; positive resists positive rotation",
+        ),
+        input(
+            "right.load_torque",
+            units::NEWTON_METRE,
+            None,
+            MAX_TORQUE,
+            |i| &mut i.load_torque[1],
+            "Load on the right half-shaft; positive resists positive rotation",
+        ),
+        input(
+            "planet.spin_command",
+            units::RAD_PER_S,
+            Some(DEG_PER_S),
+            MAX_SPEED,
+            |i| &mut i.planet_spin,
+            "Imposed planet spin relative to the carrier; positive speeds the left side up",
+        ),
+    ]
+}

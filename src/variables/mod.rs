@@ -1,0 +1,15 @@
+//! The one table of FMI variables: names, units, starts, ranges and access to the model's quantities.
+//! The model description, value references and the C ABI all come from it.
+
+mod inputs;
+mod outputs;
+mod parameters;
+mod table;
+pub mod units;
+
+pub use table::{
+    Access, Causality, Choice, EnumType, OutputSource, Range, Table, Variability, Variable, check_ranges, guid, table,
+};
+
+/// FMI model identifier and model name.
+pub const MODEL_NAME: &str = "BevelDifferential";

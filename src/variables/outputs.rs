@@ -1,0 +1,207 @@
+//! Rows of the outputs.
+
+use super::table::{Access, Causality, OutputSource, Variability, Variable};
+use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use crate::model::{Books, Forces, Motion, efficiency};
+
+fn output(
+    name: &'static str,
+    unit: Unit,
+    display: Option<DisplayUnit>,
+    source: OutputSource,
+    description: &'static str,
+) -> Variable {
+    Variable {
+        name,
+        description,
+        causality: Causality::Output,
+        variability: Variability::Continuous,
+        unit: Some(unit),
+        display,
+        range: None,
+        access: Access::Output(source),
+    }
+}
+
+fn motion(
+    name: &'static str,
+    unit: Unit,
+    display: Option<DisplayUnit>,
+    of: fn(&Motion) -> f64,
+    text: &'static str,
+) -> Variable {
+    output(name, unit, display, OutputSource::Motion(of), text)
+}
+
+fn forces(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static str) -> Variable {
+    output(name, unit, None, OutputSource::Forces(of), text)
+}
+
+fn books(name: &'static str, unit: Unit, of: fn(&Books) -> f64, text: &'static str) -> Variable {
+    output(name, unit, None, OutputSource::Books(of), text)
+}
+
+/// Rows of one side: 0 left, 1 right.
+macro_rules! side {
+    ($name:literal, $s:literal) => {
+        [
+            motion(
+                concat!($name, ".angle"),
+                units::RADIAN,
+                Some(DEG),
+                |m| m.side_angle[$s],
+                "Side gear angle since the start",
+            ),
+            motion(
+                concat!($name, ".speed"),
+                units::RAD_PER_S,
+                Some(DEG_PER_S),
+                |m| m.side_speed[$s],
+                "Side gear speed",
+            ),
+            forces(
+                concat!($name, ".acceleration"),
+                units::RAD_PER_S2,
+                |f| f.side_acceleration[$s],
+                "Side gear acceleration",
+            ),
+            forces(
+                concat!($name, ".shaft_torque"),
+                units::NEWTON_METRE,
+                |f| f.shaft_torque[$s],
+                "Torque the half-shaft delivers to the wheel",
+            ),
+            forces(
+                concat!($name, ".tangential_force"),
+                units::NEWTON,
+                |f| f.side_tangential[$s],
+                "Torque of all meshes on the side gear, referred to its outer pitch circle",
+            ),
+            forces(
+                concat!($name, ".normal_force"),
+                units::NEWTON,
+                |f| f.side_normal[$s],
+                "Normal forces of all meshes of the side gear, summed",
+            ),
+            forces(
+                concat!($name, ".thrust_force"),
+                units::NEWTON,
+                |f| f.side_thrust[$s],
+                "Thrust of all meshes on the side gear, away from the apex",
+            ),
+        ]
+    };
+}
+
+/// Rows of one planet, numbered from 0 inside and from 1 in names.
+macro_rules! planet {
+    ($name:literal, $i:literal) => {
+        [
+            motion(
+                concat!($name, ".spin_angle"),
+                units::RADIAN,
+                Some(DEG),
+                |m| m.spin_angle[$i],
+                "Spin angle relative to the carrier since the start",
+            ),
+            motion(
+                concat!($name, ".spin_speed"),
+                units::RAD_PER_S,
+                Some(DEG_PER_S),
+                |m| m.spin_speed[$i],
+                "Spin speed relative to the carrier",
+            ),
+            forces(
+                concat!($name, ".left_normal_force"),
+                units::NEWTON,
+                |f| f.mesh[$i][0].normal,
+                "Normal force of the mesh with the left side gear, its tooth pairs summed",
+            ),
+            forces(
+                concat!($name, ".right_normal_force"),
+                units::NEWTON,
+                |f| f.mesh[$i][1].normal,
+                "Normal force of the mesh with the right side gear, its tooth pairs summed",
+            ),
+            forces(
+                concat!($name, ".left_pairs"),
+                units::ONE,
+                |f| f.mesh[$i][0].pairs,
+                "Tooth pairs under load in the mesh with the left side gear",
+            ),
+            forces(
+                concat!($name, ".right_pairs"),
+                units::ONE,
+                |f| f.mesh[$i][1].pairs,
+                "Tooth pairs under load in the mesh with the right side gear",
+            ),
+            forces(
+                concat!($name, ".pin_force"),
+                units::NEWTON,
+                |f| f.pin_force[$i],
+                "Resultant of the mesh forces across the pin",
+            ),
+            forces(
+                concat!($name, ".thrust_force"),
+                units::NEWTON,
+                |f| f.planet_thrust[$i],
+                "Thrust of both meshes on the planet, away from the apex",
+            ),
+            output(
+                concat!($name, ".left_transmission_error"),
+                units::METRE,
+                Some(MM),
+                OutputSource::Forces(|f| f.mesh[$i][0].transmission_error),
+                "Approach of the drive flanks to the left side gear at the mean cone distance; 0 at first touch",
+            ),
+            output(
+                concat!($name, ".right_transmission_error"),
+                units::METRE,
+                Some(MM),
+                OutputSource::Forces(|f| f.mesh[$i][1].transmission_error),
+                "Approach of the drive flanks to the right side gear at the mean cone distance; 0 at first touch",
+            ),
+        ]
+    };
+}
+
+/// Rows of all outputs.
+pub fn rows() -> Vec<Variable> {
+    let mut rows = vec![
+        motion("carrier.angle", units::RADIAN, Some(DEG), |m| m.carrier_angle, "Carrier angle since the start"),
+        motion("carrier.speed", units::RAD_PER_S, Some(DEG_PER_S), |m| m.carrier_speed, "Carrier speed"),
+        forces("carrier.acceleration", units::RAD_PER_S2, |f| f.carrier_acceleration, "Carrier acceleration"),
+        forces("carrier.torque", units::NEWTON_METRE, |f| f.carrier_torque, "Torque the drive delivers to the carrier"),
+    ];
+    rows.extend(side!("left", 0));
+    rows.extend(side!("right", 1));
+    rows.extend(planet!("planet[1]", 0));
+    rows.extend(planet!("planet[2]", 1));
+    rows.extend(planet!("planet[3]", 2));
+    rows.extend(planet!("planet[4]", 3));
+    rows.extend([
+        forces(
+            "planet.spin_torque",
+            units::NEWTON_METRE,
+            |f| f.spin_torque,
+            "Torque that imposes the spin, all planets together; 0 when the spin is free",
+        ),
+        motion("mesh.frequency", units::HERTZ, None, |m| m.mesh_frequency, "Tooth engagements per second of one mesh"),
+        forces("power.in", units::WATT, |f| f.power_in, "Power delivered by carrier drive and spin drive"),
+        forces("power.out", units::WATT, |f| f.power_out, "Power delivered to the wheels"),
+        forces("power.loss", units::WATT, |f| f.power_loss, "Power turned into heat"),
+        forces("efficiency", units::ONE, efficiency, "Power out per power in; 1 at zero power"),
+        books("heat.contact", units::JOULE, |b| b.heat_contact, "Heat of contact damping since the start"),
+        books("solver.steps", units::ONE, |b| b.steps, "Accepted steps"),
+        books("solver.rejected", units::ONE, |b| b.rejected, "Rejected steps"),
+        books("solver.rhs_calls", units::ONE, |b| b.rhs_calls, "Evaluations of the tooth forces"),
+        books("solver.step_size", units::SECOND, |b| b.step_size, "Size of the last accepted step"),
+        books(
+            "solver.energy_residual",
+            units::JOULE,
+            |b| b.energy_residual,
+            "Stored energy less work of the inputs plus heat; 0 for an exact solution",
+        ),
+    ]);
+    rows
+}

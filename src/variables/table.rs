@@ -1,0 +1,197 @@
+//! Shape of a table row, the assembled table, and what follows from it: range checks and the GUID.
+
+use std::fmt::Write as _;
+use std::sync::OnceLock;
+
+use super::units::{DisplayUnit, Unit};
+use crate::model::{Books, Forces, Inputs, Motion, Parameters};
+use crate::problem::Problem;
+
+/// FMI causality of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Causality {
+    Parameter,
+    Input,
+    Output,
+}
+
+/// FMI variability of a variable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Variability {
+    Fixed,
+    Tunable,
+    Continuous,
+}
+
+/// Allowed values, both ends included [unit of the variable].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range {
+    /// Smallest allowed value.
+    pub min: f64,
+    /// Largest allowed value.
+    pub max: f64,
+}
+
+/// One literal of an enumeration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Choice {
+    /// Value at the FMI boundary.
+    pub value: i32,
+    /// Literal.
+    pub name: &'static str,
+    /// What it means.
+    pub description: &'static str,
+}
+
+/// An enumeration type.
+#[derive(Debug, PartialEq, Eq)]
+pub struct EnumType {
+    /// Name of the type.
+    pub name: &'static str,
+    /// Its literals.
+    pub choices: &'static [Choice],
+}
+
+/// Where an output's value is read.
+#[derive(Clone, Copy)]
+pub enum OutputSource {
+    /// From angles and speeds.
+    Motion(fn(&Motion) -> f64),
+    /// From forces, which cost one evaluation of the teeth.
+    Forces(fn(&Forces) -> f64),
+    /// From the ledger and the solver's statistics.
+    Books(fn(&Books) -> f64),
+}
+
+/// Type of a variable and the way to its value.
+#[derive(Clone, Copy)]
+pub enum Access {
+    /// A real parameter.
+    Real(fn(&mut Parameters) -> &mut f64),
+    /// An integer parameter.
+    Integer(fn(&mut Parameters) -> &mut i32),
+    /// A Boolean parameter.
+    Boolean(fn(&mut Parameters) -> &mut bool),
+    /// An enumeration parameter: type, value, and assignment of a value that is one of its choices.
+    Enumeration(&'static EnumType, fn(&Parameters) -> i32, fn(&mut Parameters, i32)),
+    /// A real input.
+    Input(fn(&mut Inputs) -> &mut f64),
+    /// A real output.
+    Output(OutputSource),
+}
+
+/// A row of the table.
+#[derive(Clone, Copy)]
+pub struct Variable {
+    /// Dotted name.
+    pub name: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    /// FMI causality.
+    pub causality: Causality,
+    /// FMI variability.
+    pub variability: Variability,
+    /// Unit of a real variable.
+    pub unit: Option<Unit>,
+    /// Unit to show it in, where people think in another.
+    pub display: Option<DisplayUnit>,
+    /// Allowed values of a number.
+    pub range: Option<Range>,
+    /// Type and access.
+    pub access: Access,
+}
+
+/// All variables; the value reference of a variable is its index.
+pub struct Table {
+    /// The rows.
+    pub rows: Vec<Variable>,
+    /// Indices of the outputs, ascending.
+    pub outputs: Vec<usize>,
+    /// Indices of the inputs, ascending.
+    pub inputs: Vec<usize>,
+}
+
+/// The table.
+pub fn table() -> &'static Table {
+    static TABLE: OnceLock<Table> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut rows = super::parameters::rows();
+        rows.extend(super::inputs::rows());
+        rows.extend(super::outputs::rows());
+        let of = |c: Causality| (0..rows.len()).filter(|&i| rows[i].causality == c).collect();
+        let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
+        Table { rows, outputs, inputs }
+    })
+}
+
+/// Start value of a variable that has a real one.
+pub fn real_start(variable: &Variable) -> Option<f64> {
+    match variable.access {
+        Access::Real(access) => Some(*access(&mut Parameters::default())),
+        Access::Input(access) => Some(*access(&mut Inputs::default())),
+        _ => None,
+    }
+}
+
+/// Checks one number against its row: finite and within range.
+pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
+    if !value.is_finite() {
+        return Err(Problem::new(row.name, format!("{value} is not a finite number")));
+    }
+    let Some(Range { min, max }) = row.range else { return Ok(()) };
+    if (min..=max).contains(&value) {
+        return Ok(());
+    }
+    let unit = row.unit.map_or("", |u| if u.name == "1" { "" } else { u.name });
+    let mut text = format!("{value} {unit} is outside [{min}, {max}] {unit}");
+    // the commonest mistake: a value given in the unit people think in
+    if let Some(shown) = row.display {
+        let meant = value / shown.factor;
+        if (min..=max).contains(&meant) {
+            let _ = write!(text, "; did you mean {value} {} = {meant:.6} {unit}?", shown.name);
+        }
+    }
+    Err(Problem::new(row.name, text.replace("  ", " ")))
+}
+
+/// Every parameter that is not finite or out of range.
+pub fn check_ranges(parameters: &Parameters) -> Vec<Problem> {
+    let mut p = *parameters;
+    let checked = table().rows.iter().filter_map(|row| match row.access {
+        Access::Real(access) => check_value(row, *access(&mut p)).err(),
+        Access::Integer(access) => check_value(row, f64::from(*access(&mut p))).err(),
+        _ => None,
+    });
+    checked.collect()
+}
+
+/// GUID of this interface: changes whenever a row changes in what a host relies on.
+pub fn guid() -> &'static str {
+    static GUID: OnceLock<String> = OnceLock::new();
+    GUID.get_or_init(|| {
+        let mut text = String::from(super::MODEL_NAME);
+        for row in &table().rows {
+            let _ = write!(text, "\n{} {:?} {:?}", row.name, row.causality, row.variability);
+            let _ = write!(text, " {:?} {:?} {:?}", row.unit.map(|u| u.name), row.range, real_start(row));
+            if let Access::Enumeration(kind, ..) = row.access {
+                let _ = write!(text, " {kind:?}");
+            }
+        }
+        let (a, b) = (fnv1a(text.bytes()), fnv1a(text.bytes().rev()));
+        format!(
+            "{{{:08x}-{:04x}-{:04x}-{:04x}-{:012x}}}",
+            a >> 32,
+            (a >> 16) & 0xffff,
+            a & 0xffff,
+            b >> 48,
+            b & 0xffff_ffff_ffff
+        )
+    })
+}
+
+/// 64-bit FNV-1a hash.
+pub fn fnv1a(bytes: impl Iterator<Item = u8>) -> u64 {
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}

@@ -1,0 +1,104 @@
+//! Units of the interface and the units people think in.
+
+use std::f64::consts::PI;
+
+/// Exponents of the SI base units kg, m, s and of the radian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Base {
+    /// Exponent of kg.
+    pub kg: i32,
+    /// Exponent of m.
+    pub m: i32,
+    /// Exponent of s.
+    pub s: i32,
+    /// Exponent of rad.
+    pub rad: i32,
+}
+
+/// A unit other than SI to show values in: `shown = factor · SI value`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DisplayUnit {
+    /// Name as shown.
+    pub name: &'static str,
+    /// Value in this unit of one SI unit.
+    pub factor: f64,
+}
+
+/// An SI unit with its display units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unit {
+    /// Name used in the interface.
+    pub name: &'static str,
+    /// Base exponents; `None` where FMI 2.0's integer exponents cannot express it.
+    pub base: Option<Base>,
+    /// Display units on offer.
+    pub display: &'static [DisplayUnit],
+}
+
+const fn base(kg: i32, m: i32, s: i32, rad: i32) -> Option<Base> {
+    Some(Base { kg, m, s, rad })
+}
+
+const fn shown(name: &'static str, factor: f64) -> DisplayUnit {
+    DisplayUnit { name, factor }
+}
+
+/// Millimetre.
+pub const MM: DisplayUnit = shown("mm", 1e3);
+/// Degree.
+pub const DEG: DisplayUnit = shown("deg", 180.0 / PI);
+/// Degree per second.
+pub const DEG_PER_S: DisplayUnit = shown("deg/s", 180.0 / PI);
+/// Revolution per minute.
+pub const RPM: DisplayUnit = shown("rpm", 30.0 / PI);
+/// Newton per mm^1.5: 1 N/m^1.5 = 1000^-1.5 N/mm^1.5.
+pub const N_PER_MM15: DisplayUnit = shown("N/mm^1.5", 3.162_277_660_168_379_5e-5);
+/// Newton-second per millimetre.
+pub const NS_PER_MM: DisplayUnit = shown("N.s/mm", 1e-3);
+/// Megapascal.
+pub const MPA: DisplayUnit = shown("MPa", 1e-6);
+/// Kilonewton.
+pub const KN: DisplayUnit = shown("kN", 1e-3);
+
+macro_rules! units {
+    ($($(#[$doc:meta])* $id:ident = $name:literal, $base:expr, $display:expr;)*) => {
+        $($(#[$doc])* pub const $id: Unit = Unit { name: $name, base: $base, display: &$display };)*
+        /// Every unit of the interface.
+        pub const ALL: &[Unit] = &[$($id),*];
+    };
+}
+
+units! {
+    /// Dimensionless.
+    ONE = "1", base(0, 0, 0, 0), [];
+    /// Length.
+    METRE = "m", base(0, 1, 0, 0), [MM];
+    /// Angle.
+    RADIAN = "rad", base(0, 0, 0, 1), [DEG];
+    /// Angular speed.
+    RAD_PER_S = "rad/s", base(0, 0, -1, 1), [DEG_PER_S, RPM];
+    /// Angular acceleration.
+    RAD_PER_S2 = "rad/s2", base(0, 0, -2, 1), [];
+    /// Pressure, modulus.
+    PASCAL = "Pa", base(1, -1, -2, 0), [MPA];
+    /// Density.
+    KG_PER_M3 = "kg/m3", base(1, -3, 0, 0), [];
+    /// Moment of inertia.
+    KG_M2 = "kg.m2", base(1, 2, 0, 0), [];
+    /// Contact stiffness of exponent 1.5.
+    N_PER_M15 = "N/m^1.5", None, [N_PER_MM15];
+    /// Damping.
+    NS_PER_M = "N.s/m", base(1, 0, -1, 0), [NS_PER_MM];
+    /// Force.
+    NEWTON = "N", base(1, 1, -2, 0), [KN];
+    /// Torque.
+    NEWTON_METRE = "N.m", base(1, 2, -2, 0), [];
+    /// Frequency.
+    HERTZ = "Hz", base(0, 0, -1, 0), [];
+    /// Power.
+    WATT = "W", base(1, 2, -3, 0), [];
+    /// Energy.
+    JOULE = "J", base(1, 2, -2, 0), [];
+    /// Time.
+    SECOND = "s", base(0, 0, 1, 0), [];
+}
