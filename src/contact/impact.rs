@@ -27,8 +27,8 @@ pub struct Impact {
     pub exponent: f64,
     /// C [N·s/m].
     pub damping: f64,
-    /// d_max [m].
-    pub full_damping_depth: f64,
+    /// 1/d_max [1/m].
+    pub per_full_depth: f64,
 }
 
 impl Impact {
@@ -48,9 +48,9 @@ impl Impact {
     pub fn force(&self, d: f64, rate: f64) -> Force {
         let power = self.stiffness * self.power(d);
         let elastic = power * d;
-        let u = d / self.full_damping_depth;
+        let u = d * self.per_full_depth;
         let (step, slope) =
-            if u < 1.0 { (u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / self.full_damping_depth) } else { (1.0, 0.0) };
+            if u < 1.0 { (u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) * self.per_full_depth) } else { (1.0, 0.0) };
         let total = elastic + self.damping * step * rate;
         if total <= 0.0 {
             return Force { elastic, ..Force::default() };
@@ -77,7 +77,7 @@ mod tests {
     #[test]
     fn force_and_energy_belong_together_and_derivatives_are_exact() {
         for exponent in [1.0, 1.3, 1.5, 2.0, 2.2] {
-            let law = Impact { stiffness: 3e9, exponent, damping: 4e4, full_damping_depth: 1e-4 };
+            let law = Impact { stiffness: 3e9, exponent, damping: 4e4, per_full_depth: 1e4 };
             for d in [1e-6, 3e-5, 9e-5, 2e-4] {
                 for rate in [-1e-3, 0.0, 0.05] {
                     let h = d * 1e-5;

@@ -42,12 +42,12 @@ pub struct ToothPair {
     pub spot: Spot,
     /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
     pub place: f64,
-    /// Penetration arc p = a − g [rad], positive.
+    /// Penetration arc p = a − g [rad]; the pair is loaded where it is positive.
     pub depth: f64,
     /// ∂p/∂q and ∂p/∂x.
     pub slope: [f64; 2],
-    /// ∂²p/∂q², ∂²p/∂q∂x, ∂²p/∂x² [1/rad].
-    pub curvature: [f64; 3],
+    /// ∂²p/∂q² = ∂²p/∂q∂x, and ∂²p/∂x² [1/rad].
+    pub curvature: [f64; 2],
 }
 
 /// Mesh state: q, x and their rates.
@@ -83,29 +83,42 @@ pub struct Mesh {
     pub corner: [CornerGap; 2],
     half_backlash: f64,
     base_pitch: f64,
+    per_base_pitch: f64,
     centred: f64,
     low: f64,
     high: f64,
     corner_contact: bool,
+    /// Arc beyond the path's ends in which corners can touch [rad].
+    beyond: f64,
 }
 
-/// Margin that keeps the rounding of ceil and floor from losing a pair that just touches [base pitches].
+/// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
 const ROUNDING: f64 = 1e-9;
+
+/// Smallest whole number not below `x`, for |x| far below 2⁶³.
+#[inline]
+fn ceil(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole < x { whole + 1.0 } else { whole }
+}
 
 impl Mesh {
     /// Mesh of `pair` under `law`; gaps are exact up to an approach of `reach` [rad].
     pub fn new(pair: &Pair, law: Impact, corner_contact: bool, reach: f64) -> Self {
         let corner = [CornerGap::new(pair, 0, reach), CornerGap::new(pair, 1, reach)];
+        let beyond = if corner_contact { corner[0].reach(reach).max(corner[1].reach(reach)) } else { 0.0 };
         Self {
             law,
             cone: pair.mean_cone,
             half_backlash: pair.normal_backlash / 2.0,
             base_pitch: pair.base_pitch,
+            per_base_pitch: 1.0 / pair.base_pitch,
             centred: pair.centred_position(),
             low: -corner[1].end,
             high: corner[0].end,
             corner,
             corner_contact,
+            beyond,
         }
     }
 
@@ -119,68 +132,58 @@ impl Mesh {
         q.abs() - self.half_backlash
     }
 
-    /// Calls `visit` with each loaded tooth pair at position (q, x).
-    #[inline]
+    /// Calls `visit` with each tooth pair that may be loaded at position (q, x): those within reach of a flank.
+    #[inline(always)]
     pub fn pairs(&self, [q, x]: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
-        // the two flanks of a gap cannot carry at once, but without backlash both may touch
-        if -q - self.half_backlash > 0.0 {
-            self.flank_pairs(Flank::Drive, -1.0, -q - self.half_backlash, self.centred + x, &mut visit);
+        // only one flank of a gap can carry: sign = ∂a/∂q = −∂s/∂x
+        let approach = q.abs() - self.half_backlash;
+        if approach <= 0.0 {
+            return;
         }
-        if q - self.half_backlash > 0.0 {
-            self.flank_pairs(Flank::Coast, 1.0, q - self.half_backlash, self.centred - x, &mut visit);
-        }
-    }
-
-    /// Loaded pairs of one flank: `sign` = ∂a/∂q = −∂s/∂x.
-    #[inline]
-    fn flank_pairs(&self, flank: Flank, sign: f64, approach: f64, start: f64, visit: &mut impl FnMut(&ToothPair)) {
-        let (beyond_planet, beyond_side) = if self.corner_contact {
-            (self.corner[0].reach(approach), self.corner[1].reach(approach) - approach)
-        } else {
-            (0.0, 0.0)
-        };
-        let first = libm::ceil((self.low - beyond_side - start) / self.base_pitch - ROUNDING);
-        let last = libm::floor((self.high + beyond_planet - start) / self.base_pitch + ROUNDING);
-        let mut k = first;
-        while k <= last {
-            let s = start + k * self.base_pitch;
-            k += 1.0;
+        let (flank, sign) = if q < 0.0 { (Flank::Drive, -1.0) } else { (Flank::Coast, 1.0) };
+        let start = self.centred - sign * x;
+        let first = ceil((self.low - self.beyond - start) * self.per_base_pitch - ROUNDING);
+        let last = self.high + self.beyond;
+        let mut s = start + first * self.base_pitch;
+        while s <= last {
             let past_planet_tip = s - self.high;
             let past_side_tip = self.low - s + approach;
-            let pair = if !self.corner_contact || (past_planet_tip <= 0.0 && past_side_tip <= 0.0) {
-                ToothPair {
+            if past_planet_tip > 0.0 {
+                if past_planet_tip * past_planet_tip < approach * self.corner[0].spread {
+                    let g = self.corner[0].at(past_planet_tip);
+                    visit(&ToothPair {
+                        flank,
+                        spot: Spot::PlanetTip,
+                        place: past_planet_tip,
+                        depth: approach - g.v,
+                        slope: [sign, sign * g.d],
+                        curvature: [0.0, -g.dd],
+                    });
+                }
+            } else if past_side_tip > 0.0 && self.corner_contact {
+                if past_side_tip * past_side_tip < approach * self.corner[1].spread {
+                    // Δ moves with q by `sign` and with x by `sign` too
+                    let g = self.corner[1].at(past_side_tip);
+                    visit(&ToothPair {
+                        flank,
+                        spot: Spot::SideTip,
+                        place: past_side_tip,
+                        depth: approach - g.v,
+                        slope: [sign * (1.0 - g.d), -sign * g.d],
+                        curvature: [-g.dd, -g.dd],
+                    });
+                }
+            } else {
+                visit(&ToothPair {
                     flank,
                     spot: Spot::Path,
                     place: s,
                     depth: approach,
                     slope: [sign, 0.0],
-                    curvature: [0.0; 3],
-                }
-            } else if past_planet_tip > 0.0 {
-                let g = self.corner[0].at(past_planet_tip);
-                ToothPair {
-                    flank,
-                    spot: Spot::PlanetTip,
-                    place: past_planet_tip,
-                    depth: approach - g.v,
-                    slope: [sign, sign * g.d],
-                    curvature: [0.0, 0.0, -g.dd],
-                }
-            } else {
-                // Δ moves with q by `sign` and with x by `sign` too
-                let g = self.corner[1].at(past_side_tip);
-                ToothPair {
-                    flank,
-                    spot: Spot::SideTip,
-                    place: past_side_tip,
-                    depth: approach - g.v,
-                    slope: [sign * (1.0 - g.d), -sign * g.d],
-                    curvature: [-g.dd, -g.dd, -g.dd],
-                }
-            };
-            if pair.depth > 0.0 {
-                visit(&pair);
+                    curvature: [0.0, 0.0],
+                });
             }
+            s += self.base_pitch;
         }
     }
 
@@ -190,6 +193,9 @@ impl Mesh {
         let mut load = MeshLoad::default();
         let r = self.cone;
         self.pairs(state.position, |pair| {
+            if pair.depth <= 0.0 {
+                return;
+            }
             let [p_q, p_x] = pair.slope;
             let rate = r * (p_q * state.rate[0] + p_x * state.rate[1]);
             let f = self.law.force(r * pair.depth, rate);
@@ -197,7 +203,8 @@ impl Mesh {
             load.force[1] -= r * f.total * p_x;
             load.heat += (f.total - f.elastic) * rate;
             if JACOBIAN {
-                let [qq, qx, xx] = pair.curvature;
+                let [qq, xx] = pair.curvature;
+                let qx = qq;
                 let turn = [qq * state.rate[0] + qx * state.rate[1], qx * state.rate[0] + xx * state.rate[1]];
                 let hessian = [[qq, qx], [qx, xx]];
                 for a in 0..2 {
@@ -215,7 +222,7 @@ impl Mesh {
     /// Elastic energy V [J] at position (q, x).
     pub fn energy(&self, position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
-        self.pairs(position, |pair| energy += self.law.energy(self.cone * pair.depth));
+        self.pairs(position, |pair| energy += self.law.energy(self.cone * pair.depth.max(0.0)));
         energy
     }
 }

@@ -11,8 +11,14 @@
 use super::pair::Pair;
 use crate::numeric::{Jet, atan2, cos, sin, sqrt, tan};
 
-/// Cells of the table, graded by the fourth power toward the path's end where the mate's flank may curve sharply.
-const CELLS: usize = 128;
+/// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
+/// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
+const CELLS_PER_OCTAVE: usize = 16;
+/// Octaves of the table; below them lies one cell down to Δ = 0.
+const OCTAVES: usize = 24;
+const CELLS: usize = OCTAVES * CELLS_PER_OCTAVE + 1;
+/// Bits of a double below those that number the cell.
+const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 
 /// A path clipped at a base circle ends this far before it [rad]: on the circle itself the flank's curvature is infinite.
 const CLIP_MARGIN: f64 = 1e-3;
@@ -23,10 +29,10 @@ pub struct CornerGap {
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub end: f64,
     exact: ClosedForm,
-    /// Largest Δ of the table [rad].
-    span: f64,
-    /// Lower bound of g/Δ² over the table.
-    least_curvature: f64,
+    /// First cell boundary above 0, a power of two, as its bits shifted to count cells.
+    first: u64,
+    /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
+    pub spread: f64,
     cells: Box<[[f64; 6]; CELLS]>,
 }
 
@@ -91,18 +97,22 @@ impl CornerGap {
         let step = pair.base_pitch / 64.0;
         let count = (1..64).find(|&j| exact.at(step * f64::from(j)).gap.v > reach).unwrap_or(64);
         let span = step * f64::from(count);
-        let knot = |j: usize| span * grade(j);
+        // the power of two above the span ends the table
+        let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
+        let first = smallest.to_bits() >> SHIFT;
         let mut cells = Box::new([[0.0; 6]; CELLS]);
         let mut least_curvature = f64::INFINITY;
-        let mut left = Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd };
+        let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
-            let right = exact.at(knot(j + 1)).gap;
-            *cell = quintic_hermite(left, right, knot(j + 1) - knot(j));
-            least_curvature = least_curvature.min(right.v / (knot(j + 1) * knot(j + 1)));
-            left = right;
+            let to = f64::from_bits((first + j as u64) << SHIFT);
+            // beyond the span the gap goes on growing as it does there
+            let right = if to <= span { exact.at(to).gap } else { grow(exact.at(span).gap, to - span) };
+            *cell = quintic_hermite(left, right, to - from);
+            least_curvature = least_curvature.min(0.5 * right.dd);
+            (from, left) = (to, right);
         }
-        // g is convex and g/Δ² monotone between neighbouring knots: a small margin makes the bound safe
-        Self { end, exact, span, least_curvature: 0.9 * least_curvature, cells }
+        // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers what may lie between knots
+        Self { end, exact, first, spread: 1.0 / (0.9 * least_curvature), cells }
     }
 
     /// Gap and derivatives by the closed form, with the point of contact.
@@ -113,9 +123,10 @@ impl CornerGap {
     /// Gap g [rad], g′ and g″ at Δ = `delta` ≥ 0 [rad] from the table.
     #[inline]
     pub fn at(&self, delta: f64) -> Jet {
-        let u = CELLS as f64 * sqrt(sqrt(delta / self.span));
-        let j = (u as usize).min(CELLS - 1);
-        let x = delta - self.span * grade(j);
+        let count = delta.to_bits() >> SHIFT;
+        let j = ((count + 1).saturating_sub(self.first) as usize).min(CELLS - 1);
+        let knot = if j == 0 { 0.0 } else { f64::from_bits((self.first + (j as u64 - 1)) << SHIFT) };
+        let x = delta - knot;
         let c = &self.cells[j];
         Jet {
             v: c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))),
@@ -127,14 +138,13 @@ impl CornerGap {
     /// A Δ beyond which the gap exceeds `approach` [rad].
     #[inline]
     pub fn reach(&self, approach: f64) -> f64 {
-        sqrt(approach / self.least_curvature)
+        sqrt(approach * self.spread)
     }
 }
 
-/// Position of knot `j` in the table's span.
-fn grade(j: usize) -> f64 {
-    let u = j as f64 / CELLS as f64;
-    (u * u) * (u * u)
+/// Quadratic continuation of `gap` by `x`.
+fn grow(gap: Jet, x: f64) -> Jet {
+    Jet { v: gap.v + x * (gap.d + 0.5 * x * gap.dd), d: gap.d + x * gap.dd, dd: gap.dd }
 }
 
 /// Coefficients of the quintic in x ∈ [0, h] that takes value, slope and curvature of `a` at 0 and of `b` at h.
@@ -179,17 +189,25 @@ mod tests {
             let pair = Pair::new(&spec);
             for i in 0..2 {
                 let corner = CornerGap::new(&pair, i, 0.1);
+                let span = pair.base_pitch / 2.0;
                 for k in 1..500 {
-                    let delta = corner.span * f64::from(k) / 500.0;
+                    let delta = span * f64::from(k) / 500.0;
                     let (table, exact) = (corner.at(delta), corner.exact(delta).gap);
-                    assert!((table.v - exact.v).abs() < 1e-12, "{z_p}/{z_s} {i} {delta}: {table:?} {exact:?}");
-                    assert!(table.v >= corner.least_curvature * delta * delta);
+                    if exact.v > 0.1 {
+                        break;
+                    }
+                    // the closed form's own rounding is 1e-15 in g and grows by 1/Δ in its slope
+                    let rounding = 1e-14 / delta;
+                    assert!((table.v - exact.v).abs() < 1e-11 * exact.v + 2e-15, "{z_p}/{z_s} {i} {delta}");
+                    assert!((table.d - exact.d).abs() < 1e-9 * exact.d + rounding, "{z_p}/{z_s} {i} {delta}");
+                    assert!(table.v * corner.spread >= delta * delta && corner.spread > 0.0);
                 }
-                for j in 1..CELLS {
-                    let knot = corner.span * grade(j);
-                    let (a, b) = (corner.at(knot * (1.0 - 1e-13)), corner.at(knot * (1.0 + 1e-13)));
-                    assert!((a.d - b.d).abs() < 1e-11 * (1.0 + b.d.abs()));
-                    assert!((a.dd - b.dd).abs() < 1e-7 * (1.0 + b.dd.abs()), "{z_p}/{z_s} {i} {knot}: {a:?} {b:?}");
+                for j in 0..CELLS as u64 {
+                    let knot = f64::from_bits((corner.first + j) << SHIFT);
+                    let (a, b) = (corner.at(f64::from_bits(knot.to_bits() - 1)), corner.at(knot));
+                    assert!((a.v - b.v).abs() < 1e-15 * (1.0 + b.v));
+                    assert!((a.d - b.d).abs() < 1e-13 * (1.0 + b.d.abs()), "{z_p}/{z_s} {i} {knot}: {a:?} {b:?}");
+                    assert!((a.dd - b.dd).abs() < 1e-9 * (1.0 + b.dd.abs()), "{z_p}/{z_s} {i} {knot}: {a:?} {b:?}");
                 }
                 let end = corner.exact(0.0).gap;
                 assert!(end.v.abs() < 1e-14 && end.d.abs() < 1e-12, "{end:?}");

@@ -5,7 +5,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::rodas::{self, Trial};
+use super::rodas5p::RODAS5P;
+use super::rosenbrock::{self, Trial};
 use super::system::{Linearisation, Point, Power, SecondOrder};
 
 /// What the step-size controller remembers from one call to the next.
@@ -42,13 +43,13 @@ pub struct Statistics {
 }
 
 /// An accepted step as its observer sees it.
-pub struct Step<'a> {
+pub struct Step<'a, const N: usize> {
     /// Step size [s].
     pub h: f64,
     /// Time at the end [s].
     pub time: f64,
-    /// State at the end; the observer may wrap positions that are periodic.
-    pub end: &'a mut Point,
+    /// State at the end.
+    pub end: &'a Point<N>,
     /// Ledger rates at begin, middle and end.
     pub power: [Power; 3],
 }
@@ -70,115 +71,145 @@ pub enum Failure<E> {
     Refused(E),
 }
 
+/// Right-hand sides of a step besides the linearisation at its start.
+const EVALUATIONS: u64 = RODAS5P.a.len() as u64 - 1;
 const SAFETY: f64 = 0.9;
 const LARGEST_GROWTH: f64 = 6.0;
+const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
+/// An error remembered as smaller would make the predictive controller timid.
+const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 /// Steps that one call may take: bounds the time a host can be kept waiting.
 const MAX_STEPS: u64 = 3_000_000;
 
 /// Integrates from `time` to `until`, calling `observe` after each accepted step.
 #[allow(clippy::too_many_arguments)]
-pub fn advance<S: SecondOrder, E>(
+pub fn advance<const N: usize, S: SecondOrder<N>, E>(
     system: &S,
-    point: &mut Point,
+    point: &mut Point<N>,
     time: &mut f64,
     until: f64,
     tolerance: f64,
     control: &mut Control,
     statistics: &mut Statistics,
-    mut observe: impl FnMut(Step) -> Result<(), E>,
+    mut observe: impl FnMut(Step<N>) -> Result<(), E>,
 ) -> Result<(), Failure<E>> {
     // what a double can resolve of the time axis
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
-    let mut steps = 0;
+    let mut attempts = 0;
     let mut just_rejected = false;
-    let mut lin = Linearisation::default();
-    system.linearise(point, &mut lin);
+    let mut lin = linearise(system, point, statistics);
+    loop {
+        let remaining = until - *time;
+        let (h, cut) = fit(control.next.max(resolution), remaining);
+        let trial = rosenbrock::step(&RODAS5P, system, point, &lin, h);
+        statistics.evaluations += EVALUATIONS;
+        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(system, point, t, tolerance));
+        attempts += 1;
+        match trial {
+            Some(trial) if error <= 1.0 => {
+                control.accept(h, cut, error, just_rejected);
+                just_rejected = false;
+                statistics.accepted += 1;
+                let begin = lin.power;
+                let (_, middle) = system.evaluate(&trial.middle);
+                statistics.evaluations += 1;
+                *point = trial.end;
+                *time = if h == remaining { until } else { *time + h };
+                let done = until - *time <= resolution;
+                let end = if done {
+                    statistics.evaluations += 1;
+                    system.evaluate(point).1
+                } else {
+                    lin = linearise(system, point, statistics);
+                    lin.power
+                };
+                observe(Step { h, time: *time, end: point, power: [begin, middle, end] }).map_err(Failure::Refused)?;
+                if done {
+                    return Ok(());
+                }
+            }
+            _ => {
+                just_rejected = true;
+                control.next = h / if error.is_finite() {
+                    statistics.rejected_error += 1;
+                    (fifth_root(error) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
+                } else {
+                    statistics.rejected_invalid += 1;
+                    LARGEST_SHRINK
+                };
+                if control.next <= resolution {
+                    return Err(Failure::StepTooSmall { size: control.next });
+                }
+            }
+        }
+        if attempts >= MAX_STEPS {
+            return Err(Failure::TooManySteps { steps: attempts });
+        }
+    }
+}
+
+/// The step to take when `wanted` is predicted and `remaining` is left, and whether it was cut short: two equal steps
+/// rather than a long and a tiny one.
+fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
+    if wanted >= remaining * (1.0 - 1e-9) {
+        (remaining, true)
+    } else if wanted > 0.5 * remaining {
+        (0.5 * remaining, true)
+    } else {
+        (wanted, false)
+    }
+}
+
+fn linearise<const N: usize, S: SecondOrder<N>>(
+    system: &S,
+    point: &Point<N>,
+    statistics: &mut Statistics,
+) -> Linearisation<N> {
     statistics.evaluations += 1;
     statistics.jacobians += 1;
-    while until - *time > resolution {
-        let remaining = until - *time;
-        // two equal steps rather than a long and a tiny one
-        let wanted = control.next.max(resolution);
-        let (h, cut) = if wanted >= remaining * (1.0 - 1e-9) {
-            (remaining, true)
-        } else if wanted > 0.5 * remaining {
-            (0.5 * remaining, true)
-        } else {
-            (wanted, false)
-        };
-        let trial = rodas::step(system, point, &lin, h);
-        statistics.evaluations += rodas::EVALUATIONS;
-        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(system, point, t, tolerance));
-        if error.is_finite() && error <= 1.0 {
-            let Some(trial) = trial else { continue };
-            let mut factor = quarter_power(error) / SAFETY;
-            if control.last > 0.0 && error > 0.0 {
-                let predictive = (control.last / h) * quarter_power(error * error / control.last_error) / SAFETY;
-                factor = factor.max(predictive);
-            }
-            let factor = factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);
-            let mut next = h / factor;
-            if just_rejected {
-                next = next.min(h);
-            }
-            control.next = if cut { next.max(control.next) } else { next };
-            control.last = h;
-            control.last_error = error.max(1e-2);
-            just_rejected = false;
-            statistics.accepted += 1;
-            steps += 1;
+    system.linearise(point)
+}
 
-            let begin = lin.power;
-            let mut unused = lin.acceleration;
-            let middle = system.evaluate(&trial.middle, &mut unused);
-            *point = trial.end;
-            lin = Linearisation::default();
-            system.linearise(point, &mut lin);
-            statistics.evaluations += 2;
-            statistics.jacobians += 1;
-            *time = if h == remaining { until } else { *time + h };
-            observe(Step { h, time: *time, end: point, power: [begin, middle, lin.power] })
-                .map_err(Failure::Refused)?;
-        } else {
-            let shrink = if error.is_finite() {
-                statistics.rejected_error += 1;
-                (quarter_power(error) / SAFETY).clamp(1.25, LARGEST_SHRINK)
-            } else {
-                statistics.rejected_invalid += 1;
-                LARGEST_SHRINK
-            };
-            just_rejected = true;
-            control.next = h / shrink;
-            if control.next <= resolution {
-                return Err(Failure::StepTooSmall { size: control.next });
-            }
-            steps += 1;
+impl Control {
+    /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
+    fn accept(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
+        let mut factor = fifth_root(error) / SAFETY;
+        if self.last > 0.0 {
+            let predictive = (self.last / h) * fifth_root(error * error / self.last_error) / SAFETY;
+            factor = factor.max(predictive);
         }
-        if steps > MAX_STEPS {
-            return Err(Failure::TooManySteps { steps });
+        let mut next = h / factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);
+        if just_rejected {
+            next = next.min(h);
         }
+        self.next = if cut { next.max(self.next) } else { next };
+        self.last = h;
+        self.last_error = error.max(LEAST_REMEMBERED_ERROR);
     }
-    Ok(())
 }
 
-/// x^(1/(p+1)) for the order p = 3 of the error estimate.
-fn quarter_power(x: f64) -> f64 {
-    x.sqrt().sqrt()
+/// x^(1/(p+1)) for the order p = 4 of the error estimate.
+fn fifth_root(x: f64) -> f64 {
+    crate::numeric::pow(x, 0.2)
 }
 
-/// Largest component of the error over what is allowed.
+/// Largest component of the error over what is allowed; NaN if anything is not finite.
 #[inline]
-fn error_norm<S: SecondOrder>(system: &S, start: &Point, trial: &Trial, tolerance: f64) -> f64 {
+fn error_norm<const N: usize, S: SecondOrder<N>>(
+    system: &S,
+    start: &Point<N>,
+    trial: &Trial<N>,
+    tolerance: f64,
+) -> f64 {
     let scale = system.scales(start);
-    let mut largest: f64 = 0.0;
-    for i in 0..system.dof() {
-        let q = trial.error.q[i].abs() / (tolerance * scale.q[i]);
-        let v = trial.error.v[i].abs() / (tolerance * scale.v[i]);
-        if !(q.is_finite() && v.is_finite() && trial.end.q[i].is_finite() && trial.end.v[i].is_finite()) {
-            return f64::NAN;
-        }
+    let (mut largest, mut sum) = (0.0f64, 0.0);
+    for i in 0..N {
+        let q = (trial.error.q[i] / scale.q[i]).abs();
+        let v = (trial.error.v[i] / scale.v[i]).abs();
         largest = largest.max(q).max(v);
+        // max() passes over NaN, a sum does not
+        sum += q + v + (trial.end.q[i] - trial.end.q[i]) + (trial.end.v[i] - trial.end.v[i]);
     }
-    largest
+    if sum.is_finite() { largest / tolerance } else { f64::NAN }
 }

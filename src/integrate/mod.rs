@@ -2,9 +2,11 @@
 
 mod driver;
 mod linear;
-mod rodas;
+mod rodas5p;
+mod rosenbrock;
 mod system;
 
 pub use driver::{Control, Failure, Statistics, Step, advance};
-pub use rodas::{Trial, step};
-pub use system::{Linearisation, MAX_DOF, Matrix, Point, Power, SecondOrder, Vector, ZERO};
+pub use rodas5p::RODAS5P;
+pub use rosenbrock::{Tableau, Trial, step};
+pub use system::{Linearisation, Matrix, Point, Power, SecondOrder};

@@ -48,7 +48,7 @@ impl Ideal {
     pub fn jump(&self, state: &mut State, inputs: &Inputs) -> f64 {
         let before = self.kinetic_energy(state);
         let [m11, m12, m22] = self.mass();
-        let v = &mut state.point.v;
+        let v = &mut state.v;
         let d_carrier = if self.plan.carrier_imposed { inputs.carrier_speed - v[CARRIER] } else { 0.0 };
         let d_spin = if self.plan.spin_imposed { inputs.planet_spin - v[PLANET] } else { 0.0 };
         if d_carrier == 0.0 && d_spin == 0.0 {
@@ -88,7 +88,7 @@ impl Ideal {
 
     /// Sets side gear speeds by Willis' equation.
     pub fn constrain(&self, state: &mut State) {
-        let v = &mut state.point.v;
+        let v = &mut state.v;
         let (carrier, spin) = (v[CARRIER], v[PLANET]);
         v[0] = carrier + self.ratio * spin;
         v[1] = carrier - self.ratio * spin;
@@ -100,29 +100,29 @@ impl Ideal {
     /// Exact step of size `h` under constant inputs.
     pub fn advance(&self, state: &mut State, inputs: &Inputs, h: f64) {
         let m = self.motion(inputs);
-        let v = state.point.v;
+        let v = state.v;
         let turn = |speed: f64, acceleration: f64| h * (speed + 0.5 * h * acceleration);
         let (carrier, spin) = (turn(v[CARRIER], m.carrier), turn(v[PLANET], m.spin));
         let relative = self.ratio * spin;
-        state.point.q[0] += relative;
-        state.point.q[1] -= relative;
-        state.point.q[CARRIER] += carrier;
+        state.q[0] += relative;
+        state.q[1] -= relative;
+        state.q[CARRIER] += carrier;
         for g in 0..self.plan.groups().len() {
-            state.point.q[PLANET + g] += spin;
+            state.q[PLANET + g] += spin;
         }
         let [left, right] = inputs.load_torque;
         state.work += m.carrier_torque * carrier + m.spin_torque * spin
             - left * (carrier + relative)
             - right * (carrier - relative);
-        state.point.v[CARRIER] += h * m.carrier;
-        state.point.v[PLANET] += h * m.spin;
+        state.v[CARRIER] += h * m.carrier;
+        state.v[PLANET] += h * m.spin;
         self.constrain(state);
         state.time += h;
     }
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, state: &State) -> f64 {
-        let (v, j) = (&state.point.v, &self.inertia);
+        let (v, j) = (&state.v, &self.inertia);
         0.5 * (j.carrier * v[CARRIER] * v[CARRIER]
             + j.side[0] * v[0] * v[0]
             + j.side[1] * v[1] * v[1]

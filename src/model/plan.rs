@@ -68,6 +68,12 @@ impl Plan {
         Self { spin_imposed: true, ..self }
     }
 
+    /// Group `g` of planets.
+    #[inline]
+    pub fn group(&self, g: usize) -> &Group {
+        &self.groups[g]
+    }
+
     /// The groups of planets.
     pub fn groups(&self) -> &[Group] {
         &self.groups[..self.group_count]

@@ -9,9 +9,9 @@ use super::parameters::Inputs;
 use super::readings::{Forces, MAX_PLANETS, MeshForces};
 use super::state::{CARRIER, PLANET, State};
 use super::teeth::{Equations, SIGMA};
-use crate::contact::mesh::{Flank, MeshState, Spot, ToothPair};
+use crate::contact::mesh::{Flank, Mesh, MeshState, Spot, ToothPair};
 use crate::geometry::Pair;
-use crate::integrate::{Linearisation, SecondOrder};
+use crate::integrate::SecondOrder;
 use crate::numeric::{cos, sin, sqrt};
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, tangential.
@@ -21,7 +21,7 @@ struct Parts {
     tangential: f64,
 }
 
-fn parts(pair: &Pair, mesh: &crate::contact::mesh::Mesh, contact: &ToothPair) -> Parts {
+fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> Parts {
     let [lever_p, lever_s] = pair.lever();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
     let (planet, side) = match contact.spot {
@@ -42,13 +42,15 @@ fn parts(pair: &Pair, mesh: &crate::contact::mesh::Mesh, contact: &ToothPair) ->
     Parts { planet, side, tangential: if contact.flank == Flank::Drive { forward } else { -forward } }
 }
 
-fn mesh_forces(pair: &Pair, equations: &Equations, state: &MeshState) -> MeshForces {
-    let mesh = &equations.teeth.mesh;
+fn mesh_forces(pair: &Pair, mesh: &Mesh, state: &MeshState) -> MeshForces {
     let mut out = MeshForces {
         transmission_error: mesh.drive_approach(state.position[0]) * pair.mean_cone,
         ..MeshForces::default()
     };
     mesh.pairs(state.position, |contact| {
+        if contact.depth <= 0.0 {
+            return;
+        }
         let [p_q, p_x] = contact.slope;
         let rate = mesh.cone * (p_q * state.rate[0] + p_x * state.rate[1]);
         let force = mesh.law.force(mesh.cone * contact.depth, rate).total;
@@ -80,19 +82,17 @@ fn add_up(out: &mut Forces, planets: usize) {
 
 /// Powers from torques and speeds; heat is given.
 fn add_powers(out: &mut Forces, state: &State, heat: f64) {
-    let v = &state.point.v;
+    let v = &state.v;
     out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[PLANET];
     out.power_out = out.shaft_torque[0] * v[0] + out.shaft_torque[1] * v[1];
     out.power_loss = heat;
 }
 
 /// Forces of the differential with teeth.
-pub fn teeth_forces(pair: &Pair, equations: &Equations, inputs: &Inputs, state: &State) -> Forces {
-    let (teeth, point) = (equations.teeth, &state.point);
-    let mut lin = Linearisation::default();
-    let power = equations.evaluate(point, &mut lin.acceleration);
+pub fn teeth_forces<const N: usize>(pair: &Pair, equations: &Equations<N>, inputs: &Inputs, state: &State) -> Forces {
+    let (teeth, point) = (equations.teeth, &state.point());
+    let (a, power) = equations.evaluate(point);
     let (torque, _) = equations.tooth_torques(point);
-    let a = &lin.acceleration;
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     out.carrier_torque = if teeth.plan.carrier_imposed { -torque[CARRIER] } else { inputs.carrier_torque };
     for s in 0..2 {
@@ -105,7 +105,7 @@ pub fn teeth_forces(pair: &Pair, equations: &Equations, inputs: &Inputs, state: 
             out.spin_torque -= group.members * torque[PLANET + g];
         }
         for (s, forces) in groups[g].iter_mut().enumerate() {
-            *forces = mesh_forces(pair, equations, &equations.mesh_state(point, g, s));
+            *forces = mesh_forces(pair, &teeth.mesh, &equations.mesh_state(point, g, s));
         }
     }
     for i in 0..teeth.plan.planets {

@@ -8,16 +8,32 @@ use super::ideal::Ideal;
 use super::parameters::{GearContact, Inputs, Parameters};
 use super::plan::Plan;
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
-use super::state::{CARRIER, PLANET, State};
+use super::state::{CARRIER, MAX_DOF, PLANET, State};
 use super::teeth::{Equations, Teeth};
 use super::{resultants, start};
 use crate::contact::impact::Impact;
 use crate::contact::mesh::Mesh;
 use crate::contact::{ContactSpec, hertz};
 use crate::geometry::{Pair, checks};
-use crate::integrate::{self, Failure, MAX_DOF};
+use crate::integrate::{self, Failure};
 use crate::numeric::TAU;
 use crate::problem::Problem;
+
+/// Evaluates an expression with the constant `N` set to the model's number of degrees of freedom.
+macro_rules! by_size {
+    ($model:expr, $body:expr) => {
+        match $model.ideal.plan.groups().len() {
+            1 => by_size!(4, @ $body),
+            2 => by_size!(5, @ $body),
+            3 => by_size!(6, @ $body),
+            _ => by_size!(7, @ $body),
+        }
+    };
+    ($n:literal, @ $body:expr) => {{
+        const N: usize = $n;
+        $body
+    }};
+}
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
 const FIRST_STEP: f64 = 1e-6;
@@ -93,14 +109,8 @@ impl Model {
             // neither may a tooth bend by the working depth nor reach the next gap
             let working_depth = (pair.gears[0].addendum + pair.gears[1].addendum) / pair.outer_cone;
             let jump = working_depth.min(0.5 * pair.base_pitch);
-            Teeth {
-                mesh: Mesh::new(&pair, law(parameters, &pair), parameters.effects.corner_contact, jump),
-                plan,
-                inertia,
-                lever: pair.lever(),
-                base_pitch: pair.base_pitch,
-                jump,
-            }
+            let mesh = Mesh::new(&pair, law(parameters, &pair), parameters.effects.corner_contact, jump);
+            Teeth::new(&pair, mesh, plan, inertia, jump)
         });
         Ok(Self {
             parameters: *parameters,
@@ -124,7 +134,7 @@ fn law(parameters: &Parameters, pair: &Pair) -> Impact {
         stiffness: if parameters.contact.stiffness_from_hertz { hertz() } else { stiffness },
         exponent,
         damping,
-        full_damping_depth: penetration_depth,
+        per_full_depth: 1.0 / penetration_depth,
     }
 }
 
@@ -134,8 +144,11 @@ impl Simulation {
         let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         match &model.teeth {
-            Some(teeth) => start::teeth_start(teeth, &model.ideal, inputs, parameters.scene.start, state)
-                .map_err(|problem| vec![problem])?,
+            Some(teeth) => {
+                let start = parameters.scene.start;
+                by_size!(model, start::teeth_start::<N>(teeth, &model.ideal, inputs, start, state))
+                    .map_err(|problem| vec![problem])?;
+            }
             None => start::ideal_start(&model.ideal, inputs, parameters.scene.start, state),
         }
         simulation.state.energy_at_start = simulation.energy();
@@ -144,7 +157,8 @@ impl Simulation {
 
     /// A simulation of `parameters` that goes on from `state`.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        Ok(Self { model: Arc::new(Model::new(parameters)?), state, inputs: *inputs, forces: None })
+        let model = Arc::new(Model::new(parameters)?);
+        Ok(Self { model, state, inputs: *inputs, forces: None })
     }
 
     /// Sets the inputs that act from now on.
@@ -171,13 +185,14 @@ impl Simulation {
         self.apply_commands();
         let model = &self.model;
         let dof = PLANET + model.ideal.plan.groups().len();
-        let outcome = match &model.teeth {
+        match &model.teeth {
             None => {
                 let h = until - self.state.time;
                 model.ideal.advance(&mut self.state, &self.inputs, h);
                 self.state.time = until;
                 self.state.statistics.accepted += 1;
                 self.state.control.last = h;
+                self.state.wrap(&model.periods, dof);
                 Ok(())
             }
             Some(teeth) => {
@@ -185,7 +200,8 @@ impl Simulation {
                 while outcome.is_ok() && self.state.time < until {
                     let stretch =
                         if until - self.state.time > 1.5 * STRETCH { self.state.time + STRETCH } else { until };
-                    outcome = integrate_teeth(teeth, &self.inputs, &mut self.state, stretch, &model.parameters);
+                    let (inputs, state) = (&self.inputs, &mut self.state);
+                    outcome = by_size!(model, integrate_teeth::<N>(teeth, inputs, state, stretch, &model.parameters));
                     self.state.wrap(&model.periods, dof);
                     // the rounding of the time axis may leave a rest too small to integrate
                     if outcome.is_ok() {
@@ -194,9 +210,7 @@ impl Simulation {
                 }
                 outcome
             }
-        };
-        self.state.wrap(&model.periods, dof);
-        outcome
+        }
     }
 
     /// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
@@ -207,7 +221,7 @@ impl Simulation {
             return;
         };
         let (plan, inertia) = (&ideal.plan, &ideal.inertia);
-        let (v, work) = (&mut self.state.point.v, &mut self.state.work);
+        let State { v, work, .. } = &mut self.state;
         let mut jump = |v: &mut f64, command: f64, inertia: f64| {
             if *v != command {
                 *work += 0.5 * inertia * (command * command - *v * *v);
@@ -229,8 +243,8 @@ impl Simulation {
         match &self.model.teeth {
             None => self.model.ideal.kinetic_energy(&self.state),
             Some(teeth) => {
-                let equations = Equations::new(teeth, &self.inputs, &self.state);
-                equations.kinetic_energy(&self.state.point) + equations.elastic_energy(&self.state.point)
+                let (inputs, state) = (&self.inputs, &self.state);
+                by_size!(self.model, Equations::<N>::new(teeth, inputs, state).energy(&state.point()))
             }
         }
     }
@@ -244,7 +258,7 @@ impl Simulation {
     pub fn motion(&self) -> Motion {
         let (model, state) = (&self.model, &self.state);
         let position = |i: usize| state.position(i, &model.periods);
-        let v = &state.point.v;
+        let v = &state.v;
         let mut motion = Motion {
             carrier_angle: position(CARRIER),
             carrier_speed: v[CARRIER],
@@ -267,7 +281,10 @@ impl Simulation {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         self.forces.get_or_insert_with(|| match &model.teeth {
             None => resultants::ideal_forces(&model.pair, &model.ideal, inputs, state),
-            Some(teeth) => resultants::teeth_forces(&model.pair, &Equations::new(teeth, inputs, state), inputs, state),
+            Some(teeth) => by_size!(
+                model,
+                resultants::teeth_forces(&model.pair, &Equations::<N>::new(teeth, inputs, state), inputs, state)
+            ),
         })
     }
 
@@ -315,20 +332,21 @@ struct Jump {
     deflection: f64,
 }
 
-fn integrate_teeth(
+fn integrate_teeth<const N: usize>(
     teeth: &Teeth,
     inputs: &Inputs,
     state: &mut State,
     until: f64,
     parameters: &Parameters,
 ) -> Result<(), StepFailure> {
-    let equations = Equations::new(teeth, inputs, state);
-    let State { time, point, control, statistics, work, heat, .. } = state;
-    let mut good = (*point, *time);
+    let equations = Equations::<N>::new(teeth, inputs, state);
+    let (mut point, mut time) = (state.point(), state.time);
+    let mut good = (point, time);
+    let State { control, statistics, work, heat, .. } = state;
     let outcome = integrate::advance(
         &equations,
-        point,
-        time,
+        &mut point,
+        &mut time,
         until,
         parameters.solver.relative_tolerance,
         control,
@@ -346,8 +364,9 @@ fn integrate_teeth(
             Ok(())
         },
     );
+    state.set_point(&good.0);
+    state.time = good.1;
     let Err(failure) = outcome else { return Ok(()) };
-    (*point, *time) = good;
     let message = match failure {
         Failure::Refused(Jump { deflection }) => format!(
             "a tooth would jump: deflection {:.3} mm along the line of action exceeds the limit {:.3} mm; \
@@ -366,5 +385,5 @@ fn integrate_teeth(
             parameters.solver.relative_tolerance
         ),
     };
-    Err(StepFailure { time: *time, message })
+    Err(StepFailure { time: state.time, message })
 }

@@ -10,6 +10,8 @@ use crate::problem::Problem;
 
 /// Newton steps for the static equilibrium; a handful is enough.
 const MAX_ITERATIONS: usize = 200;
+/// Longest Newton step [base pitches].
+const LONGEST_STEP: f64 = 1.0 / 32.0;
 /// Torque balance at equilibrium, relative to the loads.
 const BALANCE: f64 = 1e-11;
 
@@ -17,7 +19,7 @@ const BALANCE: f64 = 1e-11;
 fn speeds(ideal: &Ideal, inputs: &Inputs, start: Start, state: &mut State) {
     let plan = &ideal.plan;
     let rest = start == Start::Rest;
-    let v = &mut state.point.v;
+    let v = &mut state.v;
     v[CARRIER] = if rest && !plan.carrier_imposed { 0.0 } else { inputs.carrier_speed };
     for g in 0..plan.groups().len() {
         v[PLANET + g] = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
@@ -34,7 +36,7 @@ pub fn ideal_start(ideal: &Ideal, inputs: &Inputs, start: Start, state: &mut Sta
 }
 
 /// Start of the differential with teeth.
-pub fn teeth_start(
+pub fn teeth_start<const N: usize>(
     teeth: &Teeth,
     ideal: &Ideal,
     inputs: &Inputs,
@@ -43,7 +45,7 @@ pub fn teeth_start(
 ) -> Result<(), Problem> {
     speeds(ideal, inputs, start, state);
     if start == Start::Equilibrium {
-        preload(teeth, ideal, inputs, state)?;
+        preload::<N>(teeth, ideal, inputs, state)?;
     }
     Ok(())
 }
@@ -53,45 +55,46 @@ pub fn teeth_start(
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
 /// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
 /// differential and ψ = 0.
-fn preload(teeth: &Teeth, ideal: &Ideal, inputs: &Inputs, state: &mut State) -> Result<(), Problem> {
+fn preload<const N: usize>(teeth: &Teeth, ideal: &Ideal, inputs: &Inputs, state: &mut State) -> Result<(), Problem> {
     let inertia = &teeth.inertia;
     let held = Ideal { plan: teeth.plan.with_spin_held(), ..*ideal };
     let torque =
         |accelerations: [f64; 2]| std::array::from_fn(|s| inputs.load_torque[s] + inertia.side[s] * accelerations[s]);
     let still: [f64; 2] = torque(held.side_accelerations(&held.motion(inputs)));
-    let equations = Equations::new(teeth, inputs, state);
-    let speeds = state.point.v;
-    state.point.v = [0.0; crate::integrate::MAX_DOF];
-    press_sides(teeth, &equations, still, &mut state.point)?;
+    let equations = Equations::<N>::new(teeth, inputs, state);
+    let mut point = Point::ZERO;
+    press_sides(teeth, &equations, still, &mut point)?;
     if !teeth.plan.spin_imposed {
-        let mut settled = state.point;
+        let mut settled = point;
         if minimise(&equations, still, &mut settled) && within_a_tooth(teeth, &settled) {
-            state.point = settled;
+            point = settled;
         } else {
             let rolling: [f64; 2] = torque(ideal.side_accelerations(&ideal.motion(inputs)));
-            press_sides(teeth, &equations, rolling, &mut state.point)?;
+            press_sides(teeth, &equations, rolling, &mut point)?;
         }
     }
-    let stiffness = equations.tooth_stiffness(&state.point);
-    state.point.v = speeds;
+    let stiffness = equations.tooth_stiffness(&point);
+    let speeds = state.v;
+    point.v = state.point::<N>().v;
     // quasi-static: while the planets spin, α follows the changing stiffness
     for s in 0..2 {
         if stiffness[s][s] != 0.0 {
             let by_spin: f64 =
                 (0..teeth.plan.groups().len()).map(|g| stiffness[s][PLANET + g] * speeds[PLANET + g]).sum();
-            state.point.v[s] = speeds[CARRIER] - by_spin / stiffness[s][s];
+            point.v[s] = speeds[CARRIER] - by_spin / stiffness[s][s];
         }
     }
+    state.set_point(&point);
     Ok(())
 }
 
-fn within_a_tooth(teeth: &Teeth, point: &Point) -> bool {
+fn within_a_tooth<const N: usize>(teeth: &Teeth, point: &Point<N>) -> bool {
     let pitch = teeth.base_pitch / teeth.lever[0];
     (0..teeth.plan.groups().len()).all(|g| point.q[PLANET + g].abs() < pitch)
 }
 
 /// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
-fn press_sides(teeth: &Teeth, equations: &Equations, torque: [f64; 2], point: &mut Point) -> Result<(), Problem> {
+fn press_sides<const N: usize>(teeth: &Teeth, equations: &Equations<N>, torque: [f64; 2], point: &mut Point<N>) -> Result<(), Problem> {
     for s in 0..2 {
         point.q[s] = 0.0;
         if torque[s] == 0.0 {
@@ -100,7 +103,7 @@ fn press_sides(teeth: &Teeth, equations: &Equations, torque: [f64; 2], point: &m
         // Q_α falls steadily with α: bracket between mid-gap and the angle at which a tooth would jump
         let mut free = 0.0;
         let mut pressed = -torque[s].signum() * (teeth.jump + teeth.base_pitch) / teeth.lever[1];
-        let excess = |alpha: f64, point: &mut Point| {
+        let excess = |alpha: f64, point: &mut Point<N>| {
             point.q[s] = alpha;
             (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()
         };
@@ -128,14 +131,14 @@ fn press_sides(teeth: &Teeth, equations: &Equations, torque: [f64; 2], point: &m
 }
 
 /// Damped Newton descent of V + Σ T_s α_s over side gears and planets; whether it reached a balance.
-fn minimise(equations: &Equations, torque: [f64; 2], point: &mut Point) -> bool {
+fn minimise<const N: usize>(equations: &Equations<N>, torque: [f64; 2], point: &mut Point<N>) -> bool {
     let teeth = equations.teeth;
     let groups = teeth.plan.groups().len();
     let unknowns: Vec<usize> = (0..2).chain(PLANET..PLANET + groups).collect();
     let members = |i: usize| if i < 2 { 1.0 } else { teeth.plan.groups()[i - PLANET].members };
-    let potential = |p: &Point| equations.elastic_energy(p) + torque[0] * p.q[0] + torque[1] * p.q[1];
+    let potential = |p: &Point<N>| equations.elastic_energy(p) + torque[0] * p.q[0] + torque[1] * p.q[1];
     // ascent of the potential: torque on each unknown, planets counted by their members
-    let force = |p: &Point| {
+    let force = |p: &Point<N>| {
         let sum = equations.tooth_torques(p).0;
         nalgebra::DVector::from_iterator(
             unknowns.len(),
@@ -161,7 +164,8 @@ fn minimise(equations: &Equations, torque: [f64; 2], point: &mut Point) -> bool 
                 damped[(i, i)] += damping * size;
             }
             let step = damped.cholesky().map(|c| c.solve(&residual));
-            if let Some(step) = step {
+            // the potential tilts under unequal loads: a long step would leave the nearest well
+            if let Some(step) = step.filter(|step| step.amax() < LONGEST_STEP * teeth.base_pitch) {
                 let mut trial = *point;
                 unknowns.iter().zip(step.iter()).for_each(|(&i, d)| trial.q[i] += d);
                 let trial_residual = force(&trial);

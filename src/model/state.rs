@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::integrate::{Control, MAX_DOF, Point, Statistics};
+use crate::integrate::{Control, Point, Statistics};
+
+/// Largest number of degrees of freedom: two side gears, the carrier, four planets.
+pub const MAX_DOF: usize = 7;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;
@@ -16,8 +19,10 @@ pub const PLANET: usize = 3;
 pub struct State {
     /// Time [s].
     pub time: f64,
-    /// Positions, wrapped into one tooth pitch (carrier: one turn) [rad], and velocities [rad/s].
-    pub point: Point,
+    /// Positions, wrapped into one tooth pitch (carrier: one turn) [rad].
+    pub q: [f64; MAX_DOF],
+    /// Velocities [rad/s].
+    pub v: [f64; MAX_DOF],
     /// Whole tooth pitches (carrier: turns) taken out of the positions.
     pub turns: [i64; MAX_DOF],
     /// Step-size control.
@@ -37,7 +42,8 @@ impl State {
     pub fn at_rest(time: f64, first_step: f64) -> Self {
         Self {
             time,
-            point: Point::default(),
+            q: [0.0; MAX_DOF],
+            v: [0.0; MAX_DOF],
             turns: [0; MAX_DOF],
             control: Control::new(first_step),
             statistics: Statistics::default(),
@@ -47,12 +53,23 @@ impl State {
         }
     }
 
+    /// The first `N` degrees of freedom.
+    pub fn point<const N: usize>(&self) -> Point<N> {
+        Point { q: std::array::from_fn(|i| self.q[i]), v: std::array::from_fn(|i| self.v[i]) }
+    }
+
+    /// Takes over the first `N` degrees of freedom.
+    pub fn set_point<const N: usize>(&mut self, point: &Point<N>) {
+        self.q[..N].copy_from_slice(&point.q);
+        self.v[..N].copy_from_slice(&point.v);
+    }
+
     /// Moves whole periods of each position into its counter.
     pub fn wrap(&mut self, periods: &[f64; MAX_DOF], dof: usize) {
         for (i, period) in periods.iter().enumerate().take(dof) {
-            let turns = libm::rint(self.point.q[i] / period);
+            let turns = libm::rint(self.q[i] / period);
             if turns != 0.0 {
-                self.point.q[i] -= turns * period;
+                self.q[i] -= turns * period;
                 self.turns[i] += turns as i64;
             }
         }
@@ -60,11 +77,11 @@ impl State {
 
     /// Position `i` with its whole periods.
     pub fn position(&self, i: usize, periods: &[f64; MAX_DOF]) -> f64 {
-        self.point.q[i] + self.turns[i] as f64 * periods[i]
+        self.q[i] + self.turns[i] as f64 * periods[i]
     }
 
     /// Whether all numbers are finite.
     pub fn is_finite(&self) -> bool {
-        self.point.q.iter().chain(&self.point.v).all(|x| x.is_finite()) && self.work.is_finite()
+        self.q.iter().chain(&self.v).all(|x| x.is_finite()) && self.work.is_finite()
     }
 }

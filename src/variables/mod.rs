@@ -8,7 +8,8 @@ mod table;
 pub mod units;
 
 pub use table::{
-    Access, Causality, Choice, EnumType, OutputSource, Range, Table, Variability, Variable, check_ranges, guid, table,
+    Access, Causality, Choice, EnumType, OutputSource, Range, Table, Variability, Variable, check_ranges, check_value,
+    fnv1a, guid, table,
 };
 
 /// FMI model identifier and model name.

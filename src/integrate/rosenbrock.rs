@@ -1,0 +1,108 @@
+//! Rosenbrock methods on the second-order block, from a tableau.
+//!
+//! In the transformed variables U (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer
+//! 1996, section IV.7) a step of size h from y₀ is
+//!
+//!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
+//!
+//! for stiffly accurate methods, whose last stage starts from the embedded solution. With y = (q, v), q̇ = B v,
+//! K = ∂v̇/∂q and D = ∂v̇/∂v the q-rows are solved by hand, so that the matrix to factorise has the order of the
+//! velocities alone:
+//!
+//!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v),   s = hγ.
+//!
+//! Every system here is autonomous (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
+
+use super::linear::Lu;
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
+pub struct Tableau<const S: usize> {
+    /// Diagonal coefficient γ.
+    pub gamma: f64,
+    /// a_ij, row by row; the last row is the embedded solution.
+    pub a: [[f64; S]; S],
+    /// c_ij, row by row.
+    pub c: [[f64; S]; S],
+    /// Weights of the stages in the solution at the middle of the step, beside (y₀ + y₁)/2.
+    pub middle: [f64; S],
+}
+
+/// Result of a step that may still be rejected.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial<const N: usize> {
+    /// Solution at the end of the step.
+    pub end: Point<N>,
+    /// Continuous extension at the middle of the step.
+    pub middle: Point<N>,
+    /// Difference to the embedded solution.
+    pub error: Point<N>,
+}
+
+/// One step of size `h` from `start`, where `lin` was taken. `None` if the matrix is singular.
+#[inline]
+pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
+    tableau: &Tableau<S>,
+    system: &E,
+    start: &Point<N>,
+    lin: &Linearisation<N>,
+    h: f64,
+) -> Option<Trial<N>> {
+    let s = h * tableau.gamma;
+    let mut matrix = lin.by_position;
+    system.times_rates(&mut matrix);
+    for i in 0..N {
+        for j in 0..N {
+            matrix[i][j] = -lin.by_velocity[i][j] - s * matrix[i][j];
+        }
+        matrix[i][i] += 1.0 / s;
+    }
+    let lu = Lu::new(matrix)?;
+
+    let per_h = 1.0 / h;
+    let mut u = [Point::ZERO; S];
+    let mut y = *start;
+    let mut acceleration = lin.acceleration;
+    for stage in 0..S {
+        if stage > 0 {
+            y = *start;
+            combine(&mut y, &tableau.a[stage][..stage], 1.0, &u);
+            acceleration = system.evaluate(&y).0;
+        }
+        let mut r = Point { q: system.rates(&y.v), v: acceleration };
+        combine(&mut r, &tableau.c[stage][..stage], per_h, &u);
+        for i in 0..N {
+            for j in 0..N {
+                r.v[i] += s * lin.by_position[i][j] * r.q[j];
+            }
+        }
+        lu.solve(&mut r.v);
+        let rate = system.rates(&r.v);
+        for i in 0..N {
+            r.q[i] = s * (r.q[i] + rate[i]);
+        }
+        u[stage] = r;
+    }
+    let error = u[S - 1];
+    let (mut end, mut middle) = (y, Point::ZERO);
+    for i in 0..N {
+        end.q[i] += error.q[i];
+        end.v[i] += error.v[i];
+        middle.q[i] = 0.5 * (start.q[i] + end.q[i]);
+        middle.v[i] = 0.5 * (start.v[i] + end.v[i]);
+    }
+    combine(&mut middle, &tableau.middle, 1.0, &u);
+    Some(Trial { end, middle, error })
+}
+
+/// y += scale Σ weight_j U_j over the first stages.
+#[inline]
+fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    for (weight, u) in weights.iter().zip(u) {
+        let weight = weight * scale;
+        for i in 0..N {
+            y.q[i] += weight * u.q[i];
+            y.v[i] += weight * u.v[i];
+        }
+    }
+}
