@@ -1,1 +1,105 @@
-fn main() {}
+//! Command line: `cargo run --release` does the study.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use anyhow::{Result, bail};
+use fmu_build::progress::Progress;
+use fmu_build::python::Environment;
+use fmu_build::{describe, package, places, study};
+use lexopt::prelude::*;
+
+const USAGE: &str = "\
+usage: cargo run --release [-- COMMAND]
+
+  study [--readme]       package the FMU, simulate the study through fmpy, print the comparison (default);
+                         --readme: also renew the table in README.md and the pictures in docs/images
+  package                build target/fmu/BevelDifferential.fmu
+  describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
+  test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
+  help                   show this";
+
+enum Job {
+    Study { readme: bool },
+    Package,
+    Describe { check: bool },
+    TestPython(Vec<OsString>),
+    Help,
+}
+
+fn main() -> ExitCode {
+    let job = match parse() {
+        Ok(job) => job,
+        Err(error) => {
+            eprintln!("error: {error:#}\n\n{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match run(job) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn parse() -> Result<Job> {
+    let mut arguments = lexopt::Parser::from_env();
+    let mut job = None;
+    while let Some(argument) = arguments.next()? {
+        match (argument, &mut job) {
+            (Short('h') | Long("help"), _) => return Ok(Job::Help),
+            (Value(name), None) => job = Some(command(&name.string()?, &mut arguments)?),
+            (Long("readme"), None) => job = Some(Job::Study { readme: true }),
+            (Long("readme"), Some(Job::Study { readme })) => *readme = true,
+            (Long("check"), Some(Job::Describe { check })) => *check = true,
+            (argument, _) => return Err(argument.unexpected().into()),
+        }
+    }
+    Ok(job.unwrap_or(Job::Study { readme: false }))
+}
+
+fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
+    Ok(match name {
+        "study" => Job::Study { readme: false },
+        "package" => Job::Package,
+        "describe" => Job::Describe { check: false },
+        "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
+        "help" => Job::Help,
+        _ => bail!("there is no command \"{name}\""),
+    })
+}
+
+fn run(job: Job) -> Result<()> {
+    match job {
+        Job::Help => println!("{USAGE}"),
+        Job::Study { readme } => study::run(readme)?,
+        Job::Package => {
+            let progress = Progress::start("packaging the FMU");
+            let fmu = package::package()?;
+            progress.finish();
+            println!("{}", places::shown(&fmu));
+        }
+        Job::Describe { check } => {
+            let file = places::model_description();
+            if check && describe::is_stale(&file)? {
+                bail!("{} is stale; renew it: cargo run --release -- describe", places::shown(&file));
+            } else if !check {
+                describe::write(&file)?;
+            }
+            println!("{} is up to date", places::shown(&file));
+        }
+        Job::TestPython(arguments) => {
+            let progress = Progress::start("looking for Python");
+            let environment = Environment::ready(|what| progress.tell(what))?;
+            progress.tell("packaging the FMU");
+            let fmu = package::package()?;
+            progress.tell("running pytest");
+            let report = environment.test(&fmu, &arguments)?;
+            progress.finish();
+            print!("{report}");
+        }
+    }
+    Ok(())
+}

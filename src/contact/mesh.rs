@@ -90,6 +90,8 @@ pub struct Mesh {
     corner_contact: bool,
     /// Arc beyond the path's ends in which corners can touch [rad].
     beyond: f64,
+    /// Tooth pairs that can be within reach at once: a fixed count, so that no wild trial state can keep a step busy.
+    candidates: usize,
 }
 
 /// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
@@ -107,6 +109,8 @@ impl Mesh {
     pub fn new(pair: &Pair, law: Impact, corner_contact: bool, reach: f64) -> Self {
         let corner = [CornerGap::new(pair, 0, reach), CornerGap::new(pair, 1, reach)];
         let beyond = if corner_contact { corner[0].reach(reach).max(corner[1].reach(reach)) } else { 0.0 };
+        let low = -corner[1].end;
+        let high = corner[0].end;
         Self {
             law,
             cone: pair.mean_cone,
@@ -114,11 +118,12 @@ impl Mesh {
             base_pitch: pair.base_pitch,
             per_base_pitch: 1.0 / pair.base_pitch,
             centred: pair.centred_position(),
-            low: -corner[1].end,
-            high: corner[0].end,
+            low,
+            high,
             corner,
             corner_contact,
             beyond,
+            candidates: libm::ceil((high - low + 2.0 * beyond) / pair.base_pitch) as usize,
         }
     }
 
@@ -143,13 +148,12 @@ impl Mesh {
         let (flank, sign) = if q < 0.0 { (Flank::Drive, -1.0) } else { (Flank::Coast, 1.0) };
         let start = self.centred - sign * x;
         let first = ceil((self.low - self.beyond - start) * self.per_base_pitch - ROUNDING);
-        let last = self.high + self.beyond;
         let mut s = start + first * self.base_pitch;
-        while s <= last {
+        for _ in 0..self.candidates {
             let past_planet_tip = s - self.high;
             let past_side_tip = self.low - s + approach;
             if past_planet_tip > 0.0 {
-                if past_planet_tip * past_planet_tip < approach * self.corner[0].spread {
+                if past_planet_tip * past_planet_tip < approach * self.corner[0].spread && self.corner_contact {
                     let g = self.corner[0].at(past_planet_tip);
                     visit(&ToothPair {
                         flank,
@@ -173,7 +177,7 @@ impl Mesh {
                         curvature: [-g.dd, -g.dd],
                     });
                 }
-            } else {
+            } else if s >= self.low {
                 visit(&ToothPair {
                     flank,
                     spot: Spot::Path,

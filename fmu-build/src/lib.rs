@@ -1,0 +1,17 @@
+//! Tools around the FMU: its model description, its archive, and the study and tests run on it by fmpy.
+
+#![warn(missing_docs)]
+
+pub mod comparison;
+pub mod describe;
+pub mod documentation;
+pub mod evaluation;
+pub mod package;
+pub mod places;
+pub mod progress;
+pub mod published;
+pub mod python;
+pub mod report;
+pub mod study;
+pub mod theory;
+pub mod xml;

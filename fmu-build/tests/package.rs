@@ -1,0 +1,29 @@
+//! The model description in the repository and the archive.
+
+use std::fs;
+
+use anyhow::Result;
+use fmu_build::{describe, package, places};
+
+#[test]
+fn the_model_description_in_the_repository_is_the_table_s() -> Result<()> {
+    let file = places::model_description();
+    assert!(
+        !describe::is_stale(&file)?,
+        "{} is stale; renew it: cargo run --release -- describe",
+        places::shown(&file)
+    );
+    Ok(())
+}
+
+#[test]
+fn packing_twice_gives_the_same_bytes() -> Result<()> {
+    let library = package::build_library()?;
+    let folder = places::target().join("same-bytes");
+    let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
+    for archive in &archives {
+        package::write_archive(&library, archive)?;
+    }
+    assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
+    Ok(())
+}

@@ -1,0 +1,14 @@
+//! The packaged FMU in a host that the project did not write.
+
+use anyhow::Result;
+use fmu_build::package;
+use fmu_build::python::Environment;
+
+#[test]
+fn the_fmu_passes_its_python_tests() -> Result<()> {
+    let environment = Environment::ready(|what| println!("{what}"))?;
+    let fmu = package::package()?;
+    // the error is pytest's report, which Debug prints line by line
+    println!("{}", environment.test(&fmu, &["-q"])?);
+    Ok(())
+}

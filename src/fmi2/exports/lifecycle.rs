@@ -1,0 +1,137 @@
+//! Versions, instances, logging, and the way from instantiation to termination.
+
+use std::ffi::{CStr, CString};
+use std::ptr;
+
+use libc::c_int;
+
+use super::super::calls::Call;
+use super::super::instance::{Experiment, Instance};
+use super::super::log::Log;
+use super::super::pointers::{self, Component, run};
+use super::super::quiet;
+use super::super::refusal::Refusal;
+use super::super::types::{Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Status, Text};
+use crate::variables::{MODEL_NAME, guid};
+
+/// fmi2GetTypesPlatform.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> Text {
+    c"default".as_ptr()
+}
+
+/// fmi2GetVersion.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> Text {
+    c"2.0".as_ptr()
+}
+
+/// fmi2Instantiate. The resource location is not needed, so anything will do.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    name: Text,
+    kind: c_int,
+    guid: Text,
+    _resources: Text,
+    callbacks: *const CallbackFunctions,
+    _visible: Boolean,
+    logging: Boolean,
+) -> ComponentPointer {
+    let instance = quiet::catch(|| {
+        // SAFETY: the host's promise, see the module
+        let (name, guid) = unsafe { (pointers::string(name), pointers::string(guid)) };
+        // SAFETY: as above; `as_ref` answers NULL with None
+        let callbacks = unsafe { callbacks.as_ref() };
+        instantiate(name, kind, guid, callbacks, logging != 0)
+    });
+    instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
+}
+
+/// A fresh instance; none, and a line in the log, if the host means another FMU or another kind.
+fn instantiate(
+    name: Option<&CStr>,
+    kind: c_int,
+    asked: Option<&CStr>,
+    callbacks: Option<&CallbackFunctions>,
+    verbose: bool,
+) -> Option<Instance> {
+    let named = name.filter(|n| !n.is_empty());
+    let label = named.map_or_else(|| CString::new(MODEL_NAME).unwrap_or_default(), CStr::to_owned);
+    let log = Log::new(callbacks, label, verbose);
+    let problem = if kind != CO_SIMULATION {
+        format!("type {kind} is not available, only co-simulation ({CO_SIMULATION})")
+    } else if named.is_none() {
+        "the instance name is NULL or empty".to_owned()
+    } else if asked.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
+        let asked = asked.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
+        format!("the GUID {asked} of the model description is not this binary's GUID \"{}\"", guid())
+    } else {
+        return Some(Instance::new(log));
+    };
+    log.status(Status::Error, &format!("fmi2Instantiate: {problem}"));
+    None
+}
+
+/// fmi2FreeInstance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: ComponentPointer) {
+    // SAFETY: the host's promise, see the module
+    unsafe { pointers::free(c) }
+}
+
+/// fmi2SetDebugLogging. Without categories all are meant.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: ComponentPointer,
+    logging: Boolean,
+    count: usize,
+    categories: *const Text,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let texts = unsafe { pointers::array("categories", categories, count) }?;
+        // SAFETY: as above
+        let names: Vec<_> = texts.iter().map(|&text| unsafe { pointers::string(text) }.unwrap_or(c"NULL")).collect();
+        let unknown = instance.log.configure(logging != 0, names.into_iter());
+        if unknown.is_empty() { Ok(()) } else { Err(Refusal::warning(format!("no such category: {unknown:?}"))) }
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::SetDebugLogging, body) }
+}
+
+/// fmi2SetupExperiment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    c: ComponentPointer,
+    tolerance_defined: Boolean,
+    tolerance: f64,
+    start: f64,
+    stop_defined: Boolean,
+    stop: f64,
+) -> Status {
+    let experiment = Experiment {
+        tolerance: (tolerance_defined != 0).then_some(tolerance),
+        start,
+        stop: (stop_defined != 0).then_some(stop),
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::SetupExperiment, |instance| instance.setup_experiment(&experiment)) }
+}
+
+macro_rules! plain {
+    ($($function:ident $call:ident $method:ident;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
+            // SAFETY: the host's promise, see the module
+            unsafe { run(c, Call::$call, Instance::$method) }
+        }
+    )+};
+}
+
+plain! {
+    fmi2EnterInitializationMode EnterInitializationMode enter_initialization;
+    fmi2ExitInitializationMode ExitInitializationMode exit_initialization;
+    fmi2Terminate Terminate terminate;
+    fmi2Reset Reset reset;
+}

@@ -1,0 +1,64 @@
+//! Types of the FMI 2.0 headers, platform "default".
+
+use libc::{c_char, c_int, c_uint, c_void};
+
+/// fmi2Boolean: 0 is false.
+pub type Boolean = c_int;
+/// fmi2Component: an instance, seen from outside.
+pub type ComponentPointer = *mut c_void;
+/// fmi2FMUstate: a snapshot, seen from outside.
+pub type FmuState = *mut c_void;
+/// fmi2String.
+pub type Text = *const c_char;
+/// fmi2ValueReference.
+pub type ValueReference = c_uint;
+
+/// fmi2Status.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Status {
+    /// All well.
+    Ok = 0,
+    /// Not quite right, but the simulation goes on.
+    Warning = 1,
+    /// Refused or only partly done; the instance is valid.
+    Discard = 2,
+    /// Refused, or failed; see the log.
+    Error = 3,
+    /// Beyond repair; never returned by this FMU.
+    Fatal = 4,
+    /// Still working; never returned by this FMU.
+    Pending = 5,
+}
+
+/// fmi2CoSimulation of fmi2Type.
+pub const CO_SIMULATION: c_int = 1;
+
+/// fmi2DoStepStatus of fmi2StatusKind.
+pub const DO_STEP_STATUS: c_int = 0;
+/// fmi2PendingStatus of fmi2StatusKind.
+pub const PENDING_STATUS: c_int = 1;
+/// fmi2LastSuccessfulTime of fmi2StatusKind.
+pub const LAST_SUCCESSFUL_TIME: c_int = 2;
+/// fmi2Terminated of fmi2StatusKind.
+pub const TERMINATED: c_int = 3;
+
+/// fmi2CallbackLogger; variadic as printf.
+pub type Logger =
+    unsafe extern "C" fn(env: *mut c_void, instance: Text, status: Status, category: Text, message: Text, ...);
+
+/// fmi2CallbackFunctions. Only the logger is used; memory is the library's own.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct CallbackFunctions {
+    /// Receives messages; may be NULL.
+    pub logger: Option<Logger>,
+    /// Unused.
+    pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
+    /// Unused.
+    pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
+    /// Unused: steps are synchronous.
+    pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
+    /// The host's own, handed to the logger.
+    pub component_environment: *mut c_void,
+}

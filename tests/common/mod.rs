@@ -1,0 +1,258 @@
+//! A small FMI host: drives the C functions as a C program would, and keeps what the logger says.
+#![allow(dead_code)] // each test file uses its part
+
+use std::ffi::{CStr, CString};
+use std::ptr;
+use std::sync::Mutex;
+
+use bevel_differential::fmi2::*;
+use bevel_differential::variables::{self, Access, table};
+use libc::{c_char, c_void};
+
+/// A line of the log.
+#[derive(Clone, Debug)]
+pub struct Line {
+    pub status: Status,
+    pub category: String,
+    pub message: String,
+}
+
+/// Receives log lines; variadic in C, but no argument ever follows the message.
+unsafe extern "C" fn logger(env: *mut c_void, _instance: Text, status: Status, category: Text, message: Text) {
+    // SAFETY: `env` is the mutex that `Host` keeps alive; the strings come from the FMU
+    let (lines, category, message) = unsafe {
+        (&*env.cast::<Mutex<Vec<Line>>>(), CStr::from_ptr(category).to_string_lossy(), CStr::from_ptr(message))
+    };
+    assert!(!message.to_bytes().contains(&b'%'), "a printf format must hold no conversion: {message:?}");
+    let message = message.to_string_lossy().into_owned();
+    lines.lock().unwrap().push(Line { status, category: category.into_owned(), message });
+}
+
+/// Callbacks that log into `lines`.
+pub fn callbacks(lines: &Mutex<Vec<Line>>) -> CallbackFunctions {
+    // SAFETY: on the platforms the tests run on, fixed arguments reach a plain function as they reach a variadic one
+    let logger =
+        unsafe { std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(logger) };
+    CallbackFunctions {
+        logger: Some(logger),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        component_environment: ptr::from_ref(lines).cast_mut().cast(),
+    }
+}
+
+/// Value reference of a variable.
+pub fn reference(name: &str) -> u32 {
+    table().rows.iter().position(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}")) as u32
+}
+
+/// An instance and its log.
+pub struct Host {
+    pub c: ComponentPointer,
+    lines: Box<Mutex<Vec<Line>>>,
+}
+
+impl Drop for Host {
+    fn drop(&mut self) {
+        // SAFETY: the component is this host's own
+        unsafe { fmi2FreeInstance(self.c) }
+    }
+}
+
+impl Host {
+    /// A fresh instance with logging on.
+    pub fn new() -> Self {
+        let host = Self::instantiate(Some("test"), CO_SIMULATION, Some(variables::guid()), None);
+        assert!(!host.c.is_null(), "{:?}", host.log());
+        host
+    }
+
+    /// fmi2Instantiate with anything; `c` is NULL if refused.
+    pub fn instantiate(name: Option<&str>, kind: i32, guid: Option<&str>, resources: Option<&str>) -> Self {
+        let lines = Box::new(Mutex::new(Vec::new()));
+        let owned = |text: Option<&str>| text.map(|t| CString::new(t).unwrap());
+        let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |t| t.as_ptr());
+        let (name, guid, resources) = (owned(name), owned(guid), owned(resources));
+        let callbacks = callbacks(&lines);
+        // SAFETY: all pointers are NULL or valid through the call
+        let c = unsafe { fmi2Instantiate(pointer(&name), kind, pointer(&guid), pointer(&resources), &callbacks, 0, 1) };
+        Self { c, lines }
+    }
+
+    /// An instance on a level: 1 ideal, 3 tooth; wheels with some inertia, so that loads may differ.
+    pub fn on_level(level: i32) -> Self {
+        let host = Self::new();
+        assert_eq!(host.set_integer("scene.gear_contact", level), Status::Ok);
+        assert_eq!(host.set("inertia.left_end", 0.5), Status::Ok);
+        assert_eq!(host.set("inertia.right_end", 0.5), Status::Ok);
+        host
+    }
+
+    pub fn setup(&self) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2SetupExperiment(self.c, 0, 0.0, 0.0, 0, 0.0) }
+    }
+
+    pub fn enter(&self) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2EnterInitializationMode(self.c) }
+    }
+
+    pub fn exit(&self) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2ExitInitializationMode(self.c) }
+    }
+
+    pub fn reset(&self) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2Reset(self.c) }
+    }
+
+    pub fn terminate(&self) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2Terminate(self.c) }
+    }
+
+    /// From instantiated to step mode.
+    pub fn start(&self) {
+        let statuses = [self.setup(), self.enter(), self.exit()];
+        assert_eq!(statuses, [Status::Ok; 3], "{:?}", self.log());
+    }
+
+    pub fn step(&self, t: f64, h: f64) -> Status {
+        // SAFETY: a live component
+        unsafe { fmi2DoStep(self.c, t, h, 1) }
+    }
+
+    /// Steps `n` times by `h` from `t`; all must succeed.
+    pub fn steps(&self, t: f64, h: f64, n: usize) {
+        for i in 0..n {
+            assert_eq!(self.step(t + i as f64 * h, h), Status::Ok, "{:?}", self.log());
+        }
+    }
+
+    pub fn set_many(&self, names: &[&str], values: &[f64]) -> Status {
+        let references: Vec<u32> = names.iter().map(|n| reference(n)).collect();
+        // SAFETY: a live component and arrays of the length told
+        unsafe { fmi2SetReal(self.c, references.as_ptr(), references.len(), values.as_ptr()) }
+    }
+
+    pub fn set(&self, name: &str, value: f64) -> Status {
+        self.set_many(&[name], &[value])
+    }
+
+    pub fn set_integer(&self, name: &str, value: i32) -> Status {
+        // SAFETY: a live component and one value
+        unsafe { fmi2SetInteger(self.c, &reference(name), 1, &value) }
+    }
+
+    pub fn set_boolean(&self, name: &str, value: i32) -> Status {
+        // SAFETY: a live component and one value
+        unsafe { fmi2SetBoolean(self.c, &reference(name), 1, &value) }
+    }
+
+    pub fn try_get(&self, name: &str) -> (Status, f64) {
+        let mut value = f64::NAN;
+        // SAFETY: a live component and room for one value
+        let status = unsafe { fmi2GetReal(self.c, &reference(name), 1, &mut value) };
+        (status, value)
+    }
+
+    pub fn get(&self, name: &str) -> f64 {
+        let (status, value) = self.try_get(name);
+        assert_eq!(status, Status::Ok, "{name}: {:?}", self.log());
+        value
+    }
+
+    pub fn get_integer(&self, name: &str) -> i32 {
+        let mut value = 0;
+        // SAFETY: a live component and room for one value
+        assert_eq!(unsafe { fmi2GetInteger(self.c, &reference(name), 1, &mut value) }, Status::Ok);
+        value
+    }
+
+    /// All outputs, as bits.
+    pub fn outputs(&self) -> Vec<u64> {
+        let references: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
+        let mut values = vec![f64::NAN; references.len()];
+        // SAFETY: a live component and room for all values
+        let status = unsafe { fmi2GetReal(self.c, references.as_ptr(), references.len(), values.as_mut_ptr()) };
+        assert_eq!(status, Status::Ok, "{:?}", self.log());
+        values.into_iter().map(f64::to_bits).collect()
+    }
+
+    /// Steps `first` and following, 1 ms each, with changing loads; returns the outputs after each step, as bits.
+    pub fn journey(&self, first: usize, n: usize) -> Vec<Vec<u64>> {
+        (first..first + n)
+            .map(|i| {
+                let t = i as f64 * 1e-3;
+                let load = 800.0 + 70.0 * (300.0 * t).sin();
+                assert_eq!(self.set("left.load_torque", load), Status::Ok);
+                assert_eq!(self.step(t, 1e-3), Status::Ok, "{:?}", self.log());
+                self.outputs()
+            })
+            .collect()
+    }
+
+    pub fn get_state(&self) -> FmuState {
+        let mut state = ptr::null_mut();
+        // SAFETY: a live component and a place for a state
+        assert_eq!(unsafe { fmi2GetFMUstate(self.c, &mut state) }, Status::Ok, "{:?}", self.log());
+        state
+    }
+
+    pub fn set_state(&self, state: FmuState) -> Status {
+        // SAFETY: a live component and a live state
+        unsafe { fmi2SetFMUstate(self.c, state) }
+    }
+
+    pub fn free_state(&self, mut state: FmuState) {
+        // SAFETY: a live component and a live state
+        assert_eq!(unsafe { fmi2FreeFMUstate(self.c, &mut state) }, Status::Ok);
+        assert!(state.is_null());
+    }
+
+    pub fn serialize(&self, state: FmuState) -> Vec<u8> {
+        let mut size = 0;
+        // SAFETY: a live component and a live state
+        assert_eq!(unsafe { fmi2SerializedFMUstateSize(self.c, state, &mut size) }, Status::Ok);
+        let mut bytes = vec![0u8; size];
+        // SAFETY: as above, and room for `size` bytes
+        let status = unsafe { fmi2SerializeFMUstate(self.c, state, bytes.as_mut_ptr().cast::<c_char>(), size) };
+        assert_eq!(status, Status::Ok, "{:?}", self.log());
+        bytes
+    }
+
+    pub fn deserialize(&self, bytes: &[u8]) -> (Status, FmuState) {
+        let mut state = ptr::null_mut();
+        // SAFETY: a live component, the bytes told, and a place for a state
+        let status = unsafe { fmi2DeSerializeFMUstate(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state) };
+        (status, state)
+    }
+
+    pub fn log(&self) -> Vec<Line> {
+        self.lines.lock().unwrap().clone()
+    }
+
+    /// The last message; empty if there is none.
+    pub fn last(&self) -> String {
+        self.log().last().map_or_else(String::new, |line| line.message.clone())
+    }
+
+    pub fn clear_log(&self) {
+        self.lines.lock().unwrap().clear();
+    }
+}
+
+/// Checks that a text holds all of `words`.
+pub fn assert_tells(text: &str, words: &[&str]) {
+    for word in words {
+        assert!(text.contains(word), "{word:?} is missing in {text:?}");
+    }
+}
+
+/// Names of the parameters of a kind.
+pub fn is_real_parameter(access: &Access) -> bool {
+    matches!(access, Access::Real(_))
+}

@@ -1,0 +1,304 @@
+//! Explicit spherical-involute gears from vectors and rotations alone: the oracle of the mesh tests.
+//!
+//! A great circle rolls without slip on the base circle; its tracing point draws the flank. Nothing here uses the
+//! program's formulas for the involute, the line of action, the gap of tip corners or the phases.
+
+#![allow(dead_code)] // each test binary uses its own part
+
+use bevel_differential::geometry::{AddendumSystem, GearSpec};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use std::f64::consts::{PI, TAU};
+
+pub type V3 = Vector3<f64>;
+
+/// Numerical Recipes' 64-bit LCG: the same random numbers everywhere.
+pub struct Lcg(pub u64);
+
+impl Lcg {
+    /// Uniform in [0, 1).
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Integer from `low` to `high` inclusive.
+    pub fn integer(&mut self, low: i32, high: i32) -> i32 {
+        low + (self.unit() * f64::from(high - low + 1)) as i32
+    }
+}
+
+/// Random gear pairs whose gears stay well inside a half space (tips below 85°); `right` fixes Σ to 90°.
+pub fn random_spec(random: &mut Lcg, right: bool) -> GearSpec {
+    loop {
+        let spec = GearSpec {
+            module: random.between(1e-3, 10e-3),
+            planet_teeth: random.integer(6, 40),
+            side_teeth: random.integer(6, 40),
+            pressure_angle: random.between(14.5, 27.0).to_radians(),
+            shaft_angle: if right { PI / 2.0 } else { random.between(50.0, 130.0).to_radians() },
+            backlash: 0.0,
+            addendum_system: [AddendumSystem::Standard, AddendumSystem::Gleason, AddendumSystem::Iso23509]
+                [random.integer(0, 2) as usize],
+            ..GearSpec::default()
+        };
+        let (delta, _) = pitch_angles(&spec);
+        let cone = spec.module * f64::from(spec.planet_teeth) / (2.0 * delta[0].sin());
+        // face width is of no concern on the sphere, but must leave a toe
+        let spec = GearSpec { face_width: 0.3 * cone, ..spec };
+        // no addendum of these systems exceeds 1.5 modules
+        if delta.iter().all(|d| d.to_degrees() + (1.5 * spec.module / cone).atan().to_degrees() < 85.0) {
+            return spec;
+        }
+    }
+}
+
+/// Pitch angles by bisection on the common pitch line, z_s sinδ_p = z_p sinδ_s with δ_p + δ_s = Σ, and the residual.
+pub fn pitch_angles(spec: &GearSpec) -> ([f64; 2], f64) {
+    let (z_p, z_s) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth));
+    let f = |d: f64| z_s * d.sin() - z_p * (spec.shaft_angle - d).sin();
+    let (mut low, mut high) = (0.0, spec.shaft_angle);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if f(middle) > 0.0 { high = middle } else { low = middle }
+    }
+    ([low, spec.shaft_angle - low], f(low))
+}
+
+pub fn about(axis: V3, angle: f64) -> Rotation3<f64> {
+    Rotation3::from_axis_angle(&Unit::new_normalize(axis), angle)
+}
+
+/// One gear about +z, apex to heel, a tooth centred on the xz plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Toothed {
+    pub teeth: i32,
+    pub base: f64,
+    pub tip: f64,
+    /// Azimuth of the left flank's base point: half tooth angle at the base circle.
+    pub base_azimuth: f64,
+}
+
+/// Tracing point of the great circle rolled by `roll` on a base circle of angle `base`, started on it at azimuth 0:
+/// the circle touches at azimuth roll/sin(base), and the point lies `roll` behind the point of tangency.
+pub fn rolled(base: f64, roll: f64) -> V3 {
+    let turn = roll / base.sin();
+    let tangency = V3::new(base.sin() * turn.cos(), base.sin() * turn.sin(), base.cos());
+    let tangent = V3::new(-turn.sin(), turn.cos(), 0.0);
+    tangency * roll.cos() - tangent * roll.sin()
+}
+
+impl Toothed {
+    pub fn new(teeth: i32, pitch: f64, pressure: f64, tip: f64, half_at_pitch: f64) -> Self {
+        let base = (pitch.sin() * pressure.cos()).asin();
+        let p = rolled(base, roll_at(base, pitch));
+        Self { teeth, base, tip, base_azimuth: half_at_pitch + p.y.atan2(p.x) }
+    }
+
+    pub fn tip_roll(&self) -> f64 {
+        roll_at(self.base, self.tip)
+    }
+
+    /// Point of the left (+1) or right (−1) flank: the involute bends toward the tooth's centre plane.
+    pub fn flank(&self, roll: f64, side: f64) -> V3 {
+        let p = rolled(self.base, roll);
+        let left = about(V3::z(), self.base_azimuth) * V3::new(p.x, -p.y, p.z);
+        V3::new(left.x, side * left.y, left.z)
+    }
+
+    /// Half tooth angle at polar angle given by its cosine.
+    pub fn half_at_cosine(&self, cosine: f64) -> f64 {
+        let cb = self.base.cos();
+        let roll = ((cb - cosine) * (cb + cosine)).max(0.0).sqrt().atan2(cosine);
+        let p = rolled(self.base, roll);
+        self.base_azimuth - p.y.atan2(p.x)
+    }
+}
+
+/// Roll at which the tracing point of a great circle on `base` has the polar angle `polar`, by Pythagoras on the sphere.
+pub fn roll_at(base: f64, polar: f64) -> f64 {
+    ((polar - base).sin() * (polar + base).sin()).max(0.0).sqrt().atan2(polar.cos())
+}
+
+/// The planet and the side gear of `spec` with Gleason, standard, ISO or explicit addenda `addendum` [m].
+pub fn gears(spec: &GearSpec, addendum: [f64; 2]) -> [Toothed; 2] {
+    let ([d_p, d_s], _) = pitch_angles(spec);
+    let (z_p, z_s, m) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth), spec.module);
+    let cone = m * z_p / (2.0 * d_p.sin());
+    // each tooth's arc on the outer pitch circle: half the pitch, plus or minus the split, less half the backlash
+    let split = (addendum[0] - addendum[1]) * spec.pressure_angle.tan();
+    let thickness = [PI * m / 2.0 + split - spec.backlash / 2.0, PI * m / 2.0 - split - spec.backlash / 2.0];
+    let half = [thickness[0] / (m * z_p), thickness[1] / (m * z_s)];
+    let tip = |d: f64, h: f64| d + (h / cone).atan();
+    [
+        Toothed::new(spec.planet_teeth, d_p, spec.pressure_angle, tip(d_p, addendum[0]), half[0]),
+        Toothed::new(spec.side_teeth, d_s, spec.pressure_angle, tip(d_s, addendum[1]), half[1]),
+    ]
+}
+
+/// The assembled differential: x = carrier axis, planet i at azimuth 2πi/N about +x.
+pub struct Differential {
+    pub planet: Toothed,
+    pub side: Toothed,
+    pub planets: i32,
+    /// Angle by which each planet is mounted about its axis.
+    mount: Vec<f64>,
+    /// Azimuth about +x of a tooth centre of the side gears L and R.
+    side_tooth: [f64; 2],
+}
+
+/// A flank of a planet's tooth that can touch a tooth of a side gear, with the side gear's rotation that makes it.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Angle of the planet tooth's centre past the plane of both axes, positive with the planet's travel.
+    pub tooth_angle: f64,
+    /// Side gear rotation at first touch [rad].
+    pub alpha: f64,
+    /// Polar angle about the side gear's axis, and roll on the planet, where they touch.
+    pub side_polar: f64,
+    pub roll: f64,
+}
+
+impl Differential {
+    /// Side gear L has a gap at planet 0's azimuth; every planet is put in to fit L, and R to fit planet 0.
+    /// Panics if then any planet does not fit R.
+    pub fn new(planet: Toothed, side: Toothed, planets: i32) -> Self {
+        let pitch_s = TAU / f64::from(side.teeth);
+        let mut it = Self { planet, side, planets, mount: Vec::new(), side_tooth: [pitch_s / 2.0, 0.0] };
+        // a symmetric mount has a tooth or a gap of both gears on the plane of the axes
+        let at = |centre: f64, angle: f64, pitch: f64| {
+            let n = (angle - centre) / pitch;
+            let rest = n - n.round();
+            if rest.abs() < 1e-9 {
+                Some(true)
+            } else if (rest.abs() - 0.5).abs() < 1e-9 {
+                Some(false)
+            } else {
+                None
+            }
+        };
+        let pitch_p = TAU / f64::from(planet.teeth);
+        for i in 0..planets {
+            let azimuth = it.azimuth(i);
+            let side_has_tooth = at(it.side_tooth[0], azimuth, pitch_s).expect("planet fits the left side gear");
+            it.mount.push(if side_has_tooth { pitch_p / 2.0 } else { 0.0 });
+            // the planet's tooth pattern where it faces R: half a turn on
+            let planet_has_tooth = at(it.mount[i as usize], PI, pitch_p).expect("planet is symmetric toward R");
+            if i == 0 {
+                it.side_tooth[1] = if planet_has_tooth { pitch_s / 2.0 } else { 0.0 };
+            }
+            let right_has_tooth = at(it.side_tooth[1], azimuth, pitch_s).expect("planet fits the right side gear");
+            assert_ne!(planet_has_tooth, right_has_tooth, "planet {i} of {planets} meets R tooth on tooth");
+        }
+        it
+    }
+
+    pub fn azimuth(&self, i: i32) -> f64 {
+        TAU * f64::from(i) / f64::from(self.planets)
+    }
+
+    /// Whether planet `i` shows a tooth (rather than a gap) to side `sigma` as assembled.
+    pub fn shows_tooth(&self, i: i32, sigma: f64) -> bool {
+        let facing = if sigma > 0.0 { 0.0 } else { PI };
+        let n = (facing - self.mount[i as usize]) * f64::from(self.planet.teeth) / TAU;
+        (n - n.round()).abs() < 1e-9
+    }
+
+    /// From the planet's own frame, tooth 0 on its x axis, to the world at spin `psi`.
+    fn planet_to_world(&self, i: i32, psi: f64) -> Matrix3<f64> {
+        let out = about(V3::x(), self.azimuth(i)) * V3::y();
+        let frame = Matrix3::from_columns(&[V3::x(), out.cross(&V3::x()), out]);
+        // spin is positive about the axis pointing to the apex
+        about(-out, psi).matrix() * frame * about(V3::z(), self.mount[i as usize]).matrix()
+    }
+
+    /// First touches of each planet tooth within `window` of the plane of the axes with the side gear's tooth ahead
+    /// (`push` = +1: the planet drives the side gear toward +x rotation) or behind it (−1), when the side gear comes
+    /// from its rotation `free`, at which the teeth stand clear, against the push.
+    pub fn touches(&self, i: i32, sigma: f64, psi: f64, push: f64, free: f64, window: f64) -> Vec<Touch> {
+        // seen in the frame turned about x so that the planet points along y
+        let to_world =
+            about(V3::x(), -self.azimuth(i)) * Rotation3::from_matrix_unchecked(self.planet_to_world(i, psi));
+        let (axis, travel) = (V3::x() * sigma, V3::z());
+        let first = self.side_tooth[if sigma > 0.0 { 0 } else { 1 }] - self.azimuth(i);
+        let pitch = TAU / f64::from(self.side.teeth);
+        // at L the planet's own azimuth runs against the travel, at R with it
+        let hand = -sigma * push;
+        let mut found = Vec::new();
+        for tooth in 0..self.planet.teeth {
+            let turn = to_world * about(V3::z(), TAU * f64::from(tooth) / f64::from(self.planet.teeth));
+            let centre = turn * V3::x();
+            let tooth_angle = centre.dot(&travel).atan2(centre.dot(&axis));
+            if tooth_angle.abs() > window {
+                continue;
+            }
+            // how far a side gear's tooth centred on y must be turned so that its flank holds the planet's point
+            let turn_needed = |roll: f64| {
+                let p = turn * self.planet.flank(roll, hand);
+                let cosine = p.dot(&axis);
+                let on_flank = cosine <= self.side.base.cos() && cosine >= self.side.tip.cos();
+                on_flank.then(|| p.z.atan2(p.y) + push * self.side.half_at_cosine(cosine))
+            };
+            let Some((needed, roll)) = furthest(|roll| turn_needed(roll).map(|t| push * t), self.planet.tip_roll())
+            else {
+                continue;
+            };
+            // of the side gear's equal teeth the one met within a pitch from `free`; a quarter pitch of grace, for
+            // without backlash conjugate flanks touch at `free` itself
+            let back = push * free - (needed - push * first);
+            let alpha = free - push * (back - pitch * (back / pitch + 0.25).floor());
+            let cosine = (turn * self.planet.flank(roll, hand)).dot(&axis);
+            found.push(Touch { tooth_angle, alpha, side_polar: cosine.acos(), roll });
+        }
+        found
+    }
+}
+
+/// Largest value of `f`, defined on part of [0, `end`], and where: samples, the edges of the part by bisection, and
+/// golden section about the best sample.
+fn furthest(f: impl Fn(f64) -> Option<f64>, end: f64) -> Option<(f64, f64)> {
+    const SAMPLES: usize = 240;
+    let at = |k: usize| end * k as f64 / SAMPLES as f64;
+    let edge = |mut inside: f64, mut outside: f64| {
+        for _ in 0..60 {
+            let middle = 0.5 * (inside + outside);
+            if f(middle).is_some() { inside = middle } else { outside = middle }
+        }
+        inside
+    };
+    let best = (0..=SAMPLES).filter_map(|k| f(at(k)).map(|v| (v, k))).max_by(|a, b| a.0.total_cmp(&b.0));
+    // also where only an edge is high: the ends of every admissible stretch
+    let mut candidate = best.map(|(v, k)| (v, at(k)))?;
+    let mut improve = |x: f64| {
+        if let Some(v) = f(x)
+            && v > candidate.0
+        {
+            candidate = (v, x);
+        }
+    };
+    for k in 0..SAMPLES {
+        match (f(at(k)).is_some(), f(at(k + 1)).is_some()) {
+            (true, false) => improve(edge(at(k), at(k + 1))),
+            (false, true) => improve(edge(at(k + 1), at(k))),
+            _ => {}
+        }
+    }
+    let k = best?.1;
+    let bound = |other: usize| if f(at(other)).is_some() { at(other) } else { edge(at(k), at(other)) };
+    let (mut a, mut b) = (bound(k.saturating_sub(1)), bound((k + 1).min(SAMPLES)));
+    let golden = (5f64.sqrt() - 1.0) / 2.0;
+    for _ in 0..80 {
+        let (c, d) = (b - golden * (b - a), a + golden * (b - a));
+        match (f(c), f(d)) {
+            (Some(v), Some(w)) if v > w => b = d,
+            (Some(_), None) => b = d,
+            _ => a = c,
+        }
+        improve(c);
+        improve(d);
+    }
+    Some(candidate)
+}

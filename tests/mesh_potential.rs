@@ -1,0 +1,273 @@
+//! The mesh's force is the gradient of its energy, its Jacobian that of its force, and damping only ever heats.
+//!
+//! Central differences of the program's own energy and force: their error is stated at each comparison.
+
+#![allow(clippy::needless_range_loop)] // an index names the same axis or gear on both sides
+
+mod mesh_explicit;
+
+use bevel_differential::contact::impact::Impact;
+use bevel_differential::contact::mesh::{Flank, Mesh, MeshState, Spot, ToothPair};
+use bevel_differential::geometry::{GearSpec, Pair};
+use mesh_explicit::Lcg;
+
+const STATES: usize = 4000;
+/// Deepest approach tried [rad]: 0.1 mm at R_m.
+const DEEPEST: f64 = 3e-3;
+
+fn law(exponent: f64, damping: f64) -> Impact {
+    Impact { stiffness: 1.8e10, exponent, damping, per_full_depth: 1e4 }
+}
+
+/// Meshes of three pairs and exponents, with and without corner contact, under `damping`.
+fn meshes(damping: f64, corner_contact: bool) -> Vec<(Mesh, Pair)> {
+    [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 0.0), (11, 15, 2.2, 5e-5)]
+        .into_iter()
+        .map(|(planet_teeth, side_teeth, exponent, backlash)| {
+            let pair = Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() });
+            (Mesh::new(&pair, law(exponent, damping), corner_contact, 0.05), pair)
+        })
+        .collect()
+}
+
+fn random_state(random: &mut Lcg, pair: &Pair) -> MeshState {
+    let depth = random.between(1e-5, DEEPEST);
+    let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
+    MeshState {
+        position: [
+            hand * (pair.normal_backlash / 2.0 + depth),
+            random.between(-2.0 * pair.base_pitch, 2.0 * pair.base_pitch),
+        ],
+        rate: [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],
+    }
+}
+
+fn loaded(mesh: &Mesh, position: [f64; 2]) -> Vec<ToothPair> {
+    let mut pairs = Vec::new();
+    mesh.pairs(position, |p| {
+        if p.depth > 0.0 {
+            pairs.push(*p);
+        }
+    });
+    pairs
+}
+
+/// Pairs in contact with their kind and whether IMPACT is clipped at zero: where this changes, derivatives may jump.
+fn pattern(mesh: &Mesh, state: &MeshState) -> Vec<(Flank, Spot, bool)> {
+    let r = mesh.cone;
+    let clipped = |p: &ToothPair| {
+        let rate = r * (p.slope[0] * state.rate[0] + p.slope[1] * state.rate[1]);
+        mesh.law.force(r * p.depth, rate).total <= 0.0
+    };
+    loaded(mesh, state.position).iter().map(|p| (p.flank, p.spot, clipped(p))).collect()
+}
+
+fn shifted(state: &MeshState, axis: usize, h: f64, of_rate: bool) -> MeshState {
+    let mut s = *state;
+    if of_rate {
+        s.rate[axis] += h
+    } else {
+        s.position[axis] += h
+    }
+    s
+}
+
+/// Fourth-order central difference of `f` by position or rate `axis`, and the largest step tried.
+fn difference(state: &MeshState, axis: usize, h: f64, of_rate: bool, f: impl Fn(&MeshState) -> f64) -> f64 {
+    let at = |k: f64| f(&shifted(state, axis, k * h, of_rate));
+    (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)
+}
+
+/// Whether the pattern stays the same within two steps and no pair is about to leave: at depth d ≫ h the fourth-order
+/// difference of d^e has an error of (h/d)⁴ only.
+fn smooth(mesh: &Mesh, state: &MeshState, h: f64, of_rate: bool) -> bool {
+    if !of_rate && loaded(mesh, state.position).iter().any(|p| p.depth < 30.0 * h) {
+        return false;
+    }
+    let here = pattern(mesh, state);
+    (0..2).all(|axis| [-2.0, 2.0].iter().all(|k| pattern(mesh, &shifted(state, axis, k * h, of_rate)) == here))
+}
+
+#[test]
+fn force_without_damping_is_minus_the_gradient_of_the_energy() {
+    let mut random = Lcg(11);
+    let (mut worst, mut spots) = (0.0f64, [0; 3]);
+    for (mesh, pair) in meshes(0.0, true) {
+        for _ in 0..STATES {
+            let state = MeshState { rate: [0.0; 2], ..random_state(&mut random, &pair) };
+            let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
+            // the error is (h/a)⁴ ~ 1e-12 of the force, and rounding ε V/h ~ 1e-13 of it; across a corner's coming into
+            // contact the energy is only d^(e+1): (h/a)^e of a pair's force, 3e-5 of h/a = 1e-3
+            let h = 1e-3 * depth;
+            let force = mesh.load::<false>(&state).force;
+            let scale = force[0].abs();
+            let allowed = if smooth(&mesh, &state, h, false) { 1e-8 } else { 1e-4 };
+            for axis in 0..2 {
+                let gradient = difference(&state, axis, h, false, |s| mesh.energy(s.position));
+                let off = (force[axis] + gradient).abs() / scale;
+                if allowed < 1e-5 {
+                    worst = worst.max(off);
+                }
+                assert!(off < allowed, "{state:?} axis {axis}: {} {gradient}, off {off:e}", force[axis]);
+            }
+            loaded(&mesh, state.position).iter().for_each(|p| spots[p.spot as usize] += 1);
+        }
+    }
+    println!("worst {worst:e} of |F_q|, pairs on [path, planet tip, side tip]: {spots:?}");
+    assert!(spots.iter().all(|&n| n > 300), "{spots:?}");
+}
+
+#[test]
+fn force_stays_the_gradient_across_the_ends_of_the_path() {
+    let mut worst = 0.0f64;
+    for (mesh, pair) in meshes(0.0, true) {
+        for hand in [-1.0, 1.0] {
+            for depth in [1e-4, 1e-3] {
+                let q = hand * (pair.normal_backlash / 2.0 + depth);
+                // the tooth k = 0 at the planet tip's end, and at the side tip's, where Δ = low − s + a = 0
+                for (s, corner) in [(mesh.corner[0].end, 0), (-mesh.corner[1].end + depth, 1)] {
+                    let jump = mesh.corner[corner].exact(0.0).gap.dd;
+                    let at_end = -hand * (s - pair.centred_position());
+                    for past in [-2e-4, -1e-6, 0.0, 1e-6, 2e-4] {
+                        let state = MeshState { position: [q, at_end + past], rate: [0.0; 2] };
+                        let force = mesh.load::<false>(&state).force;
+                        let h = 1e-3 * depth;
+                        for axis in 0..2 {
+                            let gradient = difference(&state, axis, h, false, |s| mesh.energy(s.position));
+                            // g″ jumps at the end: there the difference is off by g″h/6 times the pair's force, and
+                            // next to it by little more
+                            let off = (force[axis] + gradient).abs() / force[0].abs();
+                            worst = worst.max(off / (jump * h));
+                            assert!(off < 1e-8 + 0.25 * jump * h, "{state:?} axis {axis}: off {off:e}, h {h:e}");
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("worst error {worst:.3} g″h");
+}
+
+#[test]
+fn jacobian_equals_differences_of_the_damped_force() {
+    let mut random = Lcg(12);
+    let (mut worst, mut compared, mut clipped) = (0.0f64, 0, 0);
+    for (mesh, pair) in meshes(5e4, true) {
+        for _ in 0..STATES {
+            let state = random_state(&mut random, &pair);
+            let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
+            let h = 1e-4 * depth;
+            let load = mesh.load::<true>(&state);
+            clipped += pattern(&mesh, &state).iter().filter(|p| p.2).count();
+            assert_eq!(load.force, mesh.load::<false>(&state).force, "{state:?}");
+            for (of_rate, h, by) in [(false, h, load.by_position), (true, 1e-3, load.by_rate)] {
+                if !smooth(&mesh, &state, h, of_rate) {
+                    continue;
+                }
+                compared += 1;
+                let scale = by.iter().flatten().fold(1e-30, |m: f64, x| m.max(x.abs()));
+                for a in 0..2 {
+                    for b in 0..2 {
+                        let d = difference(&state, b, h, of_rate, |s| mesh.load::<false>(s).force[a]);
+                        let off = (by[a][b] - d).abs() / scale;
+                        worst = worst.max(off);
+                        // rounding ε F/(h F′) ~ 1e-12, growing where forces nearly cancel
+                        assert!(off < 1e-6, "{state:?} {of_rate} [{a}][{b}]: {} {d} off {off:e}", by[a][b]);
+                    }
+                }
+            }
+        }
+    }
+    println!("worst {worst:e} of the largest entry in {compared} comparisons, {clipped} clipped pairs");
+    assert!(compared > STATES && clipped > 100);
+}
+
+#[test]
+fn hessian_is_symmetric_without_damping() {
+    let mut random = Lcg(13);
+    for (mesh, pair) in meshes(0.0, true) {
+        for _ in 0..STATES {
+            let [[_, a], [b, _]] = mesh.load::<true>(&random_state(&mut random, &pair)).by_position;
+            assert!((a - b).abs() <= 1e-14 * a.abs(), "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn power_of_the_force_plus_heat_is_what_the_energy_loses() {
+    let mut random = Lcg(14);
+    let (mut worst, mut hot) = (0.0f64, 0);
+    for (mesh, pair) in meshes(5e4, true) {
+        for _ in 0..STATES {
+            let state = random_state(&mut random, &pair);
+            let load = mesh.load::<false>(&state);
+            assert!(load.heat >= 0.0, "{state:?} cools: {}", load.heat);
+            hot += usize::from(load.heat > 0.0);
+            let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
+            let h = 1e-3 * depth;
+            let gained: f64 = (0..2)
+                .map(|axis| difference(&state, axis, h, false, |s| mesh.energy(s.position)) * state.rate[axis])
+                .sum();
+            let power = load.force[0] * state.rate[0] + load.force[1] * state.rate[1];
+            let scale = mesh.load::<false>(&MeshState { rate: [0.0; 2], ..state }).force[0].abs() + load.force[0].abs();
+            let off = (power + load.heat + gained).abs() / scale;
+            let steady = smooth(&mesh, &state, h, false);
+            if steady {
+                worst = worst.max(off);
+            }
+            assert!(off < if steady { 1e-8 } else { 2e-4 }, "{state:?}: off {off:e}");
+        }
+    }
+    println!("worst {worst:e} of |F_q| · 1 rad/s, {hot} states with heat");
+    assert!(hot > STATES);
+}
+
+#[test]
+fn coasting_is_the_mirror_image_of_driving() {
+    let mut random = Lcg(15);
+    for corner_contact in [true, false] {
+        for (mesh, pair) in meshes(5e4, corner_contact) {
+            for _ in 0..STATES {
+                let state = random_state(&mut random, &pair);
+                let mirror = MeshState { position: state.position.map(|x| -x), rate: state.rate.map(|x| -x) };
+                let (a, b) = (mesh.load::<true>(&state), mesh.load::<true>(&mirror));
+                assert_eq!(a.force, b.force.map(|f| -f), "{state:?}");
+                assert_eq!((a.heat, a.by_position, a.by_rate), (b.heat, b.by_position, b.by_rate), "{state:?}");
+                assert_eq!(mesh.energy(state.position), mesh.energy(mirror.position));
+            }
+        }
+    }
+}
+
+#[test]
+fn energy_is_the_same_a_base_pitch_further() {
+    let mut random = Lcg(16);
+    for (mesh, pair) in meshes(0.0, true) {
+        for _ in 0..STATES {
+            let [q, x] = random_state(&mut random, &pair).position;
+            let (here, next) = (mesh.energy([q, x]), mesh.energy([q, x + pair.base_pitch]));
+            assert!((here - next).abs() <= 1e-11 * here, "{q} {x}: {here} {next}");
+        }
+    }
+}
+
+#[test]
+fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
+    let mut random = Lcg(17);
+    for (mesh, pair) in meshes(0.0, false) {
+        for _ in 0..STATES {
+            let [q, x] = random_state(&mut random, &pair).position;
+            let approach = q.abs() - pair.normal_backlash / 2.0;
+            // teeth on the path, counted one by one: s = γ_p sinδ_bp ± x + k p_b
+            let start = pair.centred_position() - q.signum() * x;
+            let (low, high) = (-mesh.corner[1].end, mesh.corner[0].end);
+            let count =
+                (-20..=20).filter(|&k| (low..=high).contains(&(start + f64::from(k) * pair.base_pitch))).count();
+            let expected = count as f64 * mesh.law.energy(mesh.cone * approach);
+            let energy = mesh.energy([q, x]);
+            assert!((energy - expected).abs() <= 1e-12 * expected, "{q} {x}: {energy} {expected}");
+            // straight along the path: no force by x
+            assert_eq!(mesh.load::<false>(&MeshState { position: [q, x], rate: [0.0; 2] }).force[1], 0.0);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+"""The packaged FMU, seen from a host: theory, spectra, refusals. Names of tests are sentences."""
+
+import numpy as np
+import pytest
+import theory
+from fmpy.fmi1 import FMICallException
+from fmpy.validation import validate_fmu
+
+DISCARD, ERROR = 2, 3
+STRAIGHT = {"scene.start": "rolling"}
+CARRIER, SPIN = 954.0, 200.0
+TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": (CARRIER, "deg/s"),
+        "planet.spin_command": (SPIN, "deg/s")}
+SIDES = ["left", "right"]
+
+
+def settled(record, begin=0.14):
+    """From `begin` to the end, without the last sample: in a turn of 0.5 s two whole mesh periods."""
+    return record[(record["time"] > begin - 1e-9)][:-1]
+
+
+@pytest.fixture(scope="module")
+def straight(run):
+    return run(STRAIGHT)
+
+
+@pytest.fixture(scope="module")
+def turn(run):
+    return run(TURN)
+
+
+def test_fmpy_finds_no_problem_in_the_fmu(fmu_file):
+    assert validate_fmu(fmu_file) == []
+
+
+def test_a_host_that_sets_nothing_gets_the_study_at_once(run):
+    record = run(stop=0.01)
+    for side in SIDES:
+        np.testing.assert_allclose(np.degrees(record[f"{side}.speed"]), 2861.0, rtol=1e-6)
+        np.testing.assert_allclose(record[f"{side}.tangential_force"], theory.TANGENTIAL_FORCE, rtol=1e-6)
+
+
+def test_straight_ahead_both_sides_turn_with_the_carrier(straight):
+    part = settled(straight)
+    for side in SIDES:
+        np.testing.assert_allclose(np.degrees(part[f"{side}.speed"]), 2861.0, rtol=1e-4)
+    assert willis(part) < 1e-6
+
+
+def test_straight_ahead_the_teeth_bear_what_theory_says(straight):
+    part = settled(straight)
+    for side in SIDES:
+        assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
+        for planet in [1, 2]:
+            force = np.mean(part[f"planet[{planet}].{side}_normal_force"])
+            assert force == pytest.approx(theory.normal_force(), rel=5e-3)
+
+
+def test_in_the_turn_the_speeds_follow_willis(turn):
+    part = settled(turn)
+    for side, expected in zip(SIDES, theory.side_speeds(CARRIER, SPIN)):
+        assert np.degrees(np.mean(part[f"{side}.speed"])) == pytest.approx(expected, rel=1e-3)
+    # the teeth's stiffness gives what it takes within a mesh period; what is left is the sampling of the mean
+    assert willis(part) < 2e-6
+
+
+def willis(part):
+    """|ω_L + ω_R − 2 ω_c| of the means over 2 ω_c."""
+    carrier = 2.0 * np.mean(part["carrier.speed"])
+    return abs(np.mean(part["left.speed"]) + np.mean(part["right.speed"]) - carrier) / carrier
+
+
+def test_in_the_turn_the_teeth_bear_what_theory_says(turn):
+    part = settled(turn)
+    for side in SIDES:
+        assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
+        assert np.mean(part[f"planet[1].{side}_normal_force"]) == pytest.approx(theory.normal_force(), rel=5e-3)
+
+
+def test_the_first_line_of_the_force_is_the_mesh_frequency(run):
+    amplitude, frequency = spectrum(run(TURN, stop=2.0)["left.normal_force"])
+    lines = frequency[1:][amplitude[1:] > 0.02 * np.max(amplitude[1:])]
+    assert lines[0] == pytest.approx(theory.mesh_frequency(SPIN), rel=1e-6)
+    # and all others are multiples of it
+    np.testing.assert_allclose(lines / lines[0], np.round(lines / lines[0]), atol=1e-6)
+
+
+def test_straight_ahead_the_force_has_no_line(run):
+    amplitude, _ = spectrum(run(STRAIGHT, stop=2.0)["left.normal_force"])
+    assert np.max(amplitude[1:]) < 1e-6 * amplitude[0]
+
+
+def spectrum(force, step=0.001, window=1.8):
+    """Amplitudes over the last ten mesh periods of the turn."""
+    count = round(window / step)
+    amplitude = np.abs(np.fft.rfft(force[-count - 1:-1])) / count
+    amplitude[1:] *= 2.0
+    return amplitude, np.fft.rfftfreq(count, step)
+
+
+def test_no_tooth_slips(turn):
+    ratio = theory.PLANET_TEETH / theory.SIDE_TEETH
+    part = settled(turn, 0.005)
+    for side, sign in zip(SIDES, [1.0, -1.0]):
+        spin = part["planet[1].spin_angle"]
+        lag = part["carrier.angle"] + sign * ratio * spin - part[f"{side}.angle"]
+        # through half the play, and not farther than one pair alone bends
+        assert np.all(lag > theory.half_play())
+        assert np.all(lag < theory.half_play() + 1.05 * theory.largest_wind_up())
+        # several teeth have passed, so a slip of one would show
+    assert part["planet[1].spin_angle"][-1] > 4.0 * np.pi / theory.PLANET_TEETH
+    assert theory.half_play() + theory.largest_wind_up() < 0.1 * 2.0 * np.pi / theory.SIDE_TEETH
+
+
+def test_four_planets_bear_half_each(run):
+    part = settled(run(STRAIGHT | {"geometry.planet_count": 4}, stop=0.3))
+    for planet in [1, 2, 3, 4]:
+        for side in SIDES:
+            force = np.mean(part[f"planet[{planet}].{side}_normal_force"])
+            assert force == pytest.approx(theory.normal_force() / 2.0, rel=5e-3)
+
+
+def test_planets_that_do_not_exist_give_zero(straight):
+    for name in straight.dtype.names:
+        if name.startswith(("planet[3]", "planet[4]")):
+            assert np.all(straight[name] == 0.0), name
+
+
+def test_energy_balances(straight, turn):
+    for record in [straight, turn]:
+        through = np.mean(np.abs(settled(record)["power.in"])) * record["time"][-1]
+        assert np.max(np.abs(record["solver.energy_residual"])) < 1e-6 * through
+
+
+def test_three_planets_on_sixteen_teeth_are_refused_by_the_assembly_condition(open_fmu):
+    with open_fmu() as opened:
+        opened.set("geometry.planet_count", 3)
+        with pytest.raises(FMICallException) as refusal:
+            opened.initialise()
+    assert refusal.value.status == ERROR
+    message = "\n".join(opened.log)
+    assert "geometry.planet_count" in message and "assembly condition" in message
+
+
+def test_a_module_of_4_5_metres_is_refused_with_a_hint(open_fmu):
+    with open_fmu() as opened:
+        with pytest.raises(FMICallException) as refusal:
+            opened.set("geometry.module", 4.5)
+            opened.initialise()
+    assert refusal.value.status in [DISCARD, ERROR]
+    message = "\n".join(opened.log)
+    assert "geometry.module" in message and "did you mean 4.5 mm = 0.0045" in message
+
+
+def test_an_input_that_is_no_number_is_refused_and_the_run_goes_on(open_fmu):
+    speeds = []
+    for disturbed in [False, True]:
+        with open_fmu() as opened:
+            opened.initialise()
+            for step in range(20):
+                if disturbed and step == 10:
+                    for value in [float("nan"), float("inf")]:
+                        with pytest.raises(FMICallException) as refusal:
+                            opened.set("left.load_torque", value)
+                        assert refusal.value.status in [DISCARD, ERROR]
+                    assert any("left.load_torque" in message and "finite" in message for message in opened.log)
+                opened.fmu.doStep(step * 1e-3, 1e-3)
+            speeds.append((opened.get("left.speed"), opened.get("left.normal_force")))
+    assert speeds[0] == speeds[1]
+
+
+def test_no_message_is_needed_but_the_warning_about_the_face_width(open_fmu):
+    with open_fmu() as opened:
+        opened.initialise()
+        opened.fmu.doStep(0.0, 1e-3)
+    assert [message.split(":")[0] for message in opened.log] == ["geometry.face_width"]
+
+
+def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(open_fmu, description):
+    """The dependencies of the model structure are the union over all scenes: nothing missing, nothing too much."""
+    inputs = [v.name for v in description.modelVariables if v.causality == "input"]
+    outputs = [v.name for v in description.modelVariables if v.causality == "output"]
+    declared = {(unknown.variable.name, known.name)
+                for unknown in description.outputs for known in unknown.dependencies}
+    observed = set()
+    for contact in ["tooth", "ideal"]:
+        for carrier in ["speed", "torque"]:
+            for spin in ["free", "imposed"]:
+                with open_fmu() as opened:
+                    opened.set("geometry.planet_count", 4)
+                    opened.set("scene.gear_contact", contact)
+                    opened.set("scene.carrier_drive", carrier)
+                    opened.set("scene.planet_spin", spin)
+                    opened.set("planet.spin_command", 1.0)
+                    opened.set("inertia.left_end", 1.0)
+                    opened.set("inertia.right_end", 2.0)
+                    opened.initialise()
+                    opened.fmu.doStep(0.0, 1e-3)
+                    for name in inputs:
+                        before = {output: opened.get(output) for output in outputs}
+                        value = opened.get(name)
+                        opened.set(name, 1.1 * value + 0.1)
+                        observed |= {(output, name) for output in outputs if opened.get(output) != before[output]}
+                        opened.set(name, value)
+    assert observed - declared == set()
+    # numbers of pairs jump, where a load passes through zero
+    assert {(output, name) for output, name in declared - observed if not output.endswith("_pairs")} == set()

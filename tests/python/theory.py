@@ -1,0 +1,44 @@
+"""Closed forms for the default gears, written here from the formulas and not taken from the program."""
+
+from math import asin, atan2, cos, pi, radians, sin
+
+MODULE, PLANET_TEETH, SIDE_TEETH = 4.5e-3, 10, 16
+FACE_WIDTH, PRESSURE_ANGLE, BACKLASH = 20e-3, radians(20.0), 1e-4
+LOAD, PLANETS = 835.0, 2
+STIFFNESS, EXPONENT = 5.77e5 * 1000.0**1.5, 1.5
+
+PLANET_PITCH = atan2(1.0, SIDE_TEETH / PLANET_TEETH)
+SIDE_PITCH = pi / 2.0 - PLANET_PITCH
+OUTER_CONE = MODULE * PLANET_TEETH / (2.0 * sin(PLANET_PITCH))
+MEAN_CONE = OUTER_CONE - FACE_WIDTH / 2.0
+# sine of the side gear's base angle: lever arm of the normal force per cone distance
+SIDE_LEVER = sin(asin(sin(SIDE_PITCH) * cos(PRESSURE_ANGLE)))
+
+# T/r: of all planets, referred to the side gear's outer pitch circle
+TANGENTIAL_FORCE = LOAD / (MODULE * SIDE_TEETH / 2.0)
+
+
+def normal_force(planets=PLANETS):
+    """Of one mesh at the mean cone distance."""
+    return LOAD / (planets * MEAN_CONE * SIDE_LEVER)
+
+
+def side_speeds(carrier, spin):
+    """Of left and right side gear, by Willis."""
+    difference = spin * PLANET_TEETH / SIDE_TEETH
+    return carrier + difference, carrier - difference
+
+
+def mesh_frequency(spin):
+    """In Hz, at planet spin in degrees per second relative to the carrier."""
+    return PLANET_TEETH * abs(spin) / 360.0
+
+
+def half_play():
+    """Rotation of a side gear [rad] from mid-gap to the touch of the drive flanks, planets held."""
+    return BACKLASH * cos(PRESSURE_ANGLE) / OUTER_CONE / 2.0 / SIDE_LEVER
+
+
+def largest_wind_up():
+    """Rotation of a side gear [rad] under the load if one pair of each mesh carries it alone."""
+    return (normal_force() / STIFFNESS) ** (1.0 / EXPONENT) / MEAN_CONE / SIDE_LEVER
