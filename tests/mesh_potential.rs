@@ -99,7 +99,7 @@ fn force_without_damping_is_minus_the_gradient_of_the_energy() {
             // the error is (h/a)⁴ ~ 1e-12 of the force, and rounding ε V/h ~ 1e-13 of it; across a corner's coming into
             // contact the energy is only d^(e+1): (h/a)^e of a pair's force, 3e-5 of h/a = 1e-3
             let h = 1e-3 * depth;
-            let force = mesh.load::<false>(&state).force;
+            let force = mesh.force(&state).force;
             let scale = force[0].abs();
             let allowed = if smooth(&mesh, &state, h, false) { 1e-8 } else { 1e-4 };
             for axis in 0..2 {
@@ -130,7 +130,7 @@ fn force_stays_the_gradient_across_the_ends_of_the_path() {
                     let at_end = -hand * (s - pair.centred_position());
                     for past in [-2e-4, -1e-6, 0.0, 1e-6, 2e-4] {
                         let state = MeshState { position: [q, at_end + past], rate: [0.0; 2] };
-                        let force = mesh.load::<false>(&state).force;
+                        let force = mesh.force(&state).force;
                         let h = 1e-3 * depth;
                         for axis in 0..2 {
                             let gradient = difference(&state, axis, h, false, |s| mesh.energy(s.position));
@@ -157,10 +157,10 @@ fn jacobian_equals_differences_of_the_damped_force() {
             let state = random_state(&mut random, &pair);
             let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
             let h = 1e-4 * depth;
-            let load = mesh.load::<true>(&state);
+            let (load, jacobian) = mesh.linearise(&state);
             clipped += pattern(&mesh, &state).iter().filter(|p| p.2).count();
-            assert_eq!(load.force, mesh.load::<false>(&state).force, "{state:?}");
-            for (of_rate, h, by) in [(false, h, load.by_position), (true, 1e-3, load.by_rate)] {
+            assert_eq!(load.force, mesh.force(&state).force, "{state:?}");
+            for (of_rate, h, by) in [(false, h, jacobian.by_position), (true, 1e-3, jacobian.by_rate)] {
                 if !smooth(&mesh, &state, h, of_rate) {
                     continue;
                 }
@@ -168,7 +168,7 @@ fn jacobian_equals_differences_of_the_damped_force() {
                 let scale = by.iter().flatten().fold(1e-30, |m: f64, x| m.max(x.abs()));
                 for a in 0..2 {
                     for b in 0..2 {
-                        let d = difference(&state, b, h, of_rate, |s| mesh.load::<false>(s).force[a]);
+                        let d = difference(&state, b, h, of_rate, |s| mesh.force(s).force[a]);
                         let off = (by[a][b] - d).abs() / scale;
                         worst = worst.max(off);
                         // rounding ε F/(h F′) ~ 1e-12, growing where forces nearly cancel
@@ -187,7 +187,7 @@ fn hessian_is_symmetric_without_damping() {
     let mut random = Lcg(13);
     for (mesh, pair) in meshes(0.0, true) {
         for _ in 0..STATES {
-            let [[_, a], [b, _]] = mesh.load::<true>(&random_state(&mut random, &pair)).by_position;
+            let [[_, a], [b, _]] = mesh.linearise(&random_state(&mut random, &pair)).1.by_position;
             assert!((a - b).abs() <= 1e-14 * a.abs(), "{a} {b}");
         }
     }
@@ -200,7 +200,7 @@ fn power_of_the_force_plus_heat_is_what_the_energy_loses() {
     for (mesh, pair) in meshes(5e4, true) {
         for _ in 0..STATES {
             let state = random_state(&mut random, &pair);
-            let load = mesh.load::<false>(&state);
+            let load = mesh.force(&state);
             assert!(load.heat >= 0.0, "{state:?} cools: {}", load.heat);
             hot += usize::from(load.heat > 0.0);
             let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
@@ -209,7 +209,7 @@ fn power_of_the_force_plus_heat_is_what_the_energy_loses() {
                 .map(|axis| difference(&state, axis, h, false, |s| mesh.energy(s.position)) * state.rate[axis])
                 .sum();
             let power = load.force[0] * state.rate[0] + load.force[1] * state.rate[1];
-            let scale = mesh.load::<false>(&MeshState { rate: [0.0; 2], ..state }).force[0].abs() + load.force[0].abs();
+            let scale = mesh.force(&MeshState { rate: [0.0; 2], ..state }).force[0].abs() + load.force[0].abs();
             let off = (power + load.heat + gained).abs() / scale;
             let steady = smooth(&mesh, &state, h, false);
             if steady {
@@ -230,9 +230,9 @@ fn coasting_is_the_mirror_image_of_driving() {
             for _ in 0..STATES {
                 let state = random_state(&mut random, &pair);
                 let mirror = MeshState { position: state.position.map(|x| -x), rate: state.rate.map(|x| -x) };
-                let (a, b) = (mesh.load::<true>(&state), mesh.load::<true>(&mirror));
+                let ((a, da), (b, db)) = (mesh.linearise(&state), mesh.linearise(&mirror));
                 assert_eq!(a.force, b.force.map(|f| -f), "{state:?}");
-                assert_eq!((a.heat, a.by_position, a.by_rate), (b.heat, b.by_position, b.by_rate), "{state:?}");
+                assert_eq!((a.heat, da.by_position, da.by_rate), (b.heat, db.by_position, db.by_rate), "{state:?}");
                 assert_eq!(mesh.energy(state.position), mesh.energy(mirror.position));
             }
         }
@@ -267,7 +267,7 @@ fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
             let energy = mesh.energy([q, x]);
             assert!((energy - expected).abs() <= 1e-12 * expected, "{q} {x}: {energy} {expected}");
             // straight along the path: no force by x
-            assert_eq!(mesh.load::<false>(&MeshState { position: [q, x], rate: [0.0; 2] }).force[1], 0.0);
+            assert_eq!(mesh.force(&MeshState { position: [q, x], rate: [0.0; 2] }).force[1], 0.0);
         }
     }
 }

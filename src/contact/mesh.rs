@@ -9,7 +9,7 @@
 //!
 //! V(q, x) = Σ U(d). Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves energy.
 
-use super::impact::Impact;
+use super::impact::{Force, Impact};
 use crate::geometry::Pair;
 use crate::geometry::corner::CornerGap;
 
@@ -59,17 +59,33 @@ pub struct MeshState {
     pub rate: [f64; 2],
 }
 
-/// Forces of a mesh conjugate to (q, x) [N·m per rad on the unit sphere], with energy, heat and derivatives.
+/// Forces of a mesh conjugate to (q, x) [N·m per rad on the unit sphere], and heat.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct MeshLoad {
+pub struct MeshForce {
     /// −∂V/∂(q, x) with damping [N·m].
     pub force: [f64; 2],
+    /// Power turned into heat [W].
+    pub heat: f64,
+}
+
+/// Derivatives of the forces of a mesh.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MeshJacobian {
     /// ∂force/∂(q, x) [N·m/rad].
     pub by_position: [[f64; 2]; 2],
     /// ∂force/∂(q̇, ẋ) [N·m·s/rad].
     pub by_rate: [[f64; 2]; 2],
-    /// Power turned into heat [W].
-    pub heat: f64,
+}
+
+impl MeshForce {
+    /// Adds the force `f` of a pair with slopes `slope` at cone distance `r`, approaching with `rate` [m/s].
+    #[inline]
+    fn add(&mut self, f: &Force, slope: [f64; 2], r: f64, rate: f64) {
+        let torque = r * f.total;
+        self.force[0] -= torque * slope[0];
+        self.force[1] -= torque * slope[1];
+        self.heat += (f.total - f.elastic) * rate;
+    }
 }
 
 /// A planet meshing with a side gear under the IMPACT law.
@@ -88,11 +104,21 @@ pub struct Mesh {
     low: f64,
     high: f64,
     corner_contact: bool,
-    /// Arc beyond the path's ends in which corners can touch [rad].
-    beyond: f64,
-    /// Tooth pairs that can be within reach at once: a fixed count, so that no wild trial state can keep a step busy.
+    /// Where tooth pairs can touch at working loads, and up to the largest approach.
+    windows: [Window; 2],
+}
+
+/// Part of the line of action in which pairs can touch up to some approach.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    /// Its lower end [rad].
+    low: f64,
+    /// Tooth pairs that fit in: a fixed count, so that no wild trial state can keep a step busy.
     candidates: usize,
 }
+
+/// Approach [rad] up to which the narrow window serves: some tenths of a millimetre, beyond any working load.
+const WORKING_APPROACH: f64 = 5e-3;
 
 /// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
 const ROUNDING: f64 = 1e-9;
@@ -105,13 +131,18 @@ fn ceil(x: f64) -> f64 {
 }
 
 impl Mesh {
-    /// Mesh of `pair` under `law`; gaps are exact up to an approach of `reach` [rad].
+    /// Mesh of `pair` under `law` for approaches up to `reach` [rad].
     pub fn new(pair: &Pair, law: Impact, corner_contact: bool, reach: f64) -> Self {
         let corner = [CornerGap::new(pair, 0, reach), CornerGap::new(pair, 1, reach)];
-        let beyond = if corner_contact { corner[0].reach(reach).max(corner[1].reach(reach)) } else { 0.0 };
         let low = -corner[1].end;
         let high = corner[0].end;
+        let window = |approach: f64| {
+            let beyond = |i: usize| if corner_contact { corner[i].reach(approach) } else { 0.0 };
+            let length = beyond(1) + (high - low) + beyond(0);
+            Window { low: low - beyond(1), candidates: libm::ceil(length / pair.base_pitch) as usize }
+        };
         Self {
+            windows: [window(WORKING_APPROACH), window(reach)],
             law,
             cone: pair.mean_cone,
             half_backlash: pair.normal_backlash / 2.0,
@@ -122,8 +153,6 @@ impl Mesh {
             high,
             corner,
             corner_contact,
-            beyond,
-            candidates: libm::ceil((high - low + 2.0 * beyond) / pair.base_pitch) as usize,
         }
     }
 
@@ -147,9 +176,10 @@ impl Mesh {
         }
         let (flank, sign) = if q < 0.0 { (Flank::Drive, -1.0) } else { (Flank::Coast, 1.0) };
         let start = self.centred - sign * x;
-        let first = ceil((self.low - self.beyond - start) * self.per_base_pitch - ROUNDING);
+        let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
+        let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
         let mut s = start + first * self.base_pitch;
-        for _ in 0..self.candidates {
+        for _ in 0..window.candidates {
             let past_planet_tip = s - self.high;
             let past_side_tip = self.low - s + approach;
             if past_planet_tip > 0.0 {
@@ -191,36 +221,48 @@ impl Mesh {
         }
     }
 
-    /// Forces and heat; with `JACOBIAN` also their derivatives.
+    /// Rate ḋ [m/s] and force of a pair.
     #[inline]
-    pub fn load<const JACOBIAN: bool>(&self, state: &MeshState) -> MeshLoad {
-        let mut load = MeshLoad::default();
+    pub fn pair_force(&self, pair: &ToothPair, state: &MeshState) -> (f64, Force) {
+        let rate = self.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1]);
+        (rate, self.law.force(self.cone * pair.depth, rate))
+    }
+
+    /// Forces and heat.
+    #[inline]
+    pub fn force(&self, state: &MeshState) -> MeshForce {
+        let mut sum = MeshForce::default();
+        self.pairs(state.position, |pair| {
+            if pair.depth > 0.0 {
+                let (rate, f) = self.pair_force(pair, state);
+                sum.add(&f, pair.slope, self.cone, rate);
+            }
+        });
+        sum
+    }
+
+    /// Forces, heat and the forces' exact derivatives.
+    pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+        let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
         let r = self.cone;
         self.pairs(state.position, |pair| {
             if pair.depth <= 0.0 {
                 return;
             }
-            let [p_q, p_x] = pair.slope;
-            let rate = r * (p_q * state.rate[0] + p_x * state.rate[1]);
-            let f = self.law.force(r * pair.depth, rate);
-            load.force[0] -= r * f.total * p_q;
-            load.force[1] -= r * f.total * p_x;
-            load.heat += (f.total - f.elastic) * rate;
-            if JACOBIAN {
-                let [qq, xx] = pair.curvature;
-                let qx = qq;
-                let turn = [qq * state.rate[0] + qx * state.rate[1], qx * state.rate[0] + xx * state.rate[1]];
-                let hessian = [[qq, qx], [qx, xx]];
-                for a in 0..2 {
-                    for b in 0..2 {
-                        let along = f.by_depth * pair.slope[b] + f.by_rate * turn[b];
-                        load.by_position[a][b] -= r * (r * along * pair.slope[a] + f.total * hessian[a][b]);
-                        load.by_rate[a][b] -= r * r * f.by_rate * pair.slope[a] * pair.slope[b];
-                    }
+            let (rate, f) = self.pair_force(pair, state);
+            sum.add(&f, pair.slope, r, rate);
+            let [qq, xx] = pair.curvature;
+            let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];
+            let hessian = [[qq, qq], [qq, xx]];
+            for a in 0..2 {
+                for b in 0..2 {
+                    let along = f.by_depth * pair.slope[b] + f.by_rate * turn[b];
+                    jacobian.by_position[a][b] -= r * (r * along * pair.slope[a] + f.total * hessian[a][b]);
+                    jacobian.by_rate[a][b] -= r * r * f.by_rate * pair.slope[a] * pair.slope[b];
                 }
             }
         });
-        load
+        (sum, jacobian)
     }
 
     /// Elastic energy V [J] at position (q, x).

@@ -77,7 +77,8 @@ impl ClosedForm {
 }
 
 impl CornerGap {
-    /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, exact up to gaps of `reach` [rad].
+    /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or one base
+    /// pitch beyond the path's end, whichever comes first; it goes on growing quadratically from there.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
         let natural = pair.tip_arc[i] - pair.pitch_arc[i];

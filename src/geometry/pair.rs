@@ -56,7 +56,8 @@ pub struct Path {
 }
 
 impl Pair {
-    /// Geometry of the pair `spec`; its values must be within the ranges of the interface.
+    /// Geometry of the pair `spec`; its values must be within the ranges of the interface, and both pitch angles below
+    /// 90° (no crown or internal gears).
     pub fn new(spec: &GearSpec) -> Self {
         let (z_p, z_s) = (f64::from(spec.planet_teeth), f64::from(spec.side_teeth));
         let (m, alpha, sigma) = (spec.module, spec.pressure_angle, spec.shaft_angle);

@@ -1,6 +1,7 @@
 //! The differential as a mechanical system: parameters → plan → equations → readings.
 
 mod bodies;
+mod constants;
 mod ideal;
 mod parameters;
 mod plan;

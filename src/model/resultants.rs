@@ -51,9 +51,7 @@ fn mesh_forces(pair: &Pair, mesh: &Mesh, state: &MeshState) -> MeshForces {
         if contact.depth <= 0.0 {
             return;
         }
-        let [p_q, p_x] = contact.slope;
-        let rate = mesh.cone * (p_q * state.rate[0] + p_x * state.rate[1]);
-        let force = mesh.law.force(mesh.cone * contact.depth, rate).total;
+        let force = mesh.pair_force(contact, state).1.total;
         let part = parts(pair, mesh, contact);
         out.normal += force;
         out.pairs += if force > 0.0 { 1.0 } else { 0.0 };

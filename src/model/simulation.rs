@@ -4,17 +4,13 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::bodies::Inertias;
-use super::ideal::Ideal;
-use super::parameters::{GearContact, Inputs, Parameters};
-use super::plan::Plan;
+use super::constants::Model;
+use super::parameters::{Inputs, Parameters};
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
-use super::state::{CARRIER, MAX_DOF, PLANET, State};
+use super::state::{CARRIER, PLANET, State};
 use super::teeth::{Equations, Teeth};
 use super::{resultants, start};
-use crate::contact::impact::Impact;
-use crate::contact::mesh::Mesh;
-use crate::contact::{ContactSpec, hertz};
-use crate::geometry::{Pair, checks};
+use crate::geometry::Pair;
 use crate::integrate::{self, Failure};
 use crate::numeric::TAU;
 use crate::problem::Problem;
@@ -40,17 +36,6 @@ const FIRST_STEP: f64 = 1e-6;
 /// Longest stretch integrated before positions are wrapped [s].
 const STRETCH: f64 = 1.0;
 
-/// Everything derived from the parameters; it does not change while a simulation runs, but for tunable parameters.
-#[derive(Clone, Debug)]
-struct Model {
-    parameters: Parameters,
-    pair: Pair,
-    ideal: Ideal,
-    teeth: Option<Teeth>,
-    periods: [f64; MAX_DOF],
-    warnings: Vec<Problem>,
-}
-
 /// Why a step could not be completed; the simulation stands at the last good time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepFailure {
@@ -73,69 +58,6 @@ pub struct Simulation {
     state: State,
     inputs: Inputs,
     forces: Option<Forces>,
-}
-
-impl Model {
-    fn new(parameters: &Parameters) -> Result<Self, Vec<Problem>> {
-        let mut spec = parameters.geometry;
-        if !parameters.effects.backlash {
-            spec.backlash = 0.0;
-        }
-        if !Pair::is_right_angle(spec.shaft_angle) {
-            return Err(vec![Problem::new(
-                "geometry.shaft_angle",
-                format!(
-                    "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
-                     small errors of assembly are not a nominal shaft angle",
-                    spec.shaft_angle.to_degrees()
-                ),
-            )]);
-        }
-        let pair = Pair::new(&spec);
-        let mut problems = checks::errors(&spec, &pair);
-        let plan = match Plan::new(parameters, &pair) {
-            Ok(plan) if problems.is_empty() => plan,
-            Ok(_) => return Err(problems),
-            Err(problem) => {
-                problems.push(problem);
-                return Err(problems);
-            }
-        };
-        let inertia = Inertias::new(parameters, &pair);
-        let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
-        let mut periods = [pair.gears[0].tooth_pitch(); MAX_DOF];
-        periods[..PLANET].copy_from_slice(&[pair.gears[1].tooth_pitch(), pair.gears[1].tooth_pitch(), TAU]);
-        let teeth = (plan.contact == GearContact::Tooth).then(|| {
-            // neither may a tooth bend by the working depth nor reach the next gap
-            let working_depth = (pair.gears[0].addendum + pair.gears[1].addendum) / pair.outer_cone;
-            let jump = working_depth.min(0.5 * pair.base_pitch);
-            let mesh = Mesh::new(&pair, law(parameters, &pair), parameters.effects.corner_contact, jump);
-            Teeth::new(&pair, mesh, plan, inertia, jump)
-        });
-        Ok(Self {
-            parameters: *parameters,
-            ideal: Ideal { plan, inertia, ratio },
-            teeth,
-            periods,
-            warnings: checks::warnings(&spec, &pair),
-            pair,
-        })
-    }
-}
-
-fn law(parameters: &Parameters, pair: &Pair) -> Impact {
-    let ContactSpec { stiffness, exponent, damping, penetration_depth, .. } = parameters.contact;
-    let hertz = || {
-        let radius = |i| 0.5 * pair.outer_pitch_diameter(i);
-        let material = &parameters.material;
-        hertz::stiffness(radius(0), radius(1), material.young_modulus, material.poisson_ratio)
-    };
-    Impact {
-        stiffness: if parameters.contact.stiffness_from_hertz { hertz() } else { stiffness },
-        exponent,
-        damping,
-        per_full_depth: 1.0 / penetration_depth,
-    }
 }
 
 impl Simulation {

@@ -94,7 +94,12 @@ fn within_a_tooth<const N: usize>(teeth: &Teeth, point: &Point<N>) -> bool {
 }
 
 /// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
-fn press_sides<const N: usize>(teeth: &Teeth, equations: &Equations<N>, torque: [f64; 2], point: &mut Point<N>) -> Result<(), Problem> {
+fn press_sides<const N: usize>(
+    teeth: &Teeth,
+    equations: &Equations<N>,
+    torque: [f64; 2],
+    point: &mut Point<N>,
+) -> Result<(), Problem> {
     for s in 0..2 {
         point.q[s] = 0.0;
         if torque[s] == 0.0 {

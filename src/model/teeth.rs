@@ -12,7 +12,7 @@ use super::bodies::Inertias;
 use super::parameters::Inputs;
 use super::plan::Plan;
 use super::state::{CARRIER, LEFT, MAX_DOF, PLANET, State};
-use crate::contact::mesh::{Mesh, MeshLoad, MeshState};
+use crate::contact::mesh::{Mesh, MeshForce, MeshState};
 use crate::geometry::Pair;
 use crate::integrate::{Linearisation, Matrix, Point, Power, SecondOrder};
 
@@ -130,7 +130,7 @@ impl<'a, const N: usize> Equations<'a, N> {
     }
 
     #[inline]
-    fn add_forces(&self, load: &MeshLoad, g: usize, s: usize, sum: &mut [f64; N]) {
+    fn add_forces(&self, load: &MeshForce, g: usize, s: usize, sum: &mut [f64; N]) {
         let [planet, side] = self.teeth.lever;
         let members = self.teeth.plan.group(g).members;
         let on_side = members * side * load.force[0];
@@ -166,7 +166,7 @@ impl<'a, const N: usize> Equations<'a, N> {
     pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
         let (mut sum, mut heat) = ([0.0; N], 0.0);
         self.each_mesh(|g, s| {
-            let load = self.teeth.mesh.load::<false>(&self.mesh_state(at, g, s));
+            let load = self.teeth.mesh.force(&self.mesh_state(at, g, s));
             heat += self.teeth.plan.group(g).members * load.heat;
             self.add_forces(&load, g, s, &mut sum);
         });
@@ -179,7 +179,7 @@ impl<'a, const N: usize> Equations<'a, N> {
         self.each_mesh(|g, s| {
             let mut state = self.mesh_state(at, g, s);
             state.rate = [0.0; 2];
-            self.add_jacobian(&self.teeth.mesh.load::<true>(&state).by_position, g, s, &mut m);
+            self.add_jacobian(&self.teeth.mesh.linearise(&state).1.by_position, g, s, &mut m);
         });
         m
     }
@@ -258,11 +258,11 @@ impl<const N: usize> SecondOrder<N> for Equations<'_, N> {
         let (mut acceleration, mut heat) = ([0.0; N], 0.0);
         let (mut by_position, mut by_velocity) = ([[0.0; N]; N], [[0.0; N]; N]);
         self.each_mesh(|g, s| {
-            let load = self.teeth.mesh.load::<true>(&self.mesh_state(at, g, s));
+            let (load, jacobian) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
             heat += self.teeth.plan.group(g).members * load.heat;
             self.add_forces(&load, g, s, &mut acceleration);
-            self.add_jacobian(&load.by_position, g, s, &mut by_position);
-            self.add_jacobian(&load.by_rate, g, s, &mut by_velocity);
+            self.add_jacobian(&jacobian.by_position, g, s, &mut by_position);
+            self.add_jacobian(&jacobian.by_rate, g, s, &mut by_velocity);
         });
         self.divide_by_inertia(&mut by_position);
         self.divide_by_inertia(&mut by_velocity);

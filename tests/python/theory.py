@@ -34,9 +34,14 @@ def mesh_frequency(spin):
     return PLANET_TEETH * abs(spin) / 360.0
 
 
+def half_play_arc():
+    """Half the normal backlash, as an arc on the unit sphere."""
+    return BACKLASH * cos(PRESSURE_ANGLE) / OUTER_CONE / 2.0
+
+
 def half_play():
     """Rotation of a side gear [rad] from mid-gap to the touch of the drive flanks, planets held."""
-    return BACKLASH * cos(PRESSURE_ANGLE) / OUTER_CONE / 2.0 / SIDE_LEVER
+    return half_play_arc() / SIDE_LEVER
 
 
 def largest_wind_up():

@@ -1,0 +1,217 @@
+"""Ripple of the side gears' speeds in the study's turn, against contact constants; writes docs/images/ripple.png.
+
+usage, from the top of the repository, after `cargo run --release`:
+    target/python/bin/python docs/scripts/ripple.py [FMU]
+
+Prints the table of docs/ripple.md. Everything is measured through the FMU but the last two columns.
+"""
+
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from fmpy import extract, read_model_description, simulate_fmu
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[2]
+FMU = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "target" / "fmu" / "BevelDifferential.fmu")
+
+# the study's turn
+CARRIER, SPIN, LOAD = 954.0, 200.0, 835.0  # deg/s, deg/s, N.m
+Z_P, Z_S, MODULE, FACE, ALPHA = 10, 16, 4.5e-3, 20e-3, np.radians(20.0)
+STIFFNESS, DAMPING = 5.77e5 * 1e3**1.5, 5e4  # N/m^1.5, N.s/m
+LINE = 14e9  # N/m², a single pair of steel teeth by ISO 6336-1: 14 N/(mm·µm)
+PERIOD = 360.0 / (Z_P * SPIN)  # s, one tooth
+DIFFERENCE = SPIN * Z_P / Z_S  # deg/s
+SIDES = [("left", CARRIER + DIFFERENCE), ("right", CARRIER - DIFFERENCE)]
+
+# geometry, ISO 23509 symbols
+PITCH_P = np.arctan2(Z_P, Z_S)
+PITCH_S = np.pi / 2 - PITCH_P
+R_E = MODULE * Z_P / (2 * np.sin(PITCH_P))
+R_M = R_E - FACE / 2
+BASE_P, BASE_S = (np.arcsin(np.sin(d) * np.cos(ALPHA)) for d in (PITCH_P, PITCH_S))
+ADDENDUM_S = (0.540 + 0.460 / (Z_S / Z_P) ** 2) * MODULE  # Gleason, u_v = (z_s/z_p)² at 90°
+TIP_P, TIP_S = (d + np.arctan2(h, R_E) for d, h in ((PITCH_P, 2 * MODULE - ADDENDUM_S), (PITCH_S, ADDENDUM_S)))
+
+
+def gap(delta, pitch, base, tip, mate_pitch, mate_base):
+    """Gap of a tip corner to the mate's flank, the arc Δ past the end of the path [rad]; docs/theory.md."""
+    arc = lambda b, polar: np.arccos(np.cos(polar) / np.cos(b))  # noqa: E731
+    inv = lambda b, polar: arc(b, polar) / np.sin(b) - np.arctan2(np.tan(arc(b, polar)), np.sin(b))  # noqa: E731
+    at_end, at_pitch = (np.arctan2(np.tan(arc(base, polar)), np.sin(base)) for polar in (tip, pitch))
+    chi = at_end - at_pitch + delta / np.sin(base)
+    eta = np.arctan2(np.sin(chi) * np.sin(tip), np.cos(tip))  # about the mate's axis, at 90° to the gear's
+    polar = np.arccos(np.cos(chi) * np.sin(tip))
+    turn = eta - inv(mate_base, polar) + inv(mate_base, mate_pitch)
+    return arc(base, tip) - arc(base, pitch) + delta - np.sin(mate_base) * turn
+
+
+DELTA = np.linspace(0.0, 0.12, 24001)
+GAP_P = gap(DELTA, PITCH_P, BASE_P, TIP_P, PITCH_S, BASE_S)
+GAP_S = gap(DELTA, PITCH_S, BASE_S, TIP_S, PITCH_P, BASE_P)
+
+
+def quasi_static(te_one, exponent):
+    """Ripple, peak to peak [%], of massless, undamped teeth whose single pair bends by te_one [m]."""
+    one = te_one / R_M
+    arc = np.linspace(0.0, 1.3 * np.interp(one, GAP_P, DELTA), 4001)
+    approach = np.linspace(0.5 ** (1 / exponent), 1.0, 801)[1:-1] * one
+    # the corner pair's share: a^e + (a − g)^e (1 − λ) = one^e; λ = 0 at the planet's tip, g′ at the side gear's, whose
+    # corner rides on the gear that carries the approach: Δ = s_lo − s + a
+    slopes = []
+    for full, rides in (GAP_P, 0.0), (GAP_S, 1.0):
+        table = np.interp(arc, DELTA, full)
+        slope = np.interp(arc, DELTA, np.gradient(full, DELTA))
+        load = lambda a: a**exponent + np.maximum(a - table, 0.0) ** exponent * (1 - rides * slope) - one**exponent  # noqa: E731
+        delta = np.empty_like(approach)
+        for i, a in enumerate(approach):
+            crossing = np.flatnonzero(load(a)[1:] < 0.0)[0]
+            low, high = load(a)[crossing], load(a)[crossing + 1]
+            delta[i] = arc[crossing] + (arc[1] - arc[0]) * low / (low - high)
+        slopes.append(np.max(np.gradient(approach, delta - rides * approach)))
+    return [100.0 * DIFFERENCE / speed * sum(slopes) for _, speed in SIDES]
+
+
+def steepest(exponent):
+    """κ = max dy/du of y^e + (y − u²)^e = 1: how steeply the deflection grows as a corner leaves, dimensionless."""
+    u = np.linspace(0.0, 1.0, 2001)[:-1]
+    low, high = np.maximum(u**2, 0.5 ** (1 / exponent)), np.ones_like(u)
+    for _ in range(60):
+        y = 0.5 * (low + high)
+        above = y**exponent + np.maximum(y - u**2, 0.0) ** exponent > 1.0
+        high, low = np.where(above, y, high), np.where(above, low, y)
+    v, w = y ** (exponent - 1), np.maximum(y - u**2, 1e-300) ** (exponent - 1)
+    return float(np.max(2 * u * w / (v + w)))
+
+
+def square_root(te_one, exponent):
+    """The same by the short formula κ √(a₁ c), with c = g/Δ² where the gap is the single pair's approach a₁."""
+    one = te_one / R_M
+    slope = steepest(exponent) * sum(one / np.interp(one, table, DELTA) for table in (GAP_P, GAP_S))
+    return [100.0 * DIFFERENCE / speed * slope for _, speed in SIDES]
+
+
+class Turn:
+    """Runs of the turn with changed start values."""
+
+    def __init__(self):
+        self.description = read_model_description(FMU)
+        self.unpacked = extract(FMU)
+
+    def __call__(self, changes, step=1e-4):
+        values = {"scene.planet_spin": 2, "planet.spin_command": (SPIN, "deg/s"),
+                  "carrier.speed_command": (CARRIER, "deg/s"), **changes}
+        output = [f"{side}.speed" for side, _ in SIDES] + ["solver.steps"] + [
+            f"planet[1].{side}_{what}" for side, _ in SIDES for what in ["transmission_error", "pairs"]]
+        record = simulate_fmu(self.unpacked, model_description=self.description, start_values=values,
+                              stop_time=3 * PERIOD, output_interval=step, output=output,
+                              logger=lambda *_: None)
+        return record[record["time"] > PERIOD]
+
+    def measured(self, changes, step=1e-4):
+        """Deflection with one and with two pairs [m], ripple of both sides peak to peak [%]."""
+        record = self(changes, step)
+        error = record["planet[1].left_transmission_error"]
+        ripple = [100.0 * np.ptp(np.degrees(record[f"{side}.speed"])) / speed for side, speed in SIDES]
+        return np.max(error), np.min(error), ripple
+
+
+def per_pair_force():
+    """Normal force of a mesh [N]."""
+    return LOAD / (2 * R_M * np.sin(BASE_S))
+
+
+def variants():
+    """Name, changed start values, exponent, output interval."""
+    yield "the study's constants", {}, 1.5, 1e-4
+    for factor in [0.25, 4, 16, 64]:
+        yield f"K × {factor:g}", {"contact.stiffness": STIFFNESS * factor}, 1.5, 1e-4
+    for factor in [0.1, 10, 0]:
+        yield f"C × {factor:g}", {"contact.damping": DAMPING * factor}, 1.5, 1e-4
+    # the same force at the study's single-pair deflection
+    force = per_pair_force()
+    depth = (force / STIFFNESS) ** (1 / 1.5)
+    for exponent in [1.0, 2.0]:
+        yield f"e = {exponent:g}, same force at {depth * 1e6:.1f} µm", {
+            "contact.exponent": exponent, "contact.stiffness": force / depth**exponent}, exponent, 1e-4
+    yield f"e = 1, K = c′b = {LINE * FACE:.1e} N/m", {
+        "contact.exponent": 1.0, "contact.stiffness": LINE * FACE}, 1.0, 1e-4
+    yield "4 planets", {"geometry.planet_count": 4}, 1.5, 1e-4
+    yield "half the load", {"left.load_torque": LOAD / 2, "right.load_torque": LOAD / 2}, 1.5, 1e-4
+    yield "all speeds × 10", {"carrier.speed_command": (CARRIER * 10, "deg/s"),
+                              "planet.spin_command": (SPIN * 10, "deg/s")}, 1.5, 1e-5
+    yield "no corner contact", {"effects.corner_contact": False}, 1.5, 2e-6
+    yield "no corner contact, C × 0.1", {"effects.corner_contact": False, "contact.damping": DAMPING / 10}, 1.5, 2e-6
+
+
+def both(values):
+    return "{:.2f} / {:.2f}".format(*values)
+
+
+def main():
+    turn = Turn()
+    print("| variant | TE₁, µm | TE₂, µm | TE₁ − TE₂, µm | ripple measured, % | quasi-static, % | κ√(a₁c), % |")
+    print("|---|---:|---:|---:|---:|---:|---:|")
+    points = []
+    for name, changes, exponent, step in variants():
+        one, two, ripple = turn.measured(changes, step)
+        if "speeds" in name:  # in per cent of the case's own speeds
+            ripple = [r / 10 for r in ripple]
+        calculated = ["–", "–"]
+        if "corner" not in name:
+            calculated = [both(rule(one, exponent)) for rule in (quasi_static, square_root)]
+            points.append((name, exponent, one, ripple[0]))
+        print(f"| {name} | {one * 1e6:.1f} | {two * 1e6:.1f} | {(one - two) * 1e6:.1f} | {both(ripple)} | "
+              f"{calculated[0]} | {calculated[1]} |", flush=True)
+    print("κ(e):", {e: round(steepest(e), 3) for e in [1.0, 1.5, 2.0]})
+    print("c at the study's deflection, planet's and side gear's tip:",
+          [float(round(a / np.interp(a, t, DELTA) ** 2, 3)) for t in (GAP_P, GAP_S) for a in [depth_of_study() / R_M]])
+    draw(turn, points)
+
+
+def depth_of_study():
+    return (per_pair_force() / STIFFNESS) ** (1 / 1.5)
+
+
+def draw(turn, points):
+    plt.rcParams.update({"font.size": 10, "axes.spines.top": False, "axes.spines.right": False,
+                         "axes.grid": True, "grid.alpha": 0.3, "legend.frameon": False})
+    figure, (errors, speeds, rule) = plt.subplots(1, 3, figsize=(13, 4.0), layout="constrained")
+    left = SIDES[0][1]
+    for name, changes, colour in [("study's K", {}, "#1f6fb4"), ("K × 4", {"contact.stiffness": 4 * STIFFNESS}, "#d1495b"),
+                                  ("K × 16", {"contact.stiffness": 16 * STIFFNESS}, "#66a182")]:
+        record = turn(changes)
+        record = record[record["time"] < 2 * PERIOD]
+        time = 1e3 * (record["time"] - PERIOD)
+        errors.plot(time, 1e6 * record["planet[1].left_transmission_error"], color=colour, label=name)
+        speeds.plot(time, 100 * (np.degrees(record["left.speed"]) / left - 1), color=colour, label=name)
+    errors.set(xlabel="time in one tooth cycle, ms", ylabel="transmission error, left, µm", ylim=(0, None),
+               title="Deflection: one pair, two pairs")
+    speeds.set(xlabel="time in one tooth cycle, ms", ylabel="left speed about 1079 °/s, %",
+               title="Ripple: its rate of change")
+    errors.legend(loc="upper right", bbox_to_anchor=(1.0, 0.93))
+    speeds.legend(loc="upper right")
+    te = np.geomspace(4, 300, 16) * 1e-6
+    for exponent, colour in [(1.0, "#d1495b"), (1.5, "#1f6fb4"), (2.0, "#66a182")]:
+        rule.loglog(te * 1e6, [quasi_static(t, exponent)[0] for t in te], color=colour, label=f"quasi-static, e = {exponent:g}")
+        chosen = [(t, r) for name, e, t, r in points if e == exponent and name != "C × 0"]
+        rule.loglog([t * 1e6 for t, _ in chosen], [r for _, r in chosen], "o", color=colour, markersize=5)
+    ticks = [0.2, 0.5, 1, 2]
+    rule.set_yticks(ticks, [f"{t:g}" for t in ticks])
+    rule.set_yticks([], minor=True)
+    rule.set_xticks([5, 10, 20, 50, 100, 200], ["5", "10", "20", "50", "100", "200"])
+    rule.set_xticks([], minor=True)
+    rule.set(xlabel="deflection of a single pair, µm", ylabel="ripple, left, peak to peak, %",
+             title="Points: through the FMU")
+    rule.legend(loc="upper left")
+    images = ROOT / "docs" / "images"
+    images.mkdir(exist_ok=True)
+    figure.savefig(images / "ripple.png", dpi=120)
+
+
+if __name__ == "__main__":
+    main()
