@@ -52,6 +52,20 @@ fn communication_points_are_compared_with_a_tolerance() {
 }
 
 #[test]
+fn a_step_taken_twice_or_left_out_is_refused_at_late_times_too() {
+    for (start, h) in [(1e6, 1e-4), (1e3, 1e-6), (0.0, 1e-9)] {
+        let (host, status) = with_experiment(None, start, None);
+        assert_eq!((status, host.enter(), host.exit()), (Status::Ok, Status::Ok, Status::Ok));
+        host.steps(start, h, 1);
+        for wrong in [start, start + 3.0 * h] {
+            assert_eq!(host.step(wrong, h), Status::Error, "{start} {h} {wrong}");
+            assert_tells(&host.last(), &["communication point", "is not the current time"]);
+        }
+        assert_eq!(host.step(start + h, h), Status::Ok);
+    }
+}
+
+#[test]
 fn a_step_too_small_for_the_time_axis_changes_nothing() {
     for level in [1, 3] {
         let host = Host::on_level(level);

@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::integrate::{
-    Control, Failure, Linearisation, Point, Power, RODAS5P, SecondOrder, Statistics, advance, step,
+    Control, Effort, Failure, Linearisation, Point, Power, RODAS5P, SecondOrder, Statistics, advance, step,
 };
 
 /// A system given by its acceleration and that acceleration's derivatives.
@@ -109,7 +109,9 @@ fn run<const N: usize, S: SecondOrder<N>>(
     tolerance: f64,
 ) -> Result<Statistics, Failure<()>> {
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
-    advance(s, point, &mut time, until, tolerance, &mut control, &mut statistics, |_| Ok(()))?;
+    let mut budget = 1_000_000;
+    let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    advance(s, point, &mut time, until, effort, |_| Ok(()))?;
     Ok(statistics)
 }
 

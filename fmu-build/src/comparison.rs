@@ -223,8 +223,8 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
     );
     notes[Note::Ripple as usize - 1] = format!(
         "The study says ±{} % for all speeds. Settled, straight driving has no ripple, because no tooth rolls; in \
-         the turn it is that of the teeth's stiffness changing along the path. With the study's contact law and \
-         constants the exact tooth form gives no more than that.",
+         the turn it is the rate at which the deflection changes while tip corners hand the load over between one \
+         pair and two. With the study's contact law and constants the exact tooth form gives no more than that.",
         published::RIPPLE
     );
     let straight = &results.straight;
@@ -265,13 +265,18 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
         (false, true) => "jam in the side gear",
         (false, false) => "are free of interference",
     };
+    let [sphere, planar] = theory.contact_ratios();
     notes.push(format!(
         "Geometry: standard addenda (1.0 m) {what}; the limit is {:.3} m at {:.0} deg. Long and short addenda, the \
-         default, cure it. The face width of {:.0} mm is {:.3} R_e, above the usual R_e/3.",
+         default, cure it. The face width of {:.0} mm is {:.3} R_e, above the usual R_e/3. The contact ratio is {:.4} \
+         on the sphere; Tredgold's planar approximation, which the study uses, gives {:.4} ({:+.2} %).",
         theory.addendum_limit(),
         geometry.pressure_angle.to_degrees(),
         geometry.face_width * 1e3,
-        theory.relative_face_width()
+        theory.relative_face_width(),
+        sphere,
+        planar,
+        100.0 * (planar / sphere - 1.0)
     ));
     notes
 }

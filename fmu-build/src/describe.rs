@@ -5,10 +5,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use bevel_differential::fmi2::Category;
-use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::model::Parameters;
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
-    Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, table,
+    Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, real_start, table,
 };
 
 use crate::xml::Element;
@@ -29,7 +29,7 @@ pub fn model_description() -> Result<String> {
         .with("description", "Dynamics of a bevel gear differential with tooth contact, pair by pair")
         .with("author", "The bevel-differential project")
         .with("version", env!("CARGO_PKG_VERSION"))
-        .with("copyright", "The authors of the bevel-differential project")
+        .with("copyright", "The BevelDifferential authors")
         .with("license", "MIT OR Apache-2.0")
         .with("generationTool", concat!("fmu-build ", env!("CARGO_PKG_VERSION")))
         .with("generationDateAndTime", GENERATION_TIME)
@@ -198,15 +198,6 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     }
     let is_torque = |i: &usize| table.rows[*i].unit == Some(units::NEWTON_METRE);
     table.inputs.iter().copied().filter(is_torque).collect()
-}
-
-/// Start value of a real parameter or input.
-pub fn real_start(row: &Variable) -> Option<f64> {
-    match row.access {
-        Access::Real(access) => Some(*access(&mut Parameters::default())),
-        Access::Input(access) => Some(*access(&mut Inputs::default())),
-        _ => None,
-    }
 }
 
 /// A number such that reading it gives the same bits again.

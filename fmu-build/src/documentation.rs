@@ -2,9 +2,8 @@
 
 use anyhow::{Context, Result};
 use bevel_differential::model::Parameters;
-use bevel_differential::variables::{Access, Causality, MODEL_NAME, Variability, Variable, table};
+use bevel_differential::variables::{Access, Causality, MODEL_NAME, Variability, Variable, real_start, table};
 
-use crate::describe::real_start;
 use crate::xml::Element;
 
 const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:70em;margin:2em auto;padding:0 1em}\

@@ -1,7 +1,7 @@
 //! Closed forms for what the study measures, from the geometry in the library.
 
 use bevel_differential::contact::hertz;
-use bevel_differential::geometry::{AddendumSystem, Pair};
+use bevel_differential::geometry::{AddendumSystem, Pair, Tredgold};
 use bevel_differential::model::Parameters;
 
 use crate::published;
@@ -77,6 +77,11 @@ impl Theory {
         self.pair.limit_addendum(1) / self.pair.module
     }
 
+    /// Contact ratio on the sphere, and by Tredgold's planar approximation.
+    pub fn contact_ratios(&self) -> [f64; 2] {
+        [self.pair.path.contact_ratio, Tredgold::new(&self.pair).contact_ratio]
+    }
+
     /// Whether standard addenda cut or jam: at the planet, and at the side gear.
     pub fn standard_addenda_clip(&self) -> [bool; 2] {
         let spec = bevel_differential::geometry::GearSpec {
@@ -100,7 +105,6 @@ mod tests {
         assert!((value / wanted - 1.0).abs() < tolerance, "{value} is not {wanted}");
     }
 
-    /// Golden values of design documents, by hand.
     #[test]
     fn theory_gives_the_numbers_known_by_hand() {
         let theory = Theory::new(&Parameters::default());
@@ -116,5 +120,7 @@ mod tests {
         close(theory.addendum_limit(), 0.787, 1e-3);
         assert_eq!(theory.standard_addenda_clip(), [true, false]);
         close(theory.relative_face_width(), 0.471, 1e-3);
+        close(theory.contact_ratios()[0], 1.4835, 1e-4);
+        close(theory.contact_ratios()[1], 1.4818, 1e-4);
     }
 }

@@ -39,6 +39,8 @@ impl Impact {
             1.0 => 1.0,
             1.5 => sqrt(d),
             2.0 => d,
+            2.5 => d * sqrt(d),
+            3.0 => d * d,
             e => pow(d, e - 1.0),
         }
     }

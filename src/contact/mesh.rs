@@ -156,6 +156,11 @@ impl Mesh {
         }
     }
 
+    /// Half the normal backlash [rad].
+    pub fn half_backlash(&self) -> f64 {
+        self.half_backlash
+    }
+
     /// Approach of the drive flanks a_d at relative position `q` [rad].
     pub fn drive_approach(&self, q: f64) -> f64 {
         -q - self.half_backlash

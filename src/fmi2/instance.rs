@@ -10,8 +10,16 @@ use crate::problem;
 use crate::variables::{self, Access, Variable};
 
 /// Communication points are compared with this tolerance, relative to the larger of time and step size: far above what
-/// hosts lose by adding up steps, far below any step.
+/// hosts lose by adding up steps.
 const TIME_TOLERANCE: f64 = 1e-9;
+/// But a point that is off by this share of the step is another point.
+const STEP_TOLERANCE: f64 = 0.1;
+
+/// How far a time may be from where it should be [s], for times around `time` and steps of `h`.
+fn slack(time: f64, h: f64) -> f64 {
+    let wide = TIME_TOLERANCE * time.abs().max(h);
+    wide.min(STEP_TOLERANCE * h).max(64.0 * f64::EPSILON * time.abs())
+}
 
 /// An instance: what a snapshot keeps, and the log, which it does not.
 pub struct Instance {
@@ -87,6 +95,9 @@ impl Instance {
     /// fmi2Terminate.
     pub fn terminate(&mut self) -> Answer {
         self.now.phase = Phase::Terminated;
+        if let Some(simulation) = &self.now.simulation {
+            self.log.event(&simulation.account());
+        }
         Ok(())
     }
 
@@ -132,7 +143,7 @@ impl Instance {
         }
         let before = simulation.clone();
         let failure = match simulation.advance(until) {
-            Ok(()) if simulation.state().is_finite() => return Ok(()),
+            Ok(()) if simulation.state().is_valid() => return Ok(()),
             Ok(()) => {
                 *simulation = before;
                 format!("the step from t = {time} s by {h} s gave values that are not finite")
@@ -174,8 +185,7 @@ fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> Answer {
     if !(h.is_finite() && h > 0.0) {
         return Err(Refusal::error(format!("communication step size {h} s is not finite and positive")));
     }
-    let slack = TIME_TOLERANCE * time.abs().max(h);
-    if !point.is_finite() || (point - time).abs() > slack {
+    if !point.is_finite() || (point - time).abs() > slack(time, h) {
         return Err(Refusal::error(format!("communication point {point} s is not the current time {time} s")));
     }
     let until = point + h;
@@ -183,7 +193,7 @@ fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> Answer {
         return Err(Refusal::error(format!("the end of the step, {until} s, is not a finite number")));
     }
     match stop {
-        Some(stop) if until > stop + TIME_TOLERANCE * stop.abs().max(h) => {
+        Some(stop) if until > stop + slack(stop, h) => {
             Err(Refusal::error(format!("the step ends at {until} s, after the stop time {stop} s")))
         }
         _ => Ok(()),

@@ -115,7 +115,7 @@ impl Payload {
         if needs_state && self.state.is_none() {
             return Err(format!("the state of a simulation is missing in the phase \"{}\"", self.phase.name()));
         }
-        if !self.start_time.is_finite() || self.state.is_some_and(|s| !(s.time.is_finite() && s.is_finite())) {
+        if !self.start_time.is_finite() || self.state.is_some_and(|s| !s.is_valid()) {
             return Err("the state has values that are not finite".into());
         }
         let mut inputs = self.inputs;

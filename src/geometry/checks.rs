@@ -11,13 +11,17 @@ const MM: f64 = 1e3;
 const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
+/// Teeth reach at most so near to the apex, as a share of the outer cone distance: nearer they have no size to speak of.
+const LEAST_INNER_CONE: f64 = 0.1;
+/// Least root angle [rad]: a gear needs a body.
+const LEAST_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
 
 /// Why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
-    if pair.inner_cone <= 0.1 * pair.outer_cone {
+    if pair.inner_cone <= LEAST_INNER_CONE * pair.outer_cone {
         found.push(Problem::new(
             "geometry.face_width",
             format!(
@@ -28,16 +32,49 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     for (i, gear) in pair.gears.iter().enumerate() {
-        if gear.root <= 0.02 {
+        if gear.root <= LEAST_ROOT_ANGLE {
             found.push(Problem::new(
                 if i == 0 { "geometry.planet_dedendum" } else { "geometry.side_dedendum" },
                 format!("the {}'s root cone would reach its axis: dedendum {:.3} mm", NAMES[i], gear.dedendum * MM),
             ));
         }
-        if gear.half_pitch <= 0.0 {
+        let thinned = spec.backlash / (2.0 * spec.module * f64::from(gear.teeth));
+        if gear.half_pitch + thinned <= 0.0 {
+            found.push(Problem::new(
+                addendum(i),
+                format!(
+                    "the split of addenda leaves the {} no tooth at the pitch circle; use more equal addenda",
+                    NAMES[i]
+                ),
+            ));
+        } else if gear.half_pitch <= 0.0 {
             found.push(Problem::new(
                 "geometry.backlash",
                 format!("{:.3} mm is more than the {}'s whole tooth", spec.backlash * MM, NAMES[i]),
+            ));
+        } else if land(pair, i) <= 0.0 {
+            let unthinned = gear.half_angle(gear.tip) + thinned > 0.0;
+            found.push(Problem::new(
+                if unthinned { "geometry.backlash" } else { addendum(i) },
+                format!(
+                    "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm for backlash",
+                    NAMES[i],
+                    gear.addendum * MM,
+                    spec.backlash / 2.0 * MM
+                ),
+            ));
+        }
+        let mate = &pair.gears[1 - i];
+        if gear.addendum >= mate.dedendum {
+            found.push(Problem::new(
+                addendum(i),
+                format!(
+                    "the {}'s tip would strike the {}'s root: addendum {:.3} mm, dedendum {:.3} mm",
+                    NAMES[i],
+                    NAMES[1 - i],
+                    gear.addendum * MM,
+                    mate.dedendum * MM
+                ),
             ));
         }
         let (name, bore) = bore(spec, i);
@@ -81,7 +118,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
                 ),
             ));
         }
-        let land = 2.0 * gear.half_angle(gear.tip) * sin(gear.tip) * pair.outer_cone;
+        let land = land(pair, i);
         if land < POINTED_LAND * m {
             found.push(Problem::new(
                 "geometry.addendum_system",
@@ -124,6 +161,16 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     found
+}
+
+/// Width of the tip land of gear `i` at the heel [m].
+fn land(pair: &Pair, i: usize) -> f64 {
+    let gear = &pair.gears[i];
+    2.0 * gear.half_angle(gear.tip) * sin(gear.tip) * pair.outer_cone
+}
+
+fn addendum(i: usize) -> &'static str {
+    if i == 0 { "geometry.planet_addendum" } else { "geometry.side_addendum" }
 }
 
 fn bore(spec: &GearSpec, i: usize) -> (&'static str, f64) {

@@ -20,8 +20,11 @@ const CELLS: usize = OCTAVES * CELLS_PER_OCTAVE + 1;
 /// Bits of a double below those that number the cell.
 const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 
-/// A path clipped at a base circle ends this far before it [rad]: on the circle itself the flank's curvature is infinite.
-const CLIP_MARGIN: f64 = 1e-3;
+/// A path clipped at a base circle ends this far before it, in base pitches (0.3 % of a contact ratio of one): on the
+/// circle itself the flank's curvature is infinite.
+const CLIP_MARGIN: f64 = 3e-3;
+/// Steps per base pitch, and their number, in which the end of the table is looked for.
+const SEARCH: (f64, i32) = (64.0, 256);
 
 /// Gap function of one corner.
 #[derive(Clone, Debug)]
@@ -77,12 +80,12 @@ impl ClosedForm {
 }
 
 impl CornerGap {
-    /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or one base
-    /// pitch beyond the path's end, whichever comes first; it goes on growing quadratically from there.
+    /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or four
+    /// base pitches beyond the path's end, whichever comes first; it goes on growing quadratically from there.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
         let natural = pair.tip_arc[i] - pair.pitch_arc[i];
-        let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN);
+        let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN * pair.base_pitch);
         let lever = sin(own.base);
         let azimuth = |psi: f64| atan2(tan(psi), lever);
         let exact = ClosedForm {
@@ -95,9 +98,15 @@ impl CornerGap {
             mate_inv_pitch: mate.inv(mate.pitch),
         };
         // the table ends where the gap exceeds every approach the model admits
-        let step = pair.base_pitch / 64.0;
-        let count = (1..64).find(|&j| exact.at(step * f64::from(j)).gap.v > reach).unwrap_or(64);
-        let span = step * f64::from(count);
+        let step = pair.base_pitch / SEARCH.0;
+        let known = |j: &i32| exact.at(step * f64::from(*j)).gap.v.is_finite();
+        let mut span = step;
+        for j in (1..=SEARCH.1).take_while(known) {
+            span = step * f64::from(j);
+            if exact.at(span).gap.v > reach {
+                break;
+            }
+        }
         // the power of two above the span ends the table
         let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
         let first = smallest.to_bits() >> SHIFT;

@@ -10,7 +10,7 @@ pub enum AddendumSystem {
     Standard = 1,
     /// Gleason long-and-short addenda for straight bevel gears.
     Gleason = 2,
-    /// ISO 23509 with the mean addendum factor c_ham = 0.21 + 0.29/u², clearance 0.25 m.
+    /// ISO 23509 with the mean addendum factor c_ham = 0.21 + 0.29/u_v, clearance 0.25 m.
     Iso23509 = 3,
     /// The four coefficients given by the user.
     Explicit = 4,

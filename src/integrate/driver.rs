@@ -62,11 +62,8 @@ pub enum Failure<E> {
         /// The step size asked for [s].
         size: f64,
     },
-    /// More steps than an interval may take.
-    TooManySteps {
-        /// Steps taken.
-        steps: u64,
-    },
+    /// The attempts granted were not enough.
+    TooManySteps,
     /// The observer of accepted steps refused one.
     Refused(E),
 }
@@ -75,7 +72,7 @@ pub enum Failure<E> {
 const EVALUATIONS: u64 = RODAS5P.a.len() as u64 - 1;
 const SAFETY: f64 = 0.9;
 /// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
-const STRETCH: f64 = 1.1;
+const LONGEST_FIT: f64 = 1.1;
 /// Steps before the end of an interval that are made equal.
 const LAST_STEPS: f64 = 3.0;
 const LARGEST_GROWTH: f64 = 6.0;
@@ -83,33 +80,41 @@ const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// An error remembered as smaller would make the predictive controller timid.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
-/// Steps that one call may take: bounds the time a host can be kept waiting.
-const MAX_STEPS: u64 = 1_000_000;
 
-/// Integrates from `time` to `until`, calling `observe` after each accepted step.
-#[allow(clippy::too_many_arguments)]
+/// How well to integrate, what is remembered and counted, and how much work is granted.
+pub struct Effort<'a> {
+    /// Relative tolerance of the local error.
+    pub tolerance: f64,
+    /// Step-size control.
+    pub control: &'a mut Control,
+    /// Counts.
+    pub statistics: &'a mut Statistics,
+    /// Attempts at steps that may still be made.
+    pub budget: &'a mut u64,
+}
+
+/// Integrates from `time` to `until`, calling `observe` after each accepted step. Every attempt at a step is taken from
+/// the budget, so that the caller bounds the work.
 pub fn advance<const N: usize, S: SecondOrder<N>, E>(
     system: &S,
     point: &mut Point<N>,
     time: &mut f64,
     until: f64,
-    tolerance: f64,
-    control: &mut Control,
-    statistics: &mut Statistics,
+    effort: Effort,
     mut observe: impl FnMut(Step<N>) -> Result<(), E>,
 ) -> Result<(), Failure<E>> {
+    let Effort { tolerance, control, statistics, budget } = effort;
     // what a double can resolve of the time axis
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
-    let mut attempts = 0;
     let mut just_rejected = false;
     let mut lin = linearise(system, point, statistics);
     loop {
+        *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let remaining = until - *time;
         let (h, cut) = fit(control.next.max(resolution), remaining);
         let trial = rosenbrock::step(&RODAS5P, system, point, &lin, h);
         statistics.evaluations += EVALUATIONS;
         let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(system, point, t, tolerance));
-        attempts += 1;
         match trial {
             Some(trial) if error <= 1.0 => {
                 control.accept(h, cut, error, just_rejected);
@@ -147,16 +152,13 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
                 }
             }
         }
-        if attempts >= MAX_STEPS {
-            return Err(Failure::TooManySteps { steps: attempts });
-        }
     }
 }
 
 /// The step to take when `wanted` is predicted and `remaining` is left, and whether it was fitted to the end: the last
 /// few steps are made equal, and slightly longer than predicted where that saves one.
 fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
-    let steps = remaining / (STRETCH * wanted);
+    let steps = remaining / (LONGEST_FIT * wanted);
     if steps <= 1.0 {
         (remaining, true)
     } else if steps < LAST_STEPS {

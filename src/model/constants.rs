@@ -49,6 +49,16 @@ impl Model {
         }
         let pair = Pair::new(&spec);
         let mut problems = checks::errors(&spec, &pair);
+        if parameters.contact.stiffness_from_hertz && parameters.contact.exponent != hertz::EXPONENT {
+            problems.push(Problem::new(
+                "contact.exponent",
+                format!(
+                    "{} does not go with contact.stiffness_from_hertz, whose law has the exponent {}",
+                    parameters.contact.exponent,
+                    hertz::EXPONENT
+                ),
+            ));
+        }
         let plan = match Plan::new(parameters, &pair) {
             Ok(plan) if problems.is_empty() => plan,
             Ok(_) => return Err(problems),

@@ -101,7 +101,7 @@ pub struct Effects {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
 pub enum Method {
-    /// Adaptive L-stable Rosenbrock method of order 4.
+    /// Adaptive L-stable Rosenbrock method of order 5.
     Adaptive = 1,
 }
 

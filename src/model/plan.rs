@@ -8,6 +8,9 @@ use super::readings::MAX_PLANETS;
 use crate::geometry::{Pair, assembly};
 use crate::problem::Problem;
 
+/// Largest number of groups: a planet's meshes stand in one of two phases.
+pub const MAX_GROUPS: usize = 2;
+
 /// Planets that move alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Group {
@@ -20,7 +23,7 @@ pub struct Group {
 /// What a scene needs to simulate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    groups: [Group; MAX_PLANETS],
+    groups: [Group; MAX_GROUPS],
     group_count: usize,
     /// Group of each planet.
     pub group_of: [usize; MAX_PLANETS],
@@ -39,7 +42,7 @@ impl Plan {
     pub fn new(p: &Parameters, pair: &Pair) -> Result<Self, Problem> {
         let phases = assembly::phases(&p.geometry)?;
         let mut plan = Self {
-            groups: [Group::default(); MAX_PLANETS],
+            groups: [Group::default(); MAX_GROUPS],
             group_count: 0,
             group_of: [0; MAX_PLANETS],
             planets: phases.len(),

@@ -10,7 +10,7 @@ pub struct Motion {
     pub carrier_angle: f64,
     /// Carrier speed [rad/s].
     pub carrier_speed: f64,
-    /// Side gear angles, left and right, since the start [rad].
+    /// Side gear angles, left and right [rad]; 0 as assembled, teeth in mid-gap: lash and deflection are in it.
     pub side_angle: [f64; 2],
     /// Side gear speeds, left and right [rad/s].
     pub side_speed: [f64; 2],
@@ -33,7 +33,7 @@ pub struct MeshForces {
     pub side_thrust: f64,
     /// Thrust on the planet, along its axis away from the apex [N].
     pub planet_thrust: f64,
-    /// Force on the planet along the carrier's direction of rotation [N].
+    /// Force on the side gear along the carrier's direction of rotation [N]; negative on the coast flank.
     pub tangential: f64,
     /// Transmission error: approach of the drive flanks at the mean cone distance [m].
     pub transmission_error: f64,
@@ -89,7 +89,9 @@ pub struct Books {
     pub step_size: f64,
 }
 
-/// Ratio of output to input power; 1 at zero power.
+/// Share of the power fed in that is not lost, whichever end feeds; 1 at zero power. What the teeth store and give back
+/// within a mesh cycle is no loss.
 pub fn efficiency(forces: &Forces) -> f64 {
-    if forces.power_in == 0.0 { 1.0 } else { forces.power_out / forces.power_in }
+    let fed = forces.power_in.max(0.0) + (-forces.power_out).max(0.0);
+    if fed > 0.0 { (1.0 - forces.power_loss / fed).max(0.0) } else { 1.0 }
 }

@@ -6,7 +6,8 @@
 
 use super::ideal::Ideal;
 use super::parameters::Inputs;
-use super::readings::{Forces, MAX_PLANETS, MeshForces};
+use super::plan::MAX_GROUPS;
+use super::readings::{Forces, MeshForces};
 use super::state::{CARRIER, PLANET, State};
 use super::teeth::{Equations, SIGMA};
 use crate::contact::mesh::{Flank, Mesh, MeshState, Spot, ToothPair};
@@ -97,7 +98,7 @@ pub fn teeth_forces<const N: usize>(pair: &Pair, equations: &Equations<N>, input
         out.shaft_torque[s] = inputs.load_torque[s] + teeth.inertia.end[s] * a[s];
         out.side_tangential[s] = torque[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
-    let mut groups = [[MeshForces::default(); 2]; MAX_PLANETS];
+    let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     for (g, group) in teeth.plan.groups().iter().enumerate() {
         if teeth.plan.spin_imposed {
             out.spin_torque -= group.members * torque[PLANET + g];

@@ -11,7 +11,7 @@ use super::state::{CARRIER, PLANET, State};
 use super::teeth::{Equations, Teeth};
 use super::{resultants, start};
 use crate::geometry::Pair;
-use crate::integrate::{self, Failure};
+use crate::integrate::{self, Effort, Failure};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 
@@ -20,9 +20,7 @@ macro_rules! by_size {
     ($model:expr, $body:expr) => {
         match $model.ideal.plan.groups().len() {
             1 => by_size!(4, @ $body),
-            2 => by_size!(5, @ $body),
-            3 => by_size!(6, @ $body),
-            _ => by_size!(7, @ $body),
+            _ => by_size!(5, @ $body),
         }
     };
     ($n:literal, @ $body:expr) => {{
@@ -35,6 +33,8 @@ macro_rules! by_size {
 const FIRST_STEP: f64 = 1e-6;
 /// Longest stretch integrated before positions are wrapped [s].
 const STRETCH: f64 = 1.0;
+/// Attempts at steps granted to one call: bounds the time that a host can be kept waiting to some seconds.
+const BUDGET: u64 = 2_000_000;
 
 /// Why a step could not be completed; the simulation stands at the last good time.
 #[derive(Clone, Debug, PartialEq)]
@@ -118,12 +118,15 @@ impl Simulation {
                 Ok(())
             }
             Some(teeth) => {
-                let mut outcome = Ok(());
+                let (mut outcome, mut budget) = (Ok(()), BUDGET);
                 while outcome.is_ok() && self.state.time < until {
                     let stretch =
                         if until - self.state.time > 1.5 * STRETCH { self.state.time + STRETCH } else { until };
                     let (inputs, state) = (&self.inputs, &mut self.state);
-                    outcome = by_size!(model, integrate_teeth::<N>(teeth, inputs, state, stretch, &model.parameters));
+                    outcome = by_size!(
+                        model,
+                        integrate_teeth::<N>(teeth, inputs, state, stretch, &model.parameters, &mut budget)
+                    );
                     self.state.wrap(&model.periods, dof);
                     // the rounding of the time axis may leave a rest too small to integrate
                     if outcome.is_ok() {
@@ -243,6 +246,21 @@ impl Simulation {
         &self.model.ideal.inertia
     }
 
+    /// One line that tells what the solver did, by cause.
+    pub fn account(&self) -> String {
+        let s = &self.state.statistics;
+        format!(
+            "solver: {} steps accepted, {} rejected for their error, {} for values that are not finite; \
+             {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+            s.accepted,
+            s.rejected_error,
+            s.rejected_invalid,
+            s.evaluations,
+            s.jacobians,
+            self.books().energy_residual
+        )
+    }
+
     /// One line that tells what is simulated.
     pub fn describe(&self) -> String {
         self.model.ideal.plan.describe()
@@ -252,6 +270,8 @@ impl Simulation {
 /// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
 struct Jump {
     deflection: f64,
+    planet: usize,
+    side: usize,
 }
 
 fn integrate_teeth<const N: usize>(
@@ -260,23 +280,23 @@ fn integrate_teeth<const N: usize>(
     state: &mut State,
     until: f64,
     parameters: &Parameters,
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let equations = Equations::<N>::new(teeth, inputs, state);
-    let (mut point, mut time) = (state.point(), state.time);
+    // the equations do not know the time: counted from here it is resolved as finely as steps can get
+    let (mut point, mut time) = (state.point(), 0.0);
     let mut good = (point, time);
     let State { control, statistics, work, heat, .. } = state;
     let outcome = integrate::advance(
         &equations,
         &mut point,
         &mut time,
-        until,
-        parameters.solver.relative_tolerance,
-        control,
-        statistics,
+        until - state.time,
+        Effort { tolerance: parameters.solver.relative_tolerance, control, statistics, budget },
         |step| {
-            let approach = equations.largest_approach(step.end);
+            let (approach, planet, side) = equations.deepest(step.end);
             if approach > teeth.jump {
-                return Err(Jump { deflection: approach * teeth.mesh.cone });
+                return Err(Jump { deflection: approach * teeth.mesh.cone, planet, side });
             }
             // Simpson's rule on begin, middle and end of the step
             let [a, m, b] = step.power;
@@ -287,12 +307,14 @@ fn integrate_teeth<const N: usize>(
         },
     );
     state.set_point(&good.0);
-    state.time = good.1;
+    state.time += good.1;
     let Err(failure) = outcome else { return Ok(()) };
     let message = match failure {
-        Failure::Refused(Jump { deflection }) => format!(
-            "a tooth would jump: deflection {:.3} mm along the line of action exceeds the limit {:.3} mm; \
+        Failure::Refused(Jump { deflection, planet, side }) => format!(
+            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action exceeds the limit {:.3} mm; \
              reduce the load or raise contact.stiffness",
+            planet + 1,
+            ["left", "right"][side],
             deflection * 1e3,
             teeth.jump * teeth.mesh.cone * 1e3
         ),
@@ -301,8 +323,8 @@ fn integrate_teeth<const N: usize>(
              or loosen solver.relative_tolerance = {:e}",
             parameters.solver.relative_tolerance
         ),
-        Failure::TooManySteps { steps } => format!(
-            "{steps} steps were not enough for one communication step; shorten it, \
+        Failure::TooManySteps => format!(
+            "{BUDGET} attempts at steps were not enough for one communication step; shorten it, \
              loosen solver.relative_tolerance = {:e}, or add contact.damping",
             parameters.solver.relative_tolerance
         ),

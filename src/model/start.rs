@@ -107,7 +107,7 @@ fn press_sides<const N: usize>(
         }
         // Q_α falls steadily with α: bracket between mid-gap and the angle at which a tooth would jump
         let mut free = 0.0;
-        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.base_pitch) / teeth.lever[1];
+        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.mesh.half_backlash()) / teeth.lever[1];
         let excess = |alpha: f64, point: &mut Point<N>| {
             point.q[s] = alpha;
             (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()

@@ -2,10 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::plan::MAX_GROUPS;
 use crate::integrate::{Control, Point, Statistics};
 
-/// Largest number of degrees of freedom: two side gears, the carrier, four planets.
-pub const MAX_DOF: usize = 7;
+/// Largest number of degrees of freedom: two side gears, the carrier, the groups of planets.
+pub const MAX_DOF: usize = PLANET + MAX_GROUPS;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;
@@ -80,8 +81,12 @@ impl State {
         self.q[i] + self.turns[i] as f64 * periods[i]
     }
 
-    /// Whether all numbers are finite.
-    pub fn is_finite(&self) -> bool {
-        self.q.iter().chain(&self.v).all(|x| x.is_finite()) && self.work.is_finite()
+    /// Whether all numbers are what a simulation can go on with.
+    pub fn is_valid(&self) -> bool {
+        let numbers = [self.time, self.work, self.heat, self.energy_at_start, self.control.last_error];
+        self.q.iter().chain(&self.v).chain(&numbers).all(|x| x.is_finite())
+            && self.control.next > 0.0
+            && self.control.next.is_finite()
+            && self.control.last >= 0.0
     }
 }

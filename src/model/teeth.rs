@@ -23,7 +23,7 @@ pub const SIGMA: [f64; 2] = [1.0, -1.0];
 const APPROACH_FLOOR: f64 = 1e-4;
 /// Position error allowed per approach and relative tolerance. The controlled error is that of the embedded solution of
 /// order 4; the solution of order 5 that is kept is some ten times better, which this returns in step size. Measured on
-/// the study's turn against a tolerance of 1e-11: at 1e-6 speeds are then within 1e-6 and forces within 1e-6.
+/// the study's turn against a tolerance of 1e-11: at 1e-6 speeds are then within 5e-7 and forces within 1e-7.
 const POSITION_SHARE: f64 = 5.0;
 /// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
 const SPEED_FLOOR: f64 = 1.0;
@@ -211,14 +211,19 @@ impl<'a, const N: usize> Equations<'a, N> {
         self.kinetic_energy(at) + self.elastic_energy(at)
     }
 
-    /// Largest approach of any flank pair [rad]; negative inside the lash.
+    /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side. Groups
+    /// are numbered in the order of their first planets, which are the first planets of all.
     #[inline]
-    pub fn largest_approach(&self, at: &Point<N>) -> f64 {
-        let mut largest = f64::NEG_INFINITY;
+    pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
+        let mut deepest = (f64::NEG_INFINITY, 0, 0);
         self.each_mesh(|g, s| {
-            largest = largest.max(self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]));
+            let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
+            if approach > deepest.0 {
+                deepest = (approach, g, s);
+            }
         });
-        largest
+        // groups are numbered in the order of their first planets, which are neighbours
+        deepest
     }
 
     #[inline]
@@ -274,7 +279,7 @@ impl<const N: usize> SecondOrder<N> for Equations<'_, N> {
 
     #[inline]
     fn scales(&self, at: &Point<N>) -> Point<N> {
-        let approach = POSITION_SHARE * self.largest_approach(at).max(0.0) + APPROACH_FLOOR;
+        let approach = POSITION_SHARE * self.deepest(at).0.max(0.0) + APPROACH_FLOOR;
         let carrier = at.v[CARRIER].abs() + SPEED_FLOOR;
         let mut scale = Point { q: [approach * self.teeth.inverse_lever[0]; N], v: [carrier; N] };
         scale.q[0] = approach * self.teeth.inverse_lever[1];

@@ -9,7 +9,7 @@ pub mod units;
 
 pub use table::{
     Access, Causality, Choice, EnumType, OutputSource, Range, Table, Variability, Variable, check_ranges, check_value,
-    fnv1a, guid, table,
+    fnv1a, guid, real_start, table,
 };
 
 /// FMI model identifier and model name.

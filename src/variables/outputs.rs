@@ -50,7 +50,7 @@ macro_rules! side {
                 units::RADIAN,
                 Some(DEG),
                 |m| m.side_angle[$s],
-                "Side gear angle since the start",
+                "Side gear angle; 0 as assembled with teeth in mid-gap, lash and deflection included",
             ),
             motion(
                 concat!($name, ".speed"),
@@ -190,7 +190,7 @@ pub fn rows() -> Vec<Variable> {
         forces("power.in", units::WATT, |f| f.power_in, "Power delivered by carrier drive and spin drive"),
         forces("power.out", units::WATT, |f| f.power_out, "Power delivered to the wheels"),
         forces("power.loss", units::WATT, |f| f.power_loss, "Power turned into heat"),
-        forces("efficiency", units::ONE, efficiency, "Power out per power in; 1 at zero power"),
+        forces("efficiency", units::ONE, efficiency, "1 - power.loss per power fed in at either end; 1 at zero power"),
         books("heat.contact", units::JOULE, |b| b.heat_contact, "Heat of contact damping since the start"),
         books("solver.steps", units::ONE, |b| b.steps, "Accepted steps"),
         books("solver.rejected", units::ONE, |b| b.rejected, "Rejected steps"),

@@ -290,7 +290,7 @@ pub fn rows() -> Vec<Variable> {
             "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
         ),
         choice!("solver.method", "SolverMethod", solver.method, "Integration method",
-            Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 4"),
+            Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5"),
         real(
             "solver.relative_tolerance",
             units::ONE,

@@ -203,5 +203,6 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(op
                         observed |= {(output, name) for output in outputs if opened.get(output) != before[output]}
                         opened.set(name, value)
     assert observed - declared == set()
-    # numbers of pairs jump, where a load passes through zero
-    assert {(output, name) for output, name in declared - observed if not output.endswith("_pairs")} == set()
+    # numbers of pairs jump, where a load passes through zero; efficiency is 1 wherever nothing is lost
+    quiet = ("_pairs", "efficiency")
+    assert {(output, name) for output, name in declared - observed if not output.endswith(quiet)} == set()

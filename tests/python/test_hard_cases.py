@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 import theory
+from fmpy.fmi1 import FMICallException
 
 TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": (954.0, "deg/s"),
         "planet.spin_command": (200.0, "deg/s")}
 CARRIER = np.radians(2861.0)
 SIDES = ["left", "right"]
+DISCARD, ERROR = 2, 3
 
 
 def steps(opened, stop, step=1e-3, begin=0.0, each=None):
@@ -183,3 +185,59 @@ def test_one_wheel_on_ice_accelerates_by_the_inertias_of_its_ends(open_fmu):
         assert difference == pytest.approx(theory.LOAD * 0.2, rel=2e-3)
         assert opened.get("left.speed") + opened.get("right.speed") == pytest.approx(2.0 * CARRIER, rel=2e-2)
         assert residual(opened) < 1e-3
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_efficiency_stays_below_one_in_driving_and_in_overrun(run, sign):
+    values = TURN | {f"{side}.load_torque": sign * theory.LOAD for side in SIDES}
+    record = run(values, output=["efficiency", "power.loss", "power.in", "power.out"])
+    assert np.all(record["power.loss"] >= 0.0)
+    assert np.all(record["efficiency"] <= 1.0)
+    settled = record["efficiency"][record["time"] > 0.05]
+    assert np.min(settled) > 0.99
+    # over whole mesh cycles what goes in comes out, less the loss
+    cycles = record[(record["time"] > 0.14 - 1e-9)][:-1]
+    balance = np.mean(cycles["power.in"]) - np.mean(cycles["power.out"]) - np.mean(cycles["power.loss"])
+    assert abs(balance) < 1e-4 * np.mean(np.abs(cycles["power.out"]))
+
+
+def test_a_tooth_that_would_jump_is_an_error_with_time_and_place(open_fmu):
+    with open_fmu() as opened:
+        opened.initialise()
+        opened.fmu.doStep(0.0, 1e-3)
+        opened.set("right.load_torque", 5e6)
+        with pytest.raises(FMICallException) as failure:
+            opened.fmu.doStep(1e-3, 1e-3)
+        assert failure.value.status == DISCARD
+        message = opened.log[-1]
+        assert "a tooth would jump between planet[1] and the right side gear" in message and "t = 0.001" in message
+
+
+def test_a_load_that_no_tooth_can_carry_is_refused_at_the_start(open_fmu):
+    for load in [0.7e6, 1.5e6, 1e8]:
+        with open_fmu() as opened:
+            for side in SIDES:
+                opened.set(f"{side}.load_torque", load)
+            with pytest.raises(FMICallException) as refusal:
+                opened.initialise()
+            assert refusal.value.status == ERROR
+            assert "left.load_torque" in opened.log[-1] and "working depth" in opened.log[-1]
+
+
+def test_an_hour_of_driving_drifts_neither_in_speed_nor_in_force(open_fmu):
+    with open_fmu() as opened:
+        opened.initialise()
+        steps(opened, 3600.0, step=0.1)
+        assert_straight(opened)
+        assert opened.get("carrier.angle") == pytest.approx(3600.0 * CARRIER, rel=1e-12)
+    with open_fmu() as opened:
+        for name, value in TURN.items():
+            opened.set(name, np.radians(value[0]) if isinstance(value, tuple) else value)
+        opened.initialise()
+        steps(opened, 1800.0, step=0.18)
+        # after ten thousand whole mesh periods the teeth stand as at the start
+        assert opened.get("planet[1].spin_angle") == pytest.approx(1800.0 * np.radians(200.0), rel=1e-11)
+        assert opened.get("left.tangential_force") == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
+        ratio = theory.PLANET_TEETH / theory.SIDE_TEETH
+        wind_up = opened.get("carrier.angle") + ratio * opened.get("planet[1].spin_angle") - opened.get("left.angle")
+        assert wind_up == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)

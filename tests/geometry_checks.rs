@@ -1,0 +1,76 @@
+//! What cannot be built is refused, what is unusual is warned of, and what is usual passes in silence.
+
+use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
+
+/// Default gears with a face width that nobody questions.
+fn usual() -> GearSpec {
+    GearSpec { face_width: 14e-3, ..GearSpec::default() }
+}
+
+fn explicit(planet: [f64; 2], side: [f64; 2]) -> GearSpec {
+    GearSpec {
+        addendum_system: AddendumSystem::Explicit,
+        planet_addendum: planet[0],
+        planet_dedendum: planet[1],
+        side_addendum: side[0],
+        side_dedendum: side[1],
+        ..usual()
+    }
+}
+
+fn found(spec: &GearSpec) -> (Vec<String>, Vec<String>) {
+    let pair = Pair::new(spec);
+    let texts = |problems: Vec<_>| problems.iter().map(ToString::to_string).collect();
+    (texts(checks::errors(spec, &pair)), texts(checks::warnings(spec, &pair)))
+}
+
+fn assert_warns(spec: &GearSpec, words: &[&str]) {
+    let (errors, warnings) = found(spec);
+    assert!(errors.is_empty(), "{errors:?}");
+    let all = warnings.join("\n");
+    assert!(words.iter().all(|word| all.contains(word)), "{words:?} in {warnings:?}");
+}
+
+fn assert_refused(spec: &GearSpec, words: &[&str]) {
+    let all = found(spec).0.join("\n");
+    assert!(words.iter().all(|word| all.contains(word)), "{words:?} in {all}");
+}
+
+#[test]
+fn usual_gears_pass_in_silence() {
+    assert_eq!(found(&usual()), (Vec::new(), Vec::new()));
+}
+
+#[test]
+fn standard_addenda_undercut_a_ten_tooth_planet() {
+    // the side gear's addendum may be 0.787 m at 20°
+    let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..usual() };
+    assert_warns(&spec, &["undercut of the planet", "1.000 m", "limit 0.787 m"]);
+    // the other way round, a tall planet tip jams in a small side gear
+    assert_warns(&GearSpec { planet_teeth: 16, side_teeth: 10, ..spec }, &["tip interference in the side gear"]);
+}
+
+#[test]
+fn a_wide_face_a_pointed_tooth_and_a_thin_rim_are_warned_of() {
+    assert_warns(&GearSpec::default(), &["geometry.face_width", "0.471 R_e", "above the usual R_e/3"]);
+    assert_warns(&explicit([1.75, 0.5], [0.25, 2.0]), &["pointed planet teeth"]);
+    assert_warns(&GearSpec { planet_bore: 22e-3, ..usual() }, &["geometry.planet_bore", "thinner than 2 modules"]);
+}
+
+#[test]
+fn a_contact_ratio_below_one_is_warned_of() {
+    assert_warns(&explicit([0.6, 0.8], [0.3, 0.9]), &["contact ratio 0."]);
+}
+
+#[test]
+fn what_cannot_be_built_is_refused() {
+    assert_refused(&GearSpec { face_width: 41e-3, ..usual() }, &["geometry.face_width", "no teeth at the toe"]);
+    assert_refused(&GearSpec { backlash: 20e-3, ..usual() }, &["geometry.backlash", "whole tooth"]);
+    assert_refused(&GearSpec { backlash: 9e-3, ..usual() }, &["geometry.backlash", "flanks meet below its tip"]);
+    assert_refused(&GearSpec { planet_bore: 33e-3, ..usual() }, &["geometry.planet_bore", "root circle at the toe"]);
+    assert_refused(&explicit([2.5, 0.8], [0.5, 2.8]), &["geometry.planet_addendum", "flanks meet below its tip"]);
+    assert_refused(&explicit([1.3, 0.8], [0.7, 1.0]), &["the planet's tip would strike the side gear's root"]);
+    assert_refused(&explicit([0.7, 0.8], [0.9, 1.0]), &["the side gear's tip would strike the planet's root"]);
+    let lopsided = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([3.0, 0.1], [0.05, 3.1]) };
+    assert_refused(&lopsided, &["geometry.side_addendum", "no tooth at the pitch circle"]);
+}
