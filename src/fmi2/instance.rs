@@ -7,7 +7,7 @@ use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::model::Simulation;
 use crate::problem;
-use crate::variables::{self, Access, Variable};
+use crate::variables::{self, Access, RealParameter, Variable};
 
 /// Communication points are compared with this tolerance, relative to the larger of time and step size: far above what
 /// hosts lose by adding up steps.
@@ -210,7 +210,7 @@ fn initial_problems(problems: &[problem::Problem]) -> Refusal {
 }
 
 /// Row of the solver's tolerance and access to it.
-fn tolerance_row() -> Option<(&'static Variable, super::values::RealParameter)> {
+fn tolerance_row() -> Option<(&'static Variable, RealParameter)> {
     variables::table().rows.iter().find(|row| is_tolerance(row)).and_then(|row| match row.access {
         Access::Real(slot) => Some((row, slot)),
         _ => None,

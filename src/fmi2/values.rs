@@ -5,11 +5,8 @@ use std::mem::MaybeUninit;
 use super::calls::Phase;
 use super::instance::{Instance, is_tolerance};
 use super::refusal::{Answer, Refusal};
-use crate::model::{Books, Motion, Parameters};
+use crate::model::{Books, Motion};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table};
-
-/// Access to a real parameter.
-pub type RealParameter = fn(&mut Parameters) -> &mut f64;
 
 /// FMI type of a variable, as FMI's functions name it.
 fn type_name(row: &Variable) -> &'static str {

@@ -1,6 +1,6 @@
 //! Rows of the inputs.
 
-use super::table::{Access, Causality, Range, Variability, Variable};
+use super::row::{Access, Causality, Range, Variability, Variable};
 use super::units::{self, DEG_PER_S, DisplayUnit, Unit};
 use crate::model::Inputs;
 

@@ -4,13 +4,12 @@
 mod inputs;
 mod outputs;
 mod parameters;
+mod row;
 mod table;
 pub mod units;
 
-pub use table::{
-    Access, Causality, Choice, EnumType, OutputSource, Range, Table, Variability, Variable, check_ranges, check_value,
-    fnv1a, guid, real_start, table,
-};
+pub use row::{Access, Causality, Choice, EnumType, OutputSource, Range, RealParameter, Variability, Variable};
+pub use table::{Table, check_ranges, check_value, fnv1a, guid, real_start, table};
 
 /// FMI model identifier and model name.
 pub const MODEL_NAME: &str = "BevelDifferential";

@@ -1,6 +1,6 @@
 //! Rows of the outputs.
 
-use super::table::{Access, Causality, OutputSource, Variability, Variable};
+use super::row::{Access, Causality, OutputSource, Variability, Variable};
 use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
 use crate::model::{Books, Forces, Motion, efficiency};
 

@@ -1,12 +1,10 @@
 //! Rows of the parameters: all fixed but those that say tunable.
 
-use super::table::{Access, Causality, Choice, EnumType, Range, Variability, Variable};
+use super::row::{Access, Causality, Choice, EnumType, Range, RealParameter, Variability, Variable};
 use super::units::{self, DisplayUnit, Unit};
 use crate::contact::ContactLaw;
 use crate::geometry::AddendumSystem;
 use crate::model::{CarrierDrive, GearContact, Method, Parameters, PlanetSpin, Start};
-
-type RealAt = fn(&mut Parameters) -> &mut f64;
 
 fn row(name: &'static str, access: Access, description: &'static str) -> Variable {
     Variable {
@@ -26,7 +24,7 @@ fn real(
     unit: Unit,
     display: Option<DisplayUnit>,
     (min, max): (f64, f64),
-    at: RealAt,
+    at: RealParameter,
     description: &'static str,
 ) -> Variable {
     Variable { unit: Some(unit), display, range: Some(Range { min, max }), ..row(name, Access::Real(at), description) }
