@@ -42,10 +42,11 @@ fn addenda(spec: &GearSpec) -> [f64; 2] {
 }
 
 /// Where a tip would pass the mate's base circle (9/14: the side gear's tip undercuts the planet) the program ends the
-/// tooth 1e-3 rad of path before the circle; the explicit tooth is cut there too.
+/// tooth 0.3 % of a base pitch before the circle; the explicit tooth is cut there too.
 fn cut_at_base_circle([planet, side]: [Toothed; 2], spec: &GearSpec) -> [Toothed; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
-    let limit = roll_at(planet.base, d_p) + roll_at(side.base, d_s) - 1e-3;
+    let base_pitch = TAU * planet.base.sin() / f64::from(spec.planet_teeth);
+    let limit = roll_at(planet.base, d_p) + roll_at(side.base, d_s) - 3e-3 * base_pitch;
     [planet, side].map(|g| {
         let p = rolled(g.base, limit);
         if g.tip_roll() > limit { Toothed { tip: p.xy().norm().atan2(p.z), ..g } } else { g }
