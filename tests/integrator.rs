@@ -22,7 +22,7 @@ impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N>
         Linearisation { acceleration, by_position, by_velocity, power: Power::default() }
     }
 
-    fn scales(&self, _: &Point<N>) -> Point<N> {
+    fn weights(&self, _: &Point<N>) -> Point<N> {
         Point { q: [1.0; N], v: [1.0; N] }
     }
 }
@@ -150,8 +150,8 @@ impl<S: SecondOrder<1>> SecondOrder<1> for Scaled<S> {
     fn linearise(&self, at: &Point<1>) -> Linearisation<1> {
         self.0.linearise(at)
     }
-    fn scales(&self, _: &Point<1>) -> Point<1> {
-        Point { q: [self.1], v: [self.2] }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0 / self.1], v: [1.0 / self.2] }
     }
 }
 

@@ -69,7 +69,7 @@ pub enum Failure<E> {
 }
 
 /// Right-hand sides of a step besides the linearisation at its start.
-const EVALUATIONS: u64 = RODAS5P.a.len() as u64 - 1;
+const EVALUATIONS: u64 = RODAS5P.c.len() as u64;
 const SAFETY: f64 = 0.9;
 /// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
 const LONGEST_FIT: f64 = 1.1;
@@ -217,11 +217,11 @@ fn error_norm<const N: usize, S: SecondOrder<N>>(
     trial: &Trial<N>,
     tolerance: f64,
 ) -> f64 {
-    let scale = system.scales(start);
+    let weight = system.weights(start);
     let (mut largest, mut sum) = (0.0f64, 0.0);
     for i in 0..N {
-        let q = (trial.error.q[i] / scale.q[i]).abs();
-        let v = (trial.error.v[i] / scale.v[i]).abs();
+        let q = (trial.error.q[i] * weight.q[i]).abs();
+        let v = (trial.error.v[i] * weight.v[i]).abs();
         largest = largest.max(q).max(v);
         // max() passes over NaN, a sum does not, nor does a product with zero
         sum += q + v + 0.0 * (trial.end.q[i] + trial.end.v[i]);

@@ -20,10 +20,13 @@ use super::system::{Linearisation, Point, SecondOrder};
 pub struct Tableau<const S: usize> {
     /// Diagonal coefficient γ.
     pub gamma: f64,
-    /// a_ij, row by row; the last row is the embedded solution.
-    pub a: [[f64; S]; S],
-    /// c_ij, row by row.
-    pub c: [[f64; S]; S],
+    /// Error of the solution that is kept over the estimate, which is that of the embedded solution.
+    pub kept_error: f64,
+    /// a_ij from the second stage on. Stages without a row start from the one before plus its U: they are embedded
+    /// solutions, the last one that of the error estimate.
+    pub a: &'static [&'static [f64]],
+    /// c_ij from the second stage on.
+    pub c: &'static [&'static [f64]],
     /// Weights of the stages in the solution at the middle of the step, beside (y₀ + y₁)/2.
     pub middle: [f64; S],
 }
@@ -35,7 +38,7 @@ pub struct Trial<const N: usize> {
     pub end: Point<N>,
     /// Continuous extension at the middle of the step.
     pub middle: Point<N>,
-    /// Difference to the embedded solution.
+    /// Error estimate: difference to the embedded solution, scaled to the solution that is kept.
     pub error: Point<N>,
 }
 
@@ -64,13 +67,19 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     let mut y = *start;
     let mut acceleration = lin.acceleration;
     for stage in 0..S {
-        if stage > 0 {
-            y = *start;
-            combine(&mut y, &tableau.a[stage][..stage], 1.0, &u);
+        if let Some(row) = stage.checked_sub(1) {
+            if let Some(weights) = tableau.a.get(row) {
+                y = *start;
+                combine(&mut y, weights, 1.0, &u);
+            } else {
+                combine(&mut y, &[1.0], 1.0, &u[row..]);
+            }
             acceleration = system.evaluate(&y).0;
         }
         let mut r = Point { q: system.rates(&y.v), v: acceleration };
-        combine(&mut r, &tableau.c[stage][..stage], per_h, &u);
+        if let Some(row) = stage.checked_sub(1) {
+            combine(&mut r, tableau.c[row], per_h, &u);
+        }
         for i in 0..N {
             for j in 0..N {
                 r.v[i] += s * lin.by_position[i][j] * r.q[j];
@@ -92,7 +101,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
         middle.v[i] = 0.5 * (start.v[i] + end.v[i]);
     }
     combine(&mut middle, &tableau.middle, 1.0, &u);
-    Some(Trial { end, middle, error })
+    let kept = |x: f64| x * tableau.kept_error;
+    Some(Trial { end, middle, error: Point { q: error.q.map(kept), v: error.v.map(kept) } })
 }
 
 /// y += scale Σ weight_j U_j over the first stages.

@@ -57,6 +57,6 @@ pub trait SecondOrder<const N: usize> {
     /// Accelerations, ledger rates and exact derivatives.
     fn linearise(&self, at: &Point<N>) -> Linearisation<N>;
 
-    /// Natural magnitudes of q and v: the local error allowed is the relative tolerance times these.
-    fn scales(&self, at: &Point<N>) -> Point<N>;
+    /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
+    fn weights(&self, at: &Point<N>) -> Point<N>;
 }

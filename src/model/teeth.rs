@@ -21,10 +21,6 @@ pub const SIGMA: [f64; 2] = [1.0, -1.0];
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;
-/// Position error allowed per approach and relative tolerance. The controlled error is that of the embedded solution of
-/// order 4; the solution of order 5 that is kept is some ten times better, which this returns in step size. Measured on
-/// the study's turn against a tolerance of 1e-11: at 1e-6 speeds are then within 5e-7 and forces within 1e-7.
-const POSITION_SHARE: f64 = 5.0;
 /// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
 const SPEED_FLOOR: f64 = 1.0;
 
@@ -41,7 +37,6 @@ pub struct Teeth {
     inverse_inertia: [f64; MAX_DOF],
     /// sinδ_b of planet and side gear.
     pub lever: [f64; 2],
-    inverse_lever: [f64; 2],
     /// Base pitch on the unit sphere [rad].
     pub base_pitch: f64,
     /// Approach beyond which a tooth would jump [rad].
@@ -56,17 +51,7 @@ impl Teeth {
         inverse_inertia[0] = 1.0 / inertia.side[0];
         inverse_inertia[1] = 1.0 / inertia.side[1];
         inverse_inertia[CARRIER] = imposed(plan.carrier_imposed, inertia.carrier);
-        let lever = pair.lever();
-        Self {
-            mesh,
-            plan,
-            inertia,
-            inverse_inertia,
-            lever,
-            inverse_lever: lever.map(|l| 1.0 / l),
-            base_pitch: pair.base_pitch,
-            jump,
-        }
+        Self { mesh, plan, inertia, inverse_inertia, lever: pair.lever(), base_pitch: pair.base_pitch, jump }
     }
 }
 
@@ -278,16 +263,17 @@ impl<const N: usize> SecondOrder<N> for Equations<'_, N> {
     }
 
     #[inline]
-    fn scales(&self, at: &Point<N>) -> Point<N> {
-        let approach = POSITION_SHARE * self.deepest(at).0.max(0.0) + APPROACH_FLOOR;
-        let carrier = at.v[CARRIER].abs() + SPEED_FLOOR;
-        let mut scale = Point { q: [approach * self.teeth.inverse_lever[0]; N], v: [carrier; N] };
-        scale.q[0] = approach * self.teeth.inverse_lever[1];
-        scale.q[1] = scale.q[0];
-        scale.q[CARRIER] = 1.0;
-        for i in 0..N {
-            scale.v[i] += at.v[i].abs();
-        }
-        scale
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);
+        let [planet, side] = self.teeth.lever.map(|lever| lever * per_approach);
+        let mut q = [planet; N];
+        (q[0], q[1], q[CARRIER]) = (side, side, 1.0);
+        // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
+        let carrier = SPEED_FLOOR + 2.0 * at.v[CARRIER].abs();
+        let spin = at.v[PLANET..].iter().fold(0.0, |fastest: f64, v| fastest.max(v.abs()));
+        let side = 1.0 / (carrier + spin * self.teeth.lever[0] / self.teeth.lever[1]);
+        let mut v = [1.0 / (carrier + spin); N];
+        (v[0], v[1], v[CARRIER]) = (side, side, 1.0 / carrier);
+        Point { q, v }
     }
 }
