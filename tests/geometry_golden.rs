@@ -137,7 +137,7 @@ fn the_path_of_contact_lies_between_the_golden_ends() {
 #[test]
 fn backlash_thins_both_teeth_and_opens_the_golden_normal_gap() {
     let (tight, loose) = (Pair::new(&spec(AddendumSystem::Gleason)), Pair::new(&GearSpec::default()));
-    // physics.md: 0.1 mm at the outer pitch circle is 2.21349e-3 rad along the line of action
+    // 0.1 mm at the outer pitch circle is 2.21349e-3 rad along the line of action
     assert!((loose.normal_backlash - 2.21349e-3).abs() < 5e-9, "{}", loose.normal_backlash);
     let play: f64 =
         (0..2).map(|i| 2.0 * (tight.gears[i].half_pitch - loose.gears[i].half_pitch) * loose.lever()[i]).sum();

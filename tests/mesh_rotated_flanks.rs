@@ -1,6 +1,6 @@
 //! The program's gap functions and phases against explicit flanks, rotated in space until they touch.
 //!
-//! Axes, signs and the assembled position are those of physics.md §2; the flanks and the touching are found by vectors
+//! Axes, signs and the assembled position are those of docs/theory.md; the flanks and the touching are found by vectors
 //! and rotations only (`mesh_explicit`). For every tooth pair near the mesh the side gear's rotation at first touch must
 //! be the one at which `Mesh::pairs` begins to visit that pair.
 
@@ -24,7 +24,7 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, written down again from physics.md: the larger gear's is given, the working depth 2 m.
+/// Addenda of planet and side gear, written down again from docs/theory.md: the larger gear's is given, the working depth 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let ratio = f64::from(spec.side_teeth) * d_p.cos() / (f64::from(spec.planet_teeth) * d_s.cos());
