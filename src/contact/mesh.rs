@@ -33,7 +33,7 @@ pub enum Spot {
     SideTip,
 }
 
-/// One tooth pair within reach, with the derivatives of its penetration arc p = d/R by q and x.
+/// One loaded tooth pair, with the derivatives of its penetration arc p = d/R by q and x.
 #[derive(Clone, Copy, Debug)]
 pub struct ToothPair {
     /// Flank in contact.
@@ -42,7 +42,7 @@ pub struct ToothPair {
     pub spot: Spot,
     /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
     pub place: f64,
-    /// Penetration arc p = a − g [rad]; the pair is loaded where it is positive.
+    /// Penetration arc p = a − g [rad], positive.
     pub depth: f64,
     /// ∂p/∂q and ∂p/∂x.
     pub slope: [f64; 2],
@@ -171,11 +171,11 @@ impl Mesh {
         q.abs() - self.half_backlash
     }
 
-    /// Calls `visit` with each tooth pair that may be loaded at position (q, x): those within reach of a flank.
+    /// Calls `visit` with each loaded tooth pair at position (q, x).
     #[inline(always)]
     pub fn pairs(&self, [q, x]: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
         // only one flank of a gap can carry: sign = ∂a/∂q = −∂s/∂x
-        let approach = q.abs() - self.half_backlash;
+        let approach = self.approach(q);
         if approach <= 0.0 {
             return;
         }
@@ -184,13 +184,18 @@ impl Mesh {
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
         let mut s = start + first * self.base_pitch;
+        let mut visit_loaded = |pair: &ToothPair| {
+            if pair.depth > 0.0 {
+                visit(pair);
+            }
+        };
         for _ in 0..window.candidates {
             let past_planet_tip = s - self.high;
             let past_side_tip = self.low - s + approach;
             if past_planet_tip > 0.0 {
                 if past_planet_tip * past_planet_tip < approach * self.corner[0].spread && self.corner_contact {
                     let g = self.corner[0].at(past_planet_tip);
-                    visit(&ToothPair {
+                    visit_loaded(&ToothPair {
                         flank,
                         spot: Spot::PlanetTip,
                         place: past_planet_tip,
@@ -203,7 +208,7 @@ impl Mesh {
                 if past_side_tip * past_side_tip < approach * self.corner[1].spread {
                     // Δ moves with q by `sign` and with x by `sign` too
                     let g = self.corner[1].at(past_side_tip);
-                    visit(&ToothPair {
+                    visit_loaded(&ToothPair {
                         flank,
                         spot: Spot::SideTip,
                         place: past_side_tip,
@@ -213,7 +218,7 @@ impl Mesh {
                     });
                 }
             } else if s >= self.low {
-                visit(&ToothPair {
+                visit_loaded(&ToothPair {
                     flank,
                     spot: Spot::Path,
                     place: s,
@@ -238,10 +243,8 @@ impl Mesh {
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         self.pairs(state.position, |pair| {
-            if pair.depth > 0.0 {
-                let (rate, f) = self.pair_force(pair, state);
-                sum.add(&f, pair.slope, self.cone, rate);
-            }
+            let (rate, f) = self.pair_force(pair, state);
+            sum.add(&f, pair.slope, self.cone, rate);
         });
         sum
     }
@@ -251,9 +254,6 @@ impl Mesh {
         let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
         let r = self.cone;
         self.pairs(state.position, |pair| {
-            if pair.depth <= 0.0 {
-                return;
-            }
             let (rate, f) = self.pair_force(pair, state);
             sum.add(&f, pair.slope, r, rate);
             let [qq, xx] = pair.curvature;
@@ -273,7 +273,7 @@ impl Mesh {
     /// Elastic energy V [J] at position (q, x).
     pub fn energy(&self, position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
-        self.pairs(position, |pair| energy += self.law.energy(self.cone * pair.depth.max(0.0)));
+        self.pairs(position, |pair| energy += self.law.energy(self.cone * pair.depth));
         energy
     }
 }

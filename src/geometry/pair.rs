@@ -173,9 +173,4 @@ impl Tredgold {
         let base_pitch = PI * pair.module * cos(pair.pressure_angle);
         Self { teeth, diameter, base_diameter, tip_diameter, contact_ratio: length / base_pitch }
     }
-
-    /// Relative error of the planar contact ratio against the sphere's.
-    pub fn contact_ratio_error(&self, pair: &Pair) -> f64 {
-        self.contact_ratio / pair.path.unclipped_ratio - 1.0
-    }
 }

@@ -12,7 +12,6 @@ use super::state::{CARRIER, PLANET, State};
 use super::teeth::{Equations, SIGMA};
 use crate::contact::mesh::{Flank, Mesh, MeshState, Spot, ToothPair};
 use crate::geometry::Pair;
-use crate::integrate::SecondOrder;
 use crate::numeric::{cos, sin, sqrt};
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, tangential.
@@ -49,9 +48,6 @@ fn mesh_forces(pair: &Pair, mesh: &Mesh, state: &MeshState) -> MeshForces {
         ..MeshForces::default()
     };
     mesh.pairs(state.position, |contact| {
-        if contact.depth <= 0.0 {
-            return;
-        }
         let force = mesh.pair_force(contact, state).1.total;
         let part = parts(pair, mesh, contact);
         out.normal += force;
@@ -90,8 +86,9 @@ fn add_powers(out: &mut Forces, state: &State, heat: f64) {
 /// Forces of the differential with teeth.
 pub fn teeth_forces<const N: usize>(pair: &Pair, equations: &Equations<N>, inputs: &Inputs, state: &State) -> Forces {
     let (teeth, point) = (equations.teeth, &state.point());
-    let (a, power) = equations.evaluate(point);
-    let (torque, _) = equations.tooth_torques(point);
+    let (torque, heat) = equations.tooth_torques(point);
+    let mut a = torque;
+    equations.finish(point, &mut a, heat);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     out.carrier_torque = if teeth.plan.carrier_imposed { -torque[CARRIER] } else { inputs.carrier_torque };
     for s in 0..2 {
@@ -111,7 +108,7 @@ pub fn teeth_forces<const N: usize>(pair: &Pair, equations: &Equations<N>, input
         out.mesh[i] = groups[teeth.plan.group_of[i]];
     }
     add_up(&mut out, teeth.plan.planets);
-    add_powers(&mut out, state, power.heat);
+    add_powers(&mut out, state, heat);
     out
 }
 

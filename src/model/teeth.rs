@@ -92,9 +92,9 @@ impl<'a, const N: usize> Equations<'a, N> {
         }
     }
 
-    /// Turns the sums of tooth torques in `sum` into accelerations.
+    /// Turns the sums of tooth torques in `sum` into accelerations; `heat` goes into the ledger rates.
     #[inline]
-    fn finish(&self, at: &Point<N>, sum: &mut [f64; N], heat: f64) -> Power {
+    pub fn finish(&self, at: &Point<N>, sum: &mut [f64; N], heat: f64) -> Power {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let mut input = 0.0;
         for s in 0..2 {
