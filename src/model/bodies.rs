@@ -45,3 +45,28 @@ impl Inertias {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::mass::GearMass;
+
+    #[test]
+    fn planets_turn_with_the_carrier_across_their_axes() {
+        let mut p = Parameters::default();
+        p.geometry.planet_count = 4;
+        let pair = Pair::new(&p.geometry);
+        let GearMass { axial, transverse_at_apex, .. } =
+            gear_mass(&pair.gears[0], pair.inner_cone, pair.outer_cone, 0.0, p.material.density);
+        let j = Inertias::new(&p, &pair);
+        assert!((j.carrier / (0.02 + 4.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
+        assert_eq!(j.planet, axial);
+        // given inertias scale the solid
+        p.inertia.from_geometry = false;
+        p.inertia.planet = 3.0 * axial;
+        p.inertia.left_end = 0.5;
+        let j = Inertias::new(&p, &pair);
+        assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
+        assert_eq!((j.planet, j.side), (3.0 * axial, [9e-5 + 0.5, 9e-5]));
+    }
+}
