@@ -4,5 +4,6 @@ pub mod hertz;
 pub mod impact;
 pub mod mesh;
 mod spec;
+pub mod spring;
 
 pub use spec::{ContactLaw, ContactSpec};

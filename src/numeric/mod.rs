@@ -10,4 +10,6 @@ pub fn frac(x: f64) -> f64 {
 }
 
 mod jet;
+mod scalar;
 pub use jet::Jet;
+pub use scalar::{Dual, Scalar};

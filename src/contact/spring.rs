@@ -1,0 +1,25 @@
+//! What a mesh needs to know of the elasticity of one tooth pair, whatever the law.
+
+/// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
+/// place on the path of contact [rad]. Beyond the path's ends s runs on, so that a corner in contact has a place too.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Elastic {
+    /// U [J].
+    pub energy: f64,
+    /// Torque ∂U/∂p about the pole of the plane of action [N·m].
+    pub torque: f64,
+    /// ∂²U/∂p² [N·m/rad].
+    pub stiffness: f64,
+    /// ∂U/∂s [J/rad].
+    pub by_place: f64,
+    /// ∂²U/∂p∂s [N·m/rad].
+    pub torque_by_place: f64,
+    /// ∂²U/∂s² [J/rad²].
+    pub by_place_twice: f64,
+}
+
+/// Elasticity of a tooth pair.
+pub trait Spring {
+    /// Response at penetration arc `p` > 0 and place `s`.
+    fn at(&self, p: f64, s: f64) -> Elastic;
+}

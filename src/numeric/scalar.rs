@@ -1,0 +1,202 @@
+//! Formulas written once for numbers and for numbers that carry exact derivatives.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{cos, pow, sin, sqrt};
+
+/// What a formula may do with its quantities: done by `f64` for values alone, by [`Dual`] for values with derivatives.
+pub trait Scalar:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + Add<f64, Output = Self>
+    + Sub<f64, Output = Self>
+    + Mul<f64, Output = Self>
+{
+    /// A constant.
+    fn constant(value: f64) -> Self;
+    /// The value without derivatives.
+    fn value(self) -> f64;
+    /// f(self) of a function with value `f` and slope `slope` at this point.
+    fn chain(self, f: f64, slope: f64) -> Self;
+
+    /// Square root of a positive number.
+    fn sqrt(self) -> Self {
+        let root = sqrt(self.value());
+        self.chain(root, 0.5 / root)
+    }
+    /// Sine.
+    fn sin(self) -> Self {
+        self.chain(sin(self.value()), cos(self.value()))
+    }
+    /// Cosine.
+    fn cos(self) -> Self {
+        self.chain(cos(self.value()), -sin(self.value()))
+    }
+    /// Exponential.
+    fn exp(self) -> Self {
+        let f = libm::exp(self.value());
+        self.chain(f, f)
+    }
+    /// Natural logarithm of a positive number.
+    fn ln(self) -> Self {
+        self.chain(libm::log(self.value()), 1.0 / self.value())
+    }
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self {
+        let f = libm::tanh(self.value());
+        self.chain(f, 1.0 - f * f)
+    }
+    /// Power of a positive number with a constant exponent.
+    fn powf(self, exponent: f64) -> Self {
+        let f = pow(self.value(), exponent);
+        self.chain(f, exponent * f / self.value())
+    }
+    /// Magnitude; its slope at zero is taken as one.
+    fn abs(self) -> Self {
+        if self.value() < 0.0 { -self } else { self }
+    }
+}
+
+impl Scalar for f64 {
+    #[inline]
+    fn constant(value: f64) -> Self {
+        value
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn chain(self, f: f64, _slope: f64) -> Self {
+        f
+    }
+}
+
+/// A value with its derivatives by `K` variables (forward differentiation).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<const K: usize> {
+    /// Value.
+    pub v: f64,
+    /// Derivatives.
+    pub d: [f64; K],
+}
+
+impl<const K: usize> Dual<K> {
+    /// Variable number `i`.
+    #[inline]
+    pub fn variable(v: f64, i: usize) -> Self {
+        let mut d = [0.0; K];
+        d[i] = 1.0;
+        Self { v, d }
+    }
+
+    #[inline]
+    fn combine(v: f64, (a, x): (f64, &Self), (b, y): (f64, &Self)) -> Self {
+        Self { v, d: std::array::from_fn(|i| a * x.d[i] + b * y.d[i]) }
+    }
+}
+
+impl<const K: usize> Scalar for Dual<K> {
+    #[inline]
+    fn constant(v: f64) -> Self {
+        Self { v, d: [0.0; K] }
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self.v
+    }
+    #[inline]
+    fn chain(self, f: f64, slope: f64) -> Self {
+        Self { v: f, d: self.d.map(|x| slope * x) }
+    }
+}
+
+impl<const K: usize> Add for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: Self) -> Self {
+        Self::combine(self.v + o.v, (1.0, &self), (1.0, &o))
+    }
+}
+
+impl<const K: usize> Sub for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: Self) -> Self {
+        Self::combine(self.v - o.v, (1.0, &self), (-1.0, &o))
+    }
+}
+
+impl<const K: usize> Mul for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, o: Self) -> Self {
+        Self::combine(self.v * o.v, (o.v, &self), (self.v, &o))
+    }
+}
+
+impl<const K: usize> Div for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn div(self, o: Self) -> Self {
+        let (f, per) = (self.v / o.v, 1.0 / o.v);
+        Self::combine(f, (per, &self), (-f * per, &o))
+    }
+}
+
+impl<const K: usize> Neg for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        self.chain(-self.v, -1.0)
+    }
+}
+
+impl<const K: usize> Add<f64> for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: f64) -> Self {
+        Self { v: self.v + o, ..self }
+    }
+}
+
+impl<const K: usize> Sub<f64> for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: f64) -> Self {
+        Self { v: self.v - o, ..self }
+    }
+}
+
+impl<const K: usize> Mul<f64> for Dual<K> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, o: f64) -> Self {
+        self.chain(self.v * o, o)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn formula<T: Scalar>(x: T, y: T) -> T {
+        let root = (x * x + y * y + 1.0).sqrt();
+        (x.sin() * y.cos() - (x / root).tanh()) * (-y).exp() + root.ln() * x.abs().powf(1.7) - y * 3.0
+    }
+
+    #[test]
+    fn derivatives_agree_with_central_differences() {
+        for (x, y) in [(0.7, -0.3), (-1.2, 0.4)] {
+            let dual = formula(Dual::<2>::variable(x, 0), Dual::variable(y, 1));
+            assert_eq!(dual.v, formula(x, y));
+            let h = 1e-6;
+            assert!((dual.d[0] - (formula(x + h, y) - formula(x - h, y)) / (2.0 * h)).abs() < 1e-8);
+            assert!((dual.d[1] - (formula(x, y + h) - formula(x, y - h)) / (2.0 * h)).abs() < 1e-8);
+        }
+    }
+}
