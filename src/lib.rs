@@ -9,11 +9,13 @@
 #![warn(missing_docs)]
 
 pub mod contact;
+pub mod friction;
 pub mod geometry;
 pub mod integrate;
 pub mod model;
 pub mod numeric;
 pub mod problem;
+pub mod strength;
 pub mod variables;
 
 #[allow(unsafe_code)] // the C ABI is the one place that must handle foreign pointers

@@ -1,9 +1,23 @@
 //! Tooth contact: the law of one pair, and the elastic potential of a mesh.
 
+pub mod any_spring;
+pub mod damping;
+pub mod detailed;
+pub mod errors;
+pub mod gaps;
 pub mod hertz;
 pub mod impact;
+pub mod law;
 pub mod mesh;
+pub mod pairs;
 mod spec;
 pub mod spring;
+pub mod stiffness;
 
-pub use spec::{ContactLaw, ContactSpec};
+pub use spec::{ContactLaw, ContactSpec, DampingModel};
+
+#[cfg(feature = "tooth_friction")]
+pub mod tooth_friction;
+#[cfg(not(feature = "tooth_friction"))]
+#[path = "no_tooth_friction.rs"]
+pub mod tooth_friction;

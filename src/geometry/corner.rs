@@ -9,7 +9,7 @@
 //! values and exact derivatives: twice continuously differentiable, so that no step of an integrator can feel it.
 
 use super::pair::Pair;
-use crate::numeric::{Jet, atan2, cos, sin, sqrt, tan};
+use crate::numeric::{Jet, Scalar, atan2, cos, sin, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
 /// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
@@ -22,7 +22,7 @@ const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 
 /// A path clipped at a base circle ends this far before it, in base pitches (0.3 % of a contact ratio of one): on the
 /// circle itself the flank's curvature is infinite.
-const CLIP_MARGIN: f64 = 3e-3;
+pub(crate) const CLIP_MARGIN: f64 = 3e-3;
 /// Steps per base pitch, and their number, in which the end of the table is looked for.
 const SEARCH: (f64, i32) = (64.0, 256);
 
@@ -128,6 +128,15 @@ impl CornerGap {
     /// Gap and derivatives by the closed form, with the point of contact.
     pub fn exact(&self, delta: f64) -> CornerContact {
         self.exact.at(delta)
+    }
+
+    /// sin² of the corner's polar angles about its own and the mate's axis at Δ = `delta`.
+    #[inline]
+    pub fn sines_squared<T: Scalar>(&self, delta: T) -> [T; 2] {
+        let e = &self.exact;
+        let chi = delta * (1.0 / e.lever) + e.azimuth_at_end;
+        let cos_mate = chi.cos() * (sin(e.shaft_angle) * sin(e.tip)) + cos(e.shaft_angle) * cos(e.tip);
+        [T::constant(sin(e.tip) * sin(e.tip)), cos_mate * cos_mate * -1.0 + 1.0]
     }
 
     /// Gap g [rad], g′ and g″ at Δ = `delta` ≥ 0 [rad] from the table.

@@ -45,6 +45,8 @@ pub struct GearSpec {
     pub planet_dedendum: f64,
     /// Side gear dedendum coefficient h_fs/m for [`AddendumSystem::Explicit`].
     pub side_dedendum: f64,
+    /// Fillet radius at the root of the teeth, in modules.
+    pub root_fillet: f64,
     /// Diameter of the planet's bore (its pin) [m]; 0 = solid.
     pub planet_bore: f64,
     /// Diameter of the side gear's bore (its shaft) [m]; 0 = solid.
@@ -68,6 +70,7 @@ impl Default for GearSpec {
             side_addendum: 1.0,
             planet_dedendum: 1.25,
             side_dedendum: 1.25,
+            root_fillet: 0.40,
             planet_bore: 0.0,
             side_bore: 0.0,
         }

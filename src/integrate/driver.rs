@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rodas5p::RODAS5P;
 use super::rosenbrock::{self, Trial};
-use super::system::{Linearisation, Point, Power, SecondOrder};
+use super::system::{Linearisation, Point, SecondOrder};
 
 /// What the step-size controller remembers from one call to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -36,6 +36,8 @@ pub struct Statistics {
     pub rejected_error: u64,
     /// Steps rejected because a value was not finite or the matrix singular.
     pub rejected_invalid: u64,
+    /// Steps shortened because the equations switched within them.
+    pub rejected_switch: u64,
     /// Evaluations of the right-hand side, those of linearisations and of the ledger included.
     pub evaluations: u64,
     /// Evaluations of the Jacobian, each with its factorisation.
@@ -43,15 +45,26 @@ pub struct Statistics {
 }
 
 /// An accepted step as its observer sees it.
-pub struct Step<'a, const N: usize> {
+pub struct Step<'a, const N: usize, P> {
     /// Step size [s].
     pub h: f64,
     /// Time at the end [s].
     pub time: f64,
+    /// State at the begin.
+    pub start: &'a Point<N>,
     /// State at the end.
     pub end: &'a Point<N>,
     /// Ledger rates at begin, middle and end.
-    pub power: [Power; 3],
+    pub power: [P; 3],
+}
+
+/// What an observer wants after an accepted step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// Go on to the end of the interval.
+    Continue,
+    /// Stop here: the equations change.
+    Stop,
 }
 
 /// Why an interval could not be completed; the state is that of the last accepted step.
@@ -93,36 +106,47 @@ pub struct Effort<'a> {
     pub budget: &'a mut u64,
 }
 
-/// Integrates from `time` to `until`, calling `observe` after each accepted step. Every attempt at a step is taken from
-/// the budget, so that the caller bounds the work.
+/// Integrates from `time` to `until`, calling `observe` after each accepted step, which may end the integration early.
+/// Every attempt at a step is taken from the budget, so that the caller bounds the work.
 pub fn advance<const N: usize, S: SecondOrder<N>, E>(
     system: &S,
     point: &mut Point<N>,
     time: &mut f64,
     until: f64,
     effort: Effort,
-    mut observe: impl FnMut(Step<N>) -> Result<(), E>,
+    mut observe: impl FnMut(Step<N, S::Power>) -> Result<Flow, E>,
 ) -> Result<(), Failure<E>> {
     let Effort { tolerance, control, statistics, budget } = effort;
     // what a double can resolve of the time axis
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
     let mut just_rejected = false;
+    let mut switch_at = f64::INFINITY;
     let mut lin = linearise(system, point, statistics);
     loop {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let remaining = until - *time;
-        let (h, cut) = fit(control.next.max(resolution), remaining);
+        let (mut h, mut cut) = fit(control.next.max(resolution), remaining);
+        if h > switch_at {
+            (h, cut) = (switch_at, true);
+        }
         let trial = rosenbrock::step(&RODAS5P, system, point, &lin, h);
         statistics.evaluations += EVALUATIONS;
         let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(system, point, t, tolerance));
         match trial {
             Some(trial) if error <= 1.0 => {
+                if let Some(fraction) = system.crossing(point, &trial.end).filter(|_| h > resolution) {
+                    statistics.rejected_switch += 1;
+                    switch_at = (h * fraction).max(resolution);
+                    continue;
+                }
+                switch_at = f64::INFINITY;
                 control.accept(h, cut, error, just_rejected);
                 just_rejected = false;
                 statistics.accepted += 1;
                 let begin = lin.power;
                 let (_, middle) = system.evaluate(&trial.middle);
                 statistics.evaluations += 1;
+                let start = *point;
                 *point = trial.end;
                 *time = if h == remaining { until } else { *time + h };
                 let done = until - *time <= resolution;
@@ -133,13 +157,15 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
                     lin = linearise(system, point, statistics);
                     lin.power
                 };
-                observe(Step { h, time: *time, end: point, power: [begin, middle, end] }).map_err(Failure::Refused)?;
-                if done {
+                let step = Step { h, time: *time, start: &start, end: point, power: [begin, middle, end] };
+                let flow = observe(step).map_err(Failure::Refused)?;
+                if done || flow == Flow::Stop {
                     return Ok(());
                 }
             }
             _ => {
                 just_rejected = true;
+                switch_at = f64::INFINITY;
                 control.next = h / if error.is_finite() {
                     statistics.rejected_error += 1;
                     (fifth_root(error) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
@@ -172,7 +198,7 @@ fn linearise<const N: usize, S: SecondOrder<N>>(
     system: &S,
     point: &Point<N>,
     statistics: &mut Statistics,
-) -> Linearisation<N> {
+) -> Linearisation<N, S::Power> {
     statistics.evaluations += 1;
     statistics.jacobians += 1;
     system.linearise(point)

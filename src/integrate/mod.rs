@@ -6,7 +6,7 @@ mod rodas5p;
 mod rosenbrock;
 mod system;
 
-pub use driver::{Control, Effort, Failure, Statistics, Step, advance};
+pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
 pub use rodas5p::RODAS5P;
 pub use rosenbrock::{Tableau, Trial, step};
-pub use system::{Linearisation, Matrix, Point, Power, SecondOrder};
+pub use system::{Linearisation, Matrix, Point, SecondOrder, in_pairs};

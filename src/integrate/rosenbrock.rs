@@ -13,8 +13,8 @@
 //!
 //! Every system here is autonomous (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
 
-use super::linear::Lu;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::linear::Factors;
+use super::system::{Linearisation, Point, SecondOrder, sum};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
 pub struct Tableau<const S: usize> {
@@ -48,7 +48,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     tableau: &Tableau<S>,
     system: &E,
     start: &Point<N>,
-    lin: &Linearisation<N>,
+    lin: &Linearisation<N, E::Power>,
     h: f64,
 ) -> Option<Trial<N>> {
     let s = h * tableau.gamma;
@@ -60,7 +60,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
         }
         matrix[i][i] += 1.0 / s;
     }
-    let lu = Lu::new(matrix)?;
+    let factors = Factors::new::<E>(matrix)?;
 
     let per_h = 1.0 / h;
     let mut u = [Point::ZERO; S];
@@ -81,11 +81,9 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
             combine(&mut r, tableau.c[row], per_h, &u);
         }
         for i in 0..N {
-            for j in 0..N {
-                r.v[i] += s * lin.by_position[i][j] * r.q[j];
-            }
+            r.v[i] += s * sum::<N, E>(0, N, |j| lin.by_position[i][j] * r.q[j]);
         }
-        lu.solve(&mut r.v);
+        factors.solve::<E>(&mut r.v);
         let rate = system.rates(&r.v);
         for i in 0..N {
             r.q[i] = s * (r.q[i] + rate[i]);

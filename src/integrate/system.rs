@@ -17,18 +17,9 @@ impl<const N: usize> Point<N> {
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
 }
 
-/// Rates of the energy ledger at a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Power {
-    /// Net power of all inputs into the system [W].
-    pub input: f64,
-    /// Power turned into heat [W].
-    pub heat: f64,
-}
-
 /// Accelerations with their exact derivatives at a point.
 #[derive(Clone, Copy, Debug)]
-pub struct Linearisation<const N: usize> {
+pub struct Linearisation<const N: usize, P> {
     /// v̇.
     pub acceleration: [f64; N],
     /// ∂v̇/∂q.
@@ -36,27 +27,73 @@ pub struct Linearisation<const N: usize> {
     /// ∂v̇/∂v.
     pub by_velocity: Matrix<N>,
     /// Ledger rates.
-    pub power: Power,
+    pub power: P,
 }
 
 /// An autonomous second-order system q̇ = B v, v̇ = a(q, v). Imposed motions are degrees of freedom with a given v̇.
 ///
 /// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster.
 pub trait SecondOrder<const N: usize> {
+    /// Rates of the quantities that are integrated along with the motion but do not act on it: a ledger.
+    type Power: Copy;
+
+    /// First and number (0, 1, 2, 4 or 8) of the degrees of freedom of bodies that may be alike. Sums over them are
+    /// formed apart and in pairs, so that twins give the same bits as one of them counted twice.
+    const ALIKE: (usize, usize) = (N, 0);
+
     /// B v.
+    #[inline(always)]
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         *v
     }
 
     /// Replaces `m` by m B, row by row.
+    #[inline(always)]
     fn times_rates(&self, _m: &mut Matrix<N>) {}
 
     /// Accelerations and ledger rates.
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power);
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Self::Power);
 
     /// Accelerations, ledger rates and exact derivatives.
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N>;
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Power>;
 
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
+
+    /// Where a switch of the system's equations falls within the step from `start` to `end`, as the fraction of the step
+    /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to.
+    #[inline(always)]
+    fn crossing(&self, _start: &Point<N>, _end: &Point<N>) -> Option<f64> {
+        None
+    }
+}
+
+/// Σ term(i) over i in `from..to`, alike bodies apart and in pairs.
+#[inline(always)]
+pub fn sum<const N: usize, S: SecondOrder<N> + ?Sized>(from: usize, to: usize, term: impl Fn(usize) -> f64) -> f64 {
+    let (first, count) = S::ALIKE;
+    let end = first + count;
+    let mut others = 0.0;
+    for i in from..to {
+        if i < first || i >= end {
+            others += term(i);
+        }
+    }
+    if to <= first || from >= end {
+        return others;
+    }
+    others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { 0.0 })
+}
+
+/// Sum of `count` terms, 0, 1, 2, 4 or 8, in pairs.
+#[inline(always)]
+pub fn in_pairs(count: usize, term: impl Fn(usize) -> f64) -> f64 {
+    let two = |i: usize| term(i) + term(i + 1);
+    match count {
+        0 => 0.0,
+        1 => term(0),
+        2 => two(0),
+        4 => two(0) + two(2),
+        _ => (two(0) + two(2)) + (two(4) + two(6)),
+    }
 }

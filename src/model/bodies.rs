@@ -1,6 +1,8 @@
 //! Moments of inertia of the bodies, assembled from parameters and solids.
 
 use super::parameters::Parameters;
+use super::plan::Plan;
+use super::state::{CARRIER, MAX_DOF};
 use crate::geometry::Pair;
 use crate::geometry::mass::gear_mass;
 
@@ -18,6 +20,10 @@ pub struct Inertias {
     pub end: [f64; 2],
     /// One planet about its own axis.
     pub planet: f64,
+    /// One planet about the carrier's axis.
+    pub planet_transverse: f64,
+    /// Mass of a side gear [kg].
+    pub side_mass: f64,
     /// Number of planets.
     pub planets: f64,
 }
@@ -27,12 +33,9 @@ impl Inertias {
     pub fn new(p: &Parameters, pair: &Pair) -> Self {
         let solid =
             |i: usize, bore: f64| gear_mass(&pair.gears[i], pair.inner_cone, pair.outer_cone, bore, p.material.density);
-        let planet = solid(0, p.geometry.planet_bore);
-        let (side_axial, planet_axial) = if p.inertia.from_geometry {
-            (solid(1, p.geometry.side_bore).axial, planet.axial)
-        } else {
-            (p.inertia.side_gear, p.inertia.planet)
-        };
+        let (planet, side) = (solid(0, p.geometry.planet_bore), solid(1, p.geometry.side_bore));
+        let (side_axial, planet_axial) =
+            if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
         let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
         let end = [p.inertia.left_end, p.inertia.right_end];
         let planets = f64::from(p.geometry.planet_count);
@@ -41,8 +44,37 @@ impl Inertias {
             side: end.map(|e| side_axial + e),
             end,
             planet: planet_axial,
+            planet_transverse: transverse,
+            side_mass: side.mass * (side_axial / side.axial),
             planets,
         }
+    }
+
+    /// Inertia by degree of freedom of `plan`, planets and pins singly, and the ends that stay rigid on their side gears.
+    pub fn by_freedom(&self, plan: &Plan) -> ([f64; MAX_DOF], [f64; 2]) {
+        let layout = plan.layout();
+        let mut inertia = [0.0; MAX_DOF];
+        let rigid_end = [0, 1].map(|s| if plan.shafts[s] { 0.0 } else { self.end[s] });
+        for s in 0..2 {
+            inertia[s] = self.side[s] - self.end[s] + rigid_end[s];
+            if plan.pins {
+                inertia[layout.seat(s)] = self.side_mass;
+            }
+            if plan.ends {
+                inertia[layout.end(s)] = self.end[s] - rigid_end[s];
+            }
+        }
+        inertia[CARRIER] = self.carrier;
+        for g in 0..layout.groups {
+            inertia[layout.planet(g)] = self.planet;
+            if plan.pins {
+                inertia[layout.pin(g)] = self.planet_transverse;
+            }
+        }
+        if plan.pins {
+            inertia[CARRIER] -= self.planets * self.planet_transverse;
+        }
+        (inertia, rigid_end)
     }
 }
 

@@ -37,11 +37,9 @@ impl Ideal {
     /// M of the equations of motion: m₁₁, m₁₂, m₂₂ [kg·m²].
     fn mass(&self) -> [f64; 3] {
         let (r, j) = (self.ratio, &self.inertia);
-        [
-            j.carrier + j.side[0] + j.side[1],
-            r * (j.side[0] - j.side[1]),
-            r * r * (j.side[0] + j.side[1]) + j.planets * j.planet,
-        ]
+        // an end behind a shaft that twists does not move with its side gear
+        let [left, right] = [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 });
+        [j.carrier + left + right, r * (left - right), r * r * (left + right) + j.planets * j.planet]
     }
 
     /// Lets imposed speeds jump to `inputs`; what is free follows the impulse through the gears. Work of the jump [J].

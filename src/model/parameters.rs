@@ -2,7 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::effects::EffectSpecs;
 use crate::contact::ContactSpec;
+use crate::contact::errors::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
+use crate::friction::ToothFrictionSpec;
 use crate::geometry::GearSpec;
 
 /// Elastic and mass data of both gears.
@@ -43,6 +46,16 @@ pub enum CarrierDrive {
     Torque = 2,
 }
 
+/// How the wheel side of a half-shaft is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum SideDrive {
+    /// A torque loads it.
+    Torque = 1,
+    /// Its speed is imposed; the half-shaft between it and the side gear twists.
+    Speed = 2,
+}
+
 /// Whether the planets spin freely on their pins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
@@ -59,6 +72,8 @@ pub enum PlanetSpin {
 pub enum GearContact {
     /// No teeth: Willis' equation as a constraint.
     Ideal = 1,
+    /// One spring per mesh.
+    Lumped = 2,
     /// Tooth pair by tooth pair along the path of contact.
     Tooth = 3,
 }
@@ -80,6 +95,10 @@ pub enum Start {
 pub struct Scene {
     /// Carrier drive.
     pub carrier_drive: CarrierDrive,
+    /// Drive of the left half-shaft.
+    pub left_drive: SideDrive,
+    /// Drive of the right half-shaft.
+    pub right_drive: SideDrive,
     /// Planet spin.
     pub planet_spin: PlanetSpin,
     /// Representation of tooth contact.
@@ -95,6 +114,62 @@ pub struct Effects {
     pub backlash: bool,
     /// Tip-corner contact outside the path of contact; off = pairs enter and leave abruptly.
     pub corner_contact: bool,
+    /// Deviations and modifications of the teeth.
+    pub tooth_errors: bool,
+    /// A damaged tooth, from a time or a trigger on.
+    pub tooth_fault: bool,
+    /// Friction along the flanks.
+    pub tooth_friction: bool,
+    /// Friction of thrust washers and pins.
+    pub thrust_friction: bool,
+    /// Clutch packs between side gears and carrier.
+    pub limited_slip: bool,
+    /// Torsion of the half-shafts.
+    pub half_shaft: bool,
+    /// Pins and case that give way.
+    pub pin_compliance: bool,
+    /// Drag of bearings and oil.
+    pub bearing_drag: bool,
+    /// Excitation by the final drive.
+    pub final_drive: bool,
+    /// Stress and fatigue.
+    pub strength: bool,
+}
+
+impl Effects {
+    /// Nothing but the teeth: backlash and corner contact.
+    pub const TEETH: Self = Self {
+        backlash: true,
+        corner_contact: true,
+        tooth_errors: false,
+        tooth_fault: false,
+        tooth_friction: false,
+        thrust_friction: false,
+        limited_slip: false,
+        half_shaft: false,
+        pin_compliance: false,
+        bearing_drag: false,
+        final_drive: false,
+        strength: false,
+    };
+
+    /// Every switch with its name.
+    pub fn list(&self) -> [(&'static str, bool); 12] {
+        [
+            ("effects.backlash", self.backlash),
+            ("effects.corner_contact", self.corner_contact),
+            ("effects.tooth_errors", self.tooth_errors),
+            ("effects.tooth_fault", self.tooth_fault),
+            ("effects.tooth_friction", self.tooth_friction),
+            ("effects.thrust_friction", self.thrust_friction),
+            ("effects.limited_slip", self.limited_slip),
+            ("effects.half_shaft", self.half_shaft),
+            ("effects.pin_compliance", self.pin_compliance),
+            ("effects.bearing_drag", self.bearing_drag),
+            ("effects.final_drive", self.final_drive),
+            ("effects.strength", self.strength),
+        ]
+    }
 }
 
 /// Integration method.
@@ -112,6 +187,8 @@ pub struct SolverSpec {
     pub method: Method,
     /// Relative tolerance of the local error per step.
     pub relative_tolerance: f64,
+    /// Planets that are identical and in phase are simulated once and counted; off simulates each.
+    pub merge_planets: bool,
 }
 
 /// All parameters; the default is the study's straight case.
@@ -129,6 +206,14 @@ pub struct Parameters {
     pub scene: Scene,
     /// Effects.
     pub effects: Effects,
+    /// Errors of the teeth.
+    pub tooth_errors: ToothErrorSpec,
+    /// The broken tooth.
+    pub tooth_fault: ToothFaultSpec,
+    /// Friction along the flanks.
+    pub tooth_friction: ToothFrictionSpec,
+    /// What defines the other effects.
+    pub specs: EffectSpecs,
     /// Integration.
     pub solver: SolverSpec,
 }
@@ -149,12 +234,18 @@ impl Default for Parameters {
             contact: ContactSpec::default(),
             scene: Scene {
                 carrier_drive: CarrierDrive::Speed,
+                left_drive: SideDrive::Torque,
+                right_drive: SideDrive::Torque,
                 planet_spin: PlanetSpin::Free,
                 gear_contact: GearContact::Tooth,
                 start: Start::Equilibrium,
             },
-            effects: Effects { backlash: true, corner_contact: true },
-            solver: SolverSpec { method: Method::Adaptive, relative_tolerance: 1e-6 },
+            effects: Effects::TEETH,
+            tooth_errors: ToothErrorSpec::default(),
+            tooth_fault: ToothFaultSpec { gear: FaultyGear::Planet, depth: 1e-3, ..ToothFaultSpec::default() },
+            tooth_friction: ToothFrictionSpec::default(),
+            specs: EffectSpecs::default(),
+            solver: SolverSpec { method: Method::Adaptive, relative_tolerance: 1e-6, merge_planets: true },
         }
     }
 }
@@ -168,8 +259,14 @@ pub struct Inputs {
     pub carrier_torque: f64,
     /// Load on left and right half-shaft, positive resists positive rotation [N·m].
     pub load_torque: [f64; 2],
+    /// Imposed speeds of the wheel-side ends of the half-shafts [rad/s].
+    pub side_speed: [f64; 2],
     /// Imposed planet spin relative to the carrier, positive speeds the left side up [rad/s].
     pub planet_spin: f64,
+    /// Command of the lock, 0 open to 1 locked.
+    pub lock: f64,
+    /// Triggers the tooth fault when it rises above one half.
+    pub fault: f64,
 }
 
 impl Default for Inputs {
@@ -178,7 +275,24 @@ impl Default for Inputs {
             carrier_speed: 2861f64.to_radians(),
             carrier_torque: 1670.0,
             load_torque: [835.0, 835.0],
+            side_speed: [2861f64.to_radians(); 2],
             planet_spin: 0.0,
+            lock: 0.0,
+            fault: 0.0,
         }
+    }
+}
+
+impl Parameters {
+    /// `self` as far as it may be tuned while a simulation runs, `fixed` for the rest.
+    pub fn with_tuned(&self, fixed: &Self) -> Self {
+        let mut p = *fixed;
+        p.contact.damping = self.contact.damping;
+        p.tooth_friction.coefficient = self.tooth_friction.coefficient;
+        p.specs.thrust_friction.coefficient = self.specs.thrust_friction.coefficient;
+        p.specs.thrust_friction.pin_coefficient = self.specs.thrust_friction.pin_coefficient;
+        p.specs.limited_slip.preload = self.specs.limited_slip.preload;
+        p.specs.limited_slip.torque_coefficient = self.specs.limited_slip.torque_coefficient;
+        p
     }
 }

@@ -1,15 +1,16 @@
-//! The scene plan: which bodies move, which are imposed, which planets share their fate.
+//! The scene plan: which bodies move, which are imposed, which planets share their fate, and which effects act.
 //!
 //! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
 //! as there are.
 
-use super::parameters::{CarrierDrive, GearContact, Parameters, PlanetSpin};
+use super::parameters::{CarrierDrive, GearContact, Parameters, PlanetSpin, SideDrive};
 use super::readings::MAX_PLANETS;
+use super::state::{CARRIER, MAX_DOF};
 use crate::geometry::{Pair, assembly};
 use crate::problem::Problem;
 
-/// Largest number of groups: a planet's meshes stand in one of two phases.
-pub const MAX_GROUPS: usize = 2;
+/// Largest number of groups: every planet on its own.
+pub const MAX_GROUPS: usize = MAX_PLANETS;
 
 /// Planets that move alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,6 +19,49 @@ pub struct Group {
     pub phase: [f64; 2],
     /// How many planets there are of this kind.
     pub members: f64,
+    /// The first of them.
+    pub planet: usize,
+}
+
+/// Where each degree of freedom stands: side gears, carrier, [axial seats of the side gears], planets, [their pins],
+/// [ends of the half-shafts].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Groups of planets (1, 2 or 4; the last of four may have no members).
+    pub groups: usize,
+    /// Members of each group.
+    pub members: [f64; MAX_GROUPS],
+    /// Whether pins and seats move.
+    pub pins: bool,
+    /// Whether half-shafts have ends.
+    pub ends: bool,
+}
+
+impl Layout {
+    /// Index of the carrier.
+    pub fn carrier(&self) -> usize {
+        CARRIER
+    }
+    /// Index of the axial seat of side gear `s`.
+    pub fn seat(&self, s: usize) -> usize {
+        CARRIER + 1 + s
+    }
+    /// Index of the planets of group `g`.
+    pub fn planet(&self, g: usize) -> usize {
+        CARRIER + 1 + if self.pins { 2 } else { 0 } + g
+    }
+    /// Index of the pin of group `g`.
+    pub fn pin(&self, g: usize) -> usize {
+        self.planet(self.groups + g)
+    }
+    /// Index of the end of the half-shaft of side `s`.
+    pub fn end(&self, s: usize) -> usize {
+        self.planet(self.groups * if self.pins { 2 } else { 1 } + s)
+    }
+    /// Degrees of freedom.
+    pub fn count(&self) -> usize {
+        self.end(if self.ends { 2 } else { 0 })
+    }
 }
 
 /// What a scene needs to simulate.
@@ -33,14 +77,32 @@ pub struct Plan {
     pub carrier_imposed: bool,
     /// Planet spin is imposed.
     pub spin_imposed: bool,
+    /// Speeds of the wheel-side ends that are imposed, left and right.
+    pub side_imposed: [bool; 2],
+    /// Half-shafts that twist, left and right.
+    pub shafts: [bool; 2],
+    /// Whether half-shafts have ends of their own.
+    pub ends: bool,
+    /// Pins and seats give way.
+    pub pins: bool,
     /// Representation of tooth contact.
     pub contact: GearContact,
+    /// Names of the effects that are on.
+    active: [Option<&'static str>; 12],
 }
 
 impl Plan {
-    /// Plan of the scene `p` with gears `pair`, or why its planets do not assemble.
-    pub fn new(p: &Parameters, pair: &Pair) -> Result<Self, Problem> {
+    /// Plan of the scene `p` with gears `pair`; `individual` planets differ. Or why its planets do not assemble.
+    pub fn new(p: &Parameters, pair: &Pair, individual: bool) -> Result<Self, Problem> {
         let phases = assembly::phases(&p.geometry)?;
+        let side_imposed = [p.scene.left_drive == SideDrive::Speed, p.scene.right_drive == SideDrive::Speed];
+        let end = [p.inertia.left_end, p.inertia.right_end];
+        // an end without inertia of its own hands its load on at once: its shaft twists but has no motion of its own
+        let shafts = [0, 1].map(|s| side_imposed[s] || p.effects.half_shaft && end[s] > 0.0);
+        let mut active = [None; 12];
+        for (slot, (name, on)) in active.iter_mut().zip(p.effects.list()) {
+            *slot = on.then_some(name);
+        }
         let mut plan = Self {
             groups: [Group::default(); MAX_GROUPS],
             group_count: 0,
@@ -48,22 +110,42 @@ impl Plan {
             planets: phases.len(),
             carrier_imposed: p.scene.carrier_drive == CarrierDrive::Speed,
             spin_imposed: p.scene.planet_spin == PlanetSpin::Imposed,
+            side_imposed,
+            shafts,
+            ends: shafts[0] || shafts[1],
+            pins: p.effects.pin_compliance,
             contact: p.scene.gear_contact,
+            active,
         };
-        for (i, fraction) in phases.iter().enumerate() {
-            let phase = fraction.map(|f| f * pair.base_pitch);
-            let group = match plan.groups().iter().position(|g| g.phase == phase) {
-                Some(group) => group,
-                None => {
-                    plan.groups[plan.group_count].phase = phase;
-                    plan.group_count += 1;
-                    plan.group_count - 1
+        if plan.contact == GearContact::Ideal {
+            // no phases where there are no teeth
+            plan.add_group([0.0; 2], 0);
+            plan.groups[0].members = phases.len() as f64;
+        } else if individual || !p.solver.merge_planets {
+            // opposite planets side by side: those are the ones that are alike
+            let order: &[usize] = if phases.len() == 4 { &[0, 2, 1, 3] } else { &[0, 1, 2][..phases.len()] };
+            for &i in order {
+                plan.add_group(phases[i].map(|f| f * pair.base_pitch), i);
+            }
+        } else {
+            for (i, fraction) in phases.iter().enumerate() {
+                let phase = fraction.map(|f| f * pair.base_pitch);
+                match plan.groups().iter().position(|g| g.phase == phase) {
+                    Some(g) => {
+                        plan.groups[g].members += 1.0;
+                        plan.group_of[i] = g;
+                    }
+                    None => plan.add_group(phase, i),
                 }
-            };
-            plan.groups[group].members += 1.0;
-            plan.group_of[i] = group;
+            }
         }
         Ok(plan)
+    }
+
+    fn add_group(&mut self, phase: [f64; 2], planet: usize) {
+        self.groups[self.group_count] = Group { phase, members: 1.0, planet };
+        self.group_of[planet] = self.group_count;
+        self.group_count += 1;
     }
 
     /// The same plan with planets that do not spin freely.
@@ -82,19 +164,65 @@ impl Plan {
         &self.groups[..self.group_count]
     }
 
-    /// One line that tells what is simulated.
+    /// Where each degree of freedom stands.
+    pub fn layout(&self) -> Layout {
+        Layout {
+            groups: match self.group_count {
+                3 => 4,
+                n => n,
+            },
+            members: self.groups.map(|g| g.members),
+            pins: self.pins,
+            ends: self.ends,
+        }
+    }
+
+    /// Periods by which positions are wrapped; infinite where they are not [rad].
+    pub fn periods(&self, pair: &Pair) -> [f64; MAX_DOF] {
+        let layout = self.layout();
+        let mut periods = [f64::INFINITY; MAX_DOF];
+        periods[..CARRIER].fill(pair.gears[1].tooth_pitch());
+        periods[CARRIER] = crate::numeric::TAU;
+        for g in 0..layout.groups {
+            periods[layout.planet(g)] = pair.gears[0].tooth_pitch();
+        }
+        periods
+    }
+
+    /// Names of the effects that are on.
+    pub fn active(&self) -> impl Iterator<Item = &'static str> {
+        self.active.into_iter().flatten()
+    }
+
+    /// One line that tells what is simulated: level, drives, planets, states, effects.
     pub fn describe(&self) -> String {
         let level = match self.contact {
             GearContact::Ideal => "ideal gears",
+            GearContact::Lumped => "lumped mesh stiffness",
             GearContact::Tooth => "tooth contact",
         };
         let drive = |imposed| if imposed { "imposed" } else { "free" };
+        let side = |s: usize| match (self.side_imposed[s], self.shafts[s]) {
+            (true, _) => "speed through its half-shaft",
+            (false, true) => "torque through its half-shaft",
+            (false, false) => "torque",
+        };
+        let effects: Vec<&str> = self.active().collect();
         format!(
-            "{level}; carrier speed {}; planet spin {}; {} planets simulated as {}",
+            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated as {}; \
+             {} states; effects on: {}",
             drive(self.carrier_imposed),
             drive(self.spin_imposed),
+            side(0),
+            side(1),
             self.planets,
             self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
+            if self.contact == GearContact::Ideal {
+                2 * (2 + if self.ends { 2 } else { 0 })
+            } else {
+                2 * self.layout().count()
+            },
+            if effects.is_empty() { "none".into() } else { effects.join(", ") },
         )
     }
 }

@@ -1,5 +1,7 @@
 //! What can be read from a model at an instant, in three groups by what they cost.
 
+use super::effects::CAUSES;
+
 /// Largest number of planets.
 pub const MAX_PLANETS: usize = 4;
 
@@ -70,13 +72,36 @@ pub struct Forces {
     pub power_out: f64,
     /// Power turned into heat [W].
     pub power_loss: f64,
+    /// Twists of the half-shafts, side gear ahead of the wheel [rad].
+    pub twist: [f64; 2],
+    /// Signed torque bias ratio T_slow/T_fast over the last whole mesh cycle; 1 at zero torque.
+    pub torque_bias_ratio: f64,
+    /// Locking value |ΔT|/|T_L + T_R| over the last whole mesh cycle; 0 at zero torque.
+    pub locking_value: f64,
+    /// Stresses, where strength is on.
+    pub stresses: Stresses,
+}
+
+/// Largest stresses of all meshes at an instant [Pa].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stresses {
+    /// Hertz pressure of a tooth pair.
+    pub contact_max: f64,
+    /// Hertz pressure at the pitch point of the mean section if one pair carried all of the mesh.
+    pub contact_pitch: f64,
+    /// Root stress of planet and side gear.
+    pub root_max: [f64; 2],
 }
 
 /// Ledger and solver statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Books {
-    /// Heat of contact damping since the start [J].
-    pub heat_contact: f64,
+    /// Heat since the start by cause [J].
+    pub heat: [f64; CAUSES],
+    /// Damage sums of the worst planet and the worst side gear: by bending of roots, by pitting of flanks.
+    pub damage: [[f64; 2]; 2],
+    /// Side gears held by dry friction, and planets [how many].
+    pub held: [f64; 2],
     /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
     pub energy_residual: f64,
     /// Accepted steps.
@@ -88,6 +113,21 @@ pub struct Books {
     /// Size of the last accepted step [s].
     pub step_size: f64,
 }
+
+/// Torque bias ratio and locking value of shaft torques at given speeds.
+pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
+    let [slow, fast] = if speed[0] <= speed[1] { torque } else { [torque[1], torque[0]] };
+    let sum = (torque[0] + torque[1]).abs();
+    if sum == 0.0 {
+        return (1.0, 0.0);
+    }
+    // a fast side without torque would make the ratio infinite
+    let ratio = if fast != 0.0 { (slow / fast).clamp(-MOST_BIAS, MOST_BIAS) } else { MOST_BIAS * slow.signum() };
+    (ratio, (torque[0] - torque[1]).abs() / sum)
+}
+
+/// Torque bias ratios are shown up to this.
+const MOST_BIAS: f64 = 1e6;
 
 /// Share of the power fed in that is not lost, whichever end feeds; 1 at zero power. What the teeth store and give back
 /// within a mesh cycle is no loss.

@@ -1,65 +1,34 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
-//!
-//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm
-//! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
-//! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
 
+use super::constants::Model;
+use super::effects::HalfShaftSpec;
+use super::equations::{Equations, Power};
 use super::ideal::Ideal;
+use super::loads::ToothLoad;
 use super::parameters::Inputs;
-use super::plan::MAX_GROUPS;
-use super::readings::{Forces, MeshForces};
-use super::state::{CARRIER, PLANET, State};
-use super::teeth::{Equations, SIGMA};
-use crate::contact::mesh::{Flank, Mesh, MeshState, Spot, ToothPair};
+use super::plan::{MAX_GROUPS, Plan};
+use super::readings::{Forces, MeshForces, bias};
+use super::rigid::RigidEquations;
+use super::state::{CARRIER, State};
+use super::strength::MeshLoad;
+use super::teeth::SIGMA;
 use crate::geometry::Pair;
-use crate::numeric::{cos, sin, sqrt};
+use crate::integrate::{Point, SecondOrder, in_pairs};
+use crate::numeric::{sin, sqrt};
 
-/// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, tangential.
-struct Parts {
-    planet: f64,
-    side: f64,
-    tangential: f64,
+impl MeshForces {
+    fn add(&mut self, load: &ToothLoad) {
+        let [planet, side, forward] = load.parts;
+        self.normal += load.normal;
+        // a slice counts by its share of the face, so that pairs stay whole numbers where loads do not differ over it
+        self.pairs += if load.normal > 0.0 { load.share } else { 0.0 };
+        self.side_thrust += load.normal * side;
+        self.planet_thrust += load.normal * planet;
+        self.tangential += load.normal * forward;
+    }
 }
 
-fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> Parts {
-    let [lever_p, lever_s] = pair.lever();
-    let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
-    let (planet, side) = match contact.spot {
-        Spot::Path => (
-            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.place),
-            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.place),
-        ),
-        Spot::PlanetTip => {
-            let corner = mesh.corner[0].exact(contact.place);
-            (along(corner.own_polar, lever_p * (1.0 - corner.gap.d)), along(corner.mate_polar, lever_s))
-        }
-        Spot::SideTip => {
-            let corner = mesh.corner[1].exact(contact.place);
-            (along(corner.mate_polar, lever_p), along(corner.own_polar, lever_s * (1.0 - corner.gap.d)))
-        }
-    };
-    let forward = sqrt((1.0 - planet * planet - side * side).max(0.0));
-    Parts { planet, side, tangential: if contact.flank == Flank::Drive { forward } else { -forward } }
-}
-
-fn mesh_forces(pair: &Pair, mesh: &Mesh, state: &MeshState) -> MeshForces {
-    let mut out = MeshForces {
-        transmission_error: mesh.drive_approach(state.position[0]) * pair.mean_cone,
-        ..MeshForces::default()
-    };
-    mesh.pairs(state.position, |contact| {
-        let force = mesh.pair_force(contact, state).1.total;
-        let part = parts(pair, mesh, contact);
-        out.normal += force;
-        out.pairs += if force > 0.0 { 1.0 } else { 0.0 };
-        out.side_thrust += force * part.side;
-        out.planet_thrust += force * part.planet;
-        out.tangential += force * part.tangential;
-    });
-    out
-}
-
-/// Sums over meshes and sides that both levels share, from `out.mesh` of all planets.
+/// Sums over meshes and sides that all levels share, from `out.mesh` of all planets.
 fn add_up(out: &mut Forces, planets: usize) {
     for i in 0..planets {
         let mesh = out.mesh[i];
@@ -75,45 +44,140 @@ fn add_up(out: &mut Forces, planets: usize) {
     }
 }
 
-/// Powers from torques and speeds; heat is given.
-fn add_powers(out: &mut Forces, state: &State, heat: f64) {
+/// Powers from torques and speeds; heat is given. `ends` are the speeds at which torques are handed to the wheels.
+fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
     let v = &state.v;
-    out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[PLANET];
-    out.power_out = out.shaft_torque[0] * v[0] + out.shaft_torque[1] * v[1];
+    out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
+    out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
     out.power_loss = heat;
+    let torque = state.bias.mean.filter(|_| plan.ends).unwrap_or(out.shaft_torque);
+    (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
+}
+
+/// Speeds of the wheel-side ends.
+fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
+    [0, 1].map(|s| if plan.shafts[s] { state.v[plan.layout().end(s)] } else { state.v[s] })
+}
+
+/// Twist of the half-shafts: a state, or the static one where the end has no motion of its own.
+fn twists(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
+    let (plan, spec): (&Plan, &HalfShaftSpec) = (&model.ideal.plan, &model.parameters.specs.half_shaft);
+    [0, 1].map(|s| {
+        if plan.shafts[s] {
+            state.q[plan.layout().end(s)]
+        } else if model.parameters.effects.half_shaft && spec.stiffness[s] > 0.0 {
+            inputs.load_torque[s] / spec.stiffness[s]
+        } else {
+            0.0
+        }
+    })
 }
 
 /// Forces of the differential with teeth.
-pub fn teeth_forces<const N: usize>(pair: &Pair, equations: &Equations<N>, inputs: &Inputs, state: &State) -> Forces {
-    let (teeth, point) = (equations.teeth, &state.point());
-    let (torque, heat) = equations.tooth_torques(point);
-    let mut a = torque;
-    equations.finish(point, &mut a, heat);
+pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+    model: &Model,
+    equations: &Equations<N, G, P, FULL>,
+    inputs: &Inputs,
+    state: &State,
+) -> Forces {
+    let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
+    let plan = &teeth.plan;
+    let (a, power) = equations.evaluate(point);
+    let tooth = equations.gear_torques(point);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
-    out.carrier_torque = if teeth.plan.carrier_imposed { -torque[CARRIER] } else { inputs.carrier_torque };
+    let drives = equations.drives(point);
+    out.carrier_torque = drives.0;
+    out.spin_torque = drives.1;
+    out.twist = twists(model, inputs, state);
     for s in 0..2 {
-        out.shaft_torque[s] = inputs.load_torque[s] + teeth.inertia.end[s] * a[s];
-        out.side_tangential[s] = torque[s] / (0.5 * pair.outer_pitch_diameter(1));
+        out.shaft_torque[s] = if plan.shafts[s] {
+            equations.shaft_torque(point, s)
+        } else {
+            inputs.load_torque[s] + teeth.rigid_end[s] * a[s]
+        };
+        out.side_tangential[s] = tooth[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
-    for (g, group) in teeth.plan.groups().iter().enumerate() {
-        if teeth.plan.spin_imposed {
-            out.spin_torque -= group.members * torque[PLANET + g];
-        }
-        for (s, forces) in groups[g].iter_mut().enumerate() {
-            *forces = mesh_forces(pair, &teeth.mesh, &equations.mesh_state(point, g, s));
+    let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    for g in 0..plan.groups().len() {
+        for s in 0..2 {
+            let mesh = &mut groups[g][s];
+            mesh.transmission_error =
+                teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
+            equations.tooth_loads(pair, point, g, s, |load| {
+                mesh.add(load);
+                if let Some(strength) = &model.strength {
+                    stress[g][s].add(strength, load);
+                }
+            });
         }
     }
-    for i in 0..teeth.plan.planets {
-        out.mesh[i] = groups[teeth.plan.group_of[i]];
+    if let Some(strength) = &model.strength {
+        out.stresses = strength.stresses(stress[..plan.groups().len()].iter().flatten().copied());
     }
-    add_up(&mut out, teeth.plan.planets);
-    add_powers(&mut out, state, heat);
+    for i in 0..plan.planets {
+        out.mesh[i] = groups[plan.group_of[i]];
+    }
+    add_up(&mut out, plan.planets);
+    add_powers(&mut out, plan, state, end_speeds(plan, state), power.heat.iter().sum());
     out
 }
 
-/// Forces of the ideal differential: torques shared equally by all meshes, acting at the pitch point.
-pub fn ideal_forces(pair: &Pair, ideal: &Ideal, inputs: &Inputs, state: &State) -> Forces {
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Torques of the meshes on side gears, alone.
+    fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
+        let side = self.teeth.lever[1];
+        if FULL && self.teeth.full.in_detail {
+            let torque =
+                |s: usize| in_pairs(G, |g| self.members(g) * side * self.detail::<f64>(at, g, s, |_| {}).force[0]);
+            return [torque(0), torque(1)];
+        }
+        let sum = self.tooth_torques(at).0;
+        [sum[0], sum[1]]
+    }
+
+    /// Torque of the carrier's drive and of what imposes the spin, all planets together [N·m].
+    fn drives(&self, at: &Point<N>) -> (f64, f64) {
+        let plan = &self.teeth.plan;
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+        if FULL {
+            self.act(at, &mut sum, &mut imposed, &mut power, None);
+        } else {
+            sum = self.tooth_torques(at).0;
+        }
+        let carrier = if plan.carrier_imposed {
+            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        } else {
+            self.inputs.carrier_torque
+        };
+        let spin = if plan.spin_imposed { -in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g]) } else { 0.0 };
+        (carrier, spin)
+    }
+}
+
+/// Meshes of gears without teeth: a side gear's torque shared equally, acting at the pitch point.
+fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f64; 2]) {
+    let mut mesh = [MeshForces::default(); 2];
+    for s in 0..2 {
+        out.side_tangential[s] = torque[s] / (0.5 * pair.outer_pitch_diameter(1));
+        let normal = torque[s] / (planets as f64 * pair.mean_cone * pair.lever()[1]);
+        let (alpha, pitch) = (pair.pressure_angle, [pair.gears[0].pitch, pair.gears[1].pitch]);
+        mesh[s] = MeshForces {
+            normal: normal.abs(),
+            pairs: if normal == 0.0 { 0.0 } else { 1.0 },
+            side_thrust: normal.abs() * sin(alpha) * sin(pitch[1]),
+            planet_thrust: normal.abs() * sin(alpha) * sin(pitch[0]),
+            tangential: normal * crate::numeric::cos(alpha),
+            transmission_error: 0.0,
+        };
+    }
+    out.mesh[..planets].fill(mesh);
+    add_up(out, planets);
+}
+
+/// Forces of the ideal differential.
+pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
+    let (pair, ideal): (&Pair, &Ideal) = (&model.pair, &model.ideal);
     let motion = ideal.motion(inputs);
     let side_acceleration = ideal.side_accelerations(&motion);
     let inertia = &ideal.inertia;
@@ -122,26 +186,41 @@ pub fn ideal_forces(pair: &Pair, ideal: &Ideal, inputs: &Inputs, state: &State) 
         side_acceleration,
         carrier_torque: motion.carrier_torque,
         spin_torque: motion.spin_torque,
+        twist: twists(model, inputs, state),
         ..Forces::default()
     };
-    let mut mesh = [MeshForces::default(); 2];
     for s in 0..2 {
-        let torque = inputs.load_torque[s] + inertia.side[s] * side_acceleration[s];
         out.shaft_torque[s] = inputs.load_torque[s] + inertia.end[s] * side_acceleration[s];
-        out.side_tangential[s] = torque / (0.5 * pair.outer_pitch_diameter(1));
-        let normal = torque / (inertia.planets * pair.mean_cone * pair.lever()[1]);
-        let (alpha, pitch) = (pair.pressure_angle, [pair.gears[0].pitch, pair.gears[1].pitch]);
-        mesh[s] = MeshForces {
-            normal: normal.abs(),
-            pairs: if normal == 0.0 { 0.0 } else { 1.0 },
-            side_thrust: normal.abs() * sin(alpha) * sin(pitch[1]),
-            planet_thrust: normal.abs() * sin(alpha) * sin(pitch[0]),
-            tangential: normal * cos(alpha),
-            transmission_error: 0.0,
-        };
     }
-    out.mesh[..ideal.plan.planets].fill(mesh);
-    add_up(&mut out, ideal.plan.planets);
-    add_powers(&mut out, state, 0.0);
+    let torque = [0, 1].map(|s| inputs.load_torque[s] + inertia.side[s] * side_acceleration[s]);
+    pitch_point_meshes(&mut out, pair, ideal.plan.planets, torque);
+    add_powers(&mut out, &ideal.plan, state, [state.v[0], state.v[1]], 0.0);
+    out
+}
+
+/// Forces of the ideal differential with effects on bodies.
+pub fn rigid_forces<const N: usize>(
+    model: &Model,
+    equations: &RigidEquations<N>,
+    inputs: &Inputs,
+    state: &State,
+) -> Forces {
+    let (plan, point) = (&model.ideal.plan, &state.point::<N>());
+    let (a, power) = equations.evaluate(point);
+    let torques = equations.torques(point);
+    let mut out = Forces {
+        carrier_acceleration: a[CARRIER],
+        side_acceleration: [a[0], a[1]],
+        carrier_torque: torques.carrier,
+        spin_torque: torques.spin,
+        twist: twists(model, inputs, state),
+        ..Forces::default()
+    };
+    for s in 0..2 {
+        out.shaft_torque[s] =
+            if plan.shafts[s] { power.shaft[s] } else { inputs.load_torque[s] + equations.rigid.rigid_end[s] * a[s] };
+    }
+    pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
+    add_powers(&mut out, plan, state, end_speeds(plan, state), power.heat.iter().sum());
     out
 }

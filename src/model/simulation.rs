@@ -4,37 +4,70 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::bodies::Inertias;
-use super::constants::Model;
-use super::parameters::{Inputs, Parameters};
+use super::constants::{Gears, Model};
+use super::dry::Mode;
+use super::effects::{CAUSES, Cause};
+use super::equations::Equations;
+use super::loads::ToothLoad;
+use super::parameters::{Inputs, Parameters, Start};
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
-use super::state::{CARRIER, PLANET, State};
-use super::teeth::{Equations, Teeth};
+use super::rigid::RigidEquations;
+use super::run::{self, BUDGET};
+use super::state::{CARRIER, State};
 use super::{resultants, start};
 use crate::geometry::Pair;
-use crate::integrate::{self, Effort, Failure};
 use crate::numeric::TAU;
 use crate::problem::Problem;
+use crate::strength::ToothDamage;
 
-/// Evaluates an expression with the constant `N` set to the model's number of degrees of freedom.
+/// Evaluates an expression with the type `E` set to the equations of a model with teeth, in the size it needs and with
+/// effects only where there are some, and `N` to its number of degrees of freedom.
 macro_rules! by_size {
-    ($model:expr, $body:expr) => {
-        match $model.ideal.plan.groups().len() {
-            1 => by_size!(4, @ $body),
-            _ => by_size!(5, @ $body),
+    ($teeth:expr, $full:expr, $body:expr) => {{
+        let layout = &$teeth.layout;
+        match (layout.groups, layout.pins, layout.ends, $full) {
+            (1, false, false, false) => by_size!(@ 4, 1, 0, false, $body),
+            (2, false, false, false) => by_size!(@ 5, 2, 0, false, $body),
+            (_, false, false, false) => by_size!(@ 7, 4, 0, false, $body),
+            (1, false, false, true) => by_size!(@ 4, 1, 0, true, $body),
+            (2, false, false, true) => by_size!(@ 5, 2, 0, true, $body),
+            (_, false, false, true) => by_size!(@ 7, 4, 0, true, $body),
+            (1, false, true, _) => by_size!(@ 6, 1, 0, true, $body),
+            (2, false, true, _) => by_size!(@ 7, 2, 0, true, $body),
+            (_, false, true, _) => by_size!(@ 9, 4, 0, true, $body),
+            (1, true, false, _) => by_size!(@ 7, 1, 1, true, $body),
+            (2, true, false, _) => by_size!(@ 9, 2, 1, true, $body),
+            (_, true, false, _) => by_size!(@ 13, 4, 1, true, $body),
+            (1, true, true, _) => by_size!(@ 9, 1, 1, true, $body),
+            (2, true, true, _) => by_size!(@ 11, 2, 1, true, $body),
+            (_, true, true, _) => by_size!(@ 15, 4, 1, true, $body),
         }
-    };
-    ($n:literal, @ $body:expr) => {{
+    }};
+    (@ $n:literal, $g:literal, $p:literal, $full:literal, $body:expr) => {{
+        #[allow(unused)]
         const N: usize = $n;
+        type E<'a> = Equations<'a, $n, $g, $p, $full>;
         $body
     }};
+}
+
+/// The same for an ideal differential with effects.
+macro_rules! by_rigid_size {
+    ($model:expr, $body:expr) => {
+        if $model.ideal.plan.ends {
+            type E<'a> = RigidEquations<'a, 6>;
+            $body
+        } else {
+            type E<'a> = RigidEquations<'a, 4>;
+            $body
+        }
+    };
 }
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
 const FIRST_STEP: f64 = 1e-6;
 /// Longest stretch integrated before positions are wrapped [s].
 const STRETCH: f64 = 1.0;
-/// Attempts at steps granted to one call: bounds the time that a host can be kept waiting to some seconds.
-const BUDGET: u64 = 2_000_000;
 
 /// Why a step could not be completed; the simulation stands at the last good time.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,14 +98,18 @@ impl Simulation {
     pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
         let (model, state) = (&simulation.model, &mut simulation.state);
-        match &model.teeth {
-            Some(teeth) => {
-                let start = parameters.scene.start;
-                by_size!(model, start::teeth_start::<N>(teeth, &model.ideal, inputs, start, state))
+        start::speeds(model, inputs, state);
+        if let Gears::Teeth(teeth) = &model.gears {
+            if parameters.scene.start == Start::Equilibrium {
+                let full = teeth.full.acts(state);
+                by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
                     .map_err(|problem| vec![problem])?;
             }
-            None => start::ideal_start(&model.ideal, inputs, parameters.scene.start, state),
         }
+        simulation.apply_commands();
+        simulation.catch_holds();
+        simulation.state.work = 0.0;
+        simulation.state.heat = [0.0; CAUSES];
         simulation.state.energy_at_start = simulation.energy();
         Ok(simulation)
     }
@@ -91,13 +128,9 @@ impl Simulation {
         }
     }
 
-    /// Takes over tunable parameters: contact damping.
+    /// Takes over tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
-        let model = Arc::make_mut(&mut self.model);
-        model.parameters.contact.damping = parameters.contact.damping;
-        if let Some(teeth) = &mut model.teeth {
-            teeth.mesh.law.damping = parameters.contact.damping;
-        }
+        Arc::make_mut(&mut self.model).tune(parameters);
         self.forces = None;
     }
 
@@ -105,71 +138,149 @@ impl Simulation {
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
         self.apply_commands();
-        let model = &self.model;
-        let dof = PLANET + model.ideal.plan.groups().len();
-        match &model.teeth {
-            None => {
+        self.catch_holds();
+        let model = Arc::clone(&self.model);
+        let dof = model.ideal.plan.layout().count();
+        if let Gears::Rigid(rigid) = &model.gears {
+            if !rigid.acts(&self.state) {
                 let h = until - self.state.time;
                 model.ideal.advance(&mut self.state, &self.inputs, h);
                 self.state.time = until;
                 self.state.statistics.accepted += 1;
                 self.state.control.last = h;
                 self.state.wrap(&model.periods, dof);
-                Ok(())
+                return Ok(());
             }
-            Some(teeth) => {
-                let (mut outcome, mut budget) = (Ok(()), BUDGET);
-                while outcome.is_ok() && self.state.time < until {
-                    let stretch =
-                        if until - self.state.time > 1.5 * STRETCH { self.state.time + STRETCH } else { until };
-                    let (inputs, state) = (&self.inputs, &mut self.state);
-                    outcome = by_size!(
-                        model,
-                        integrate_teeth::<N>(teeth, inputs, state, stretch, &model.parameters, &mut budget)
-                    );
-                    self.state.wrap(&model.periods, dof);
-                    // the rounding of the time axis may leave a rest too small to integrate
-                    if outcome.is_ok() {
-                        self.state.time = stretch;
-                    }
+        }
+        let (mut outcome, mut budget) = (Ok(()), BUDGET);
+        while outcome.is_ok() && self.state.time < until {
+            let stretch = self.end_of_stretch(until);
+            let (inputs, state) = (&self.inputs, &mut self.state);
+            let whole = match &model.gears {
+                Gears::Rigid(rigid) => by_rigid_size!(
+                    model,
+                    run::rigid_stretch(E::new(rigid, inputs, state), &model, state, stretch, &mut budget)
+                ),
+                Gears::Teeth(teeth) => {
+                    let full = teeth.full.acts(state);
+                    by_size!(
+                        teeth,
+                        full,
+                        run::teeth_stretch(E::new(teeth, inputs, state), &model, state, stretch, &mut budget)
+                    )
                 }
-                outcome
+            };
+            state.wrap(&model.periods, dof);
+            if let Gears::Rigid(rigid) = &model.gears {
+                rigid.constrain(state);
             }
+            outcome = whole;
+            // the rounding of the time axis may leave a rest too small to integrate
+            if outcome.is_ok() {
+                state.time = stretch;
+            }
+            self.break_tooth();
+        }
+        outcome
+    }
+
+    /// Where to stop for wrapping positions, or for a tooth that breaks by itself.
+    fn end_of_stretch(&self, until: f64) -> f64 {
+        let time = self.state.time;
+        let mut end = if until - time > 1.5 * STRETCH { time + STRETCH } else { until };
+        let p = &self.model.parameters;
+        let onset = p.tooth_fault.onset;
+        if p.effects.tooth_fault && !self.state.fault && onset > time && onset < end {
+            end = onset;
+        }
+        end
+    }
+
+    /// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.
+    fn break_tooth(&mut self) {
+        let p = &self.model.parameters;
+        let onset = p.tooth_fault.onset;
+        let due = self.inputs.fault > 0.5 || onset > 0.0 && self.state.time >= onset;
+        if p.effects.tooth_fault && !self.state.fault && due {
+            let before = self.energy();
+            self.state.fault = true;
+            self.state.heat[Cause::Contact as usize] += before - self.energy();
         }
     }
 
     /// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
     fn apply_commands(&mut self) {
-        let ideal = &self.model.ideal;
-        let Some(_) = &self.model.teeth else {
-            self.state.work += ideal.jump(&mut self.state, &self.inputs);
-            return;
-        };
-        let (plan, inertia) = (&ideal.plan, &ideal.inertia);
-        let State { v, work, .. } = &mut self.state;
-        let mut jump = |v: &mut f64, command: f64, inertia: f64| {
-            if *v != command {
-                *work += 0.5 * inertia * (command * command - *v * *v);
-                *v = command;
-            }
-        };
-        if plan.carrier_imposed {
-            jump(&mut v[CARRIER], self.inputs.carrier_speed, inertia.carrier);
+        self.break_tooth();
+        self.state.carrier_command = self.inputs.carrier_speed;
+        let (ideal, state, inputs) = (&self.model.ideal, &mut self.state, &self.inputs);
+        let plan = &ideal.plan;
+        let mut ends = 0.0;
+        for s in (0..2).filter(|&s| plan.side_imposed[s]) {
+            // an imposed end has no inertia of its own
+            let end = plan.layout().end(s);
+            let inertia = ideal.inertia.end[s];
+            let (old, new) = (state.v[end], inputs.side_speed[s]);
+            ends += 0.5 * inertia * (new * new - old * old);
+            state.v[end] = new;
         }
-        if plan.spin_imposed {
-            for (g, group) in plan.groups().iter().enumerate() {
-                jump(&mut v[PLANET + g], self.inputs.planet_spin, group.members * inertia.planet);
+        state.work += ends;
+        match &self.model.gears {
+            Gears::Rigid(rigid) => {
+                let carrier_speed = rigid.carrier_speed(state, inputs.carrier_speed);
+                let commanded = Inputs { carrier_speed, ..*inputs };
+                state.work += ideal.jump(state, &commanded);
+            }
+            Gears::Teeth(teeth) => {
+                let layout = &teeth.layout;
+                let mut work = 0.0;
+                let mut jump = |v: &mut f64, command: f64, inertia: f64| {
+                    if *v != command {
+                        work += 0.5 * inertia * (command * command - *v * *v);
+                        *v = command;
+                    }
+                };
+                if plan.carrier_imposed {
+                    let command = teeth.full.carrier_speed(state, inputs.carrier_speed);
+                    jump(&mut state.v[CARRIER], command, teeth.inertia[CARRIER]);
+                }
+                for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
+                    let i = layout.planet(g);
+                    jump(&mut state.v[i], inputs.planet_spin, layout.members[g] * teeth.inertia[i]);
+                }
+                state.work += work;
+            }
+        }
+    }
+
+    /// Catches bodies that dry friction takes hold of, and lets go of those it releases.
+    fn catch_holds(&mut self) {
+        self.state.lock = self.inputs.lock;
+        let (model, inputs, state) = (&self.model, &self.inputs, &mut self.state);
+        match &model.gears {
+            Gears::Rigid(rigid) => by_rigid_size!(model, {
+                let mut equations = E::new(rigid, inputs, state);
+                equations.take_over(&state.point(), &mut state.heat);
+                state.holds = equations.holds;
+            }),
+            Gears::Teeth(teeth) => {
+                let full = teeth.full.acts(state);
+                by_size!(teeth, full, {
+                    let mut equations = E::new(teeth, inputs, state);
+                    equations.take_over(&state.point(), &mut state.heat);
+                    state.holds = equations.holds;
+                });
             }
         }
     }
 
     /// Kinetic and elastic energy [J].
     fn energy(&self) -> f64 {
-        match &self.model.teeth {
-            None => self.model.ideal.kinetic_energy(&self.state),
-            Some(teeth) => {
-                let (inputs, state) = (&self.inputs, &self.state);
-                by_size!(self.model, Equations::<N>::new(teeth, inputs, state).energy(&state.point()))
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        match &model.gears {
+            Gears::Rigid(rigid) => by_rigid_size!(model, E::new(rigid, inputs, state).energy(&state.point())),
+            Gears::Teeth(teeth) => {
+                let full = teeth.full.acts(state);
+                by_size!(teeth, full, E::new(teeth, inputs, state).energy(&state.point()))
             }
         }
     }
@@ -182,6 +293,8 @@ impl Simulation {
     /// Angles and speeds.
     pub fn motion(&self) -> Motion {
         let (model, state) = (&self.model, &self.state);
+        let plan = &model.ideal.plan;
+        let layout = plan.layout();
         let position = |i: usize| state.position(i, &model.periods);
         let v = &state.v;
         let mut motion = Motion {
@@ -191,10 +304,10 @@ impl Simulation {
             side_speed: [v[0], v[1]],
             spin_angle: [0.0; MAX_PLANETS],
             spin_speed: [0.0; MAX_PLANETS],
-            mesh_frequency: f64::from(model.parameters.geometry.planet_teeth) * v[PLANET].abs() / TAU,
+            mesh_frequency: f64::from(model.parameters.geometry.planet_teeth) * v[layout.planet(0)].abs() / TAU,
         };
-        for i in 0..model.ideal.plan.planets {
-            let g = PLANET + model.ideal.plan.group_of[i];
+        for i in 0..plan.planets {
+            let g = layout.planet(plan.group_of[i]);
             motion.spin_angle[i] = position(g);
             motion.spin_speed[i] = v[g];
         }
@@ -204,23 +317,53 @@ impl Simulation {
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        self.forces.get_or_insert_with(|| match &model.teeth {
-            None => resultants::ideal_forces(&model.pair, &model.ideal, inputs, state),
-            Some(teeth) => by_size!(
-                model,
-                resultants::teeth_forces(&model.pair, &Equations::<N>::new(teeth, inputs, state), inputs, state)
-            ),
+        self.forces.get_or_insert_with(|| match &model.gears {
+            Gears::Rigid(rigid) if !rigid.acts(state) => resultants::ideal_forces(model, inputs, state),
+            Gears::Rigid(rigid) => {
+                by_rigid_size!(model, resultants::rigid_forces(model, &E::new(rigid, inputs, state), inputs, state))
+            }
+            Gears::Teeth(teeth) => {
+                let full = teeth.full.acts(state);
+                by_size!(teeth, full, resultants::teeth_forces(model, &E::new(teeth, inputs, state), inputs, state))
+            }
         })
+    }
+
+    /// Shows the load of every tooth pair, of one planet of each group; none where there are no teeth.
+    pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let Gears::Teeth(teeth) = &model.gears else { return };
+        let full = teeth.full.acts(state);
+        by_size!(teeth, full, {
+            let (equations, point) = (E::new(teeth, inputs, state), state.point());
+            for g in 0..model.ideal.plan.groups().len() {
+                for s in 0..2 {
+                    equations.tooth_loads(&model.pair, &point, g, s, &mut visit);
+                }
+            }
+        });
     }
 
     /// Ledger and solver statistics.
     pub fn books(&self) -> Books {
-        let s = &self.state.statistics;
+        let (s, f) = (&self.state.statistics, &self.state.fatigue);
+        let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
+        let stood = f.stood[0].sum.max(f.stood[1].sum);
+        let held = |range: std::ops::Range<usize>| {
+            let holds = self.state.holds[range].iter();
+            holds.filter(|h| h.stiffness > 0.0 && h.mode == Mode::Stuck).count() as f64
+        };
         Books {
-            heat_contact: self.state.heat,
-            energy_residual: self.energy() - self.state.energy_at_start - self.state.work + self.state.heat,
+            heat: self.state.heat,
+            damage: [
+                [worst(&f.planets, ToothDamage::worst_root), worst(&f.planets, ToothDamage::worst_pitting)],
+                [worst(&f.sides, ToothDamage::worst_root) + stood, worst(&f.sides, ToothDamage::worst_pitting)],
+            ],
+            held: [held(0..2), held(2..2 + MAX_PLANETS)],
+            energy_residual: self.energy() - self.state.energy_at_start - self.state.work
+                + self.state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
-            rejected: (s.rejected_error + s.rejected_invalid) as f64,
+            rejected: (s.rejected_error + s.rejected_invalid + s.rejected_switch) as f64,
             rhs_calls: s.evaluations as f64,
             step_size: self.state.control.last,
         }
@@ -265,69 +408,4 @@ impl Simulation {
     pub fn describe(&self) -> String {
         self.model.ideal.plan.describe()
     }
-}
-
-/// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
-struct Jump {
-    deflection: f64,
-    planet: usize,
-    side: usize,
-}
-
-fn integrate_teeth<const N: usize>(
-    teeth: &Teeth,
-    inputs: &Inputs,
-    state: &mut State,
-    until: f64,
-    parameters: &Parameters,
-    budget: &mut u64,
-) -> Result<(), StepFailure> {
-    let equations = Equations::<N>::new(teeth, inputs, state);
-    // the equations do not know the time: counted from here it is resolved as finely as steps can get
-    let (mut point, mut time) = (state.point(), 0.0);
-    let mut good = (point, time);
-    let State { control, statistics, work, heat, .. } = state;
-    let outcome = integrate::advance(
-        &equations,
-        &mut point,
-        &mut time,
-        until - state.time,
-        Effort { tolerance: parameters.solver.relative_tolerance, control, statistics, budget },
-        |step| {
-            let (approach, planet, side) = equations.deepest(step.end);
-            if approach > teeth.jump {
-                return Err(Jump { deflection: approach * teeth.mesh.cone, planet, side });
-            }
-            // Simpson's rule on begin, middle and end of the step
-            let [a, m, b] = step.power;
-            *work += step.h / 6.0 * (a.input + 4.0 * m.input + b.input);
-            *heat += step.h / 6.0 * (a.heat + 4.0 * m.heat + b.heat);
-            good = (*step.end, step.time);
-            Ok(())
-        },
-    );
-    state.set_point(&good.0);
-    state.time += good.1;
-    let Err(failure) = outcome else { return Ok(()) };
-    let message = match failure {
-        Failure::Refused(Jump { deflection, planet, side }) => format!(
-            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action exceeds the limit {:.3} mm; \
-             reduce the load or raise contact.stiffness",
-            planet + 1,
-            ["left", "right"][side],
-            deflection * 1e3,
-            teeth.jump * teeth.mesh.cone * 1e3
-        ),
-        Failure::StepTooSmall { size } => format!(
-            "the step size fell to {size:.3e} s, below what time can resolve; look at the inputs, \
-             or loosen solver.relative_tolerance = {:e}",
-            parameters.solver.relative_tolerance
-        ),
-        Failure::TooManySteps => format!(
-            "{BUDGET} attempts at steps were not enough for one communication step; shorten it, \
-             loosen solver.relative_tolerance = {:e}, or add contact.damping",
-            parameters.solver.relative_tolerance
-        ),
-    };
-    Err(StepFailure { time: state.time, message })
 }

@@ -2,17 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::dry::Hold;
+use super::effects::CAUSES;
 use super::plan::MAX_GROUPS;
 use crate::integrate::{Control, Point, Statistics};
+use crate::strength::{Damage, Rainflow, ToothDamage};
 
-/// Largest number of degrees of freedom: two side gears, the carrier, the groups of planets.
-pub const MAX_DOF: usize = PLANET + MAX_GROUPS;
+/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, ends.
+pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + 2;
+/// Bodies that dry friction can hold: side gears and groups of planets.
+pub const HOLDS: usize = 2 + MAX_GROUPS;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;
 /// Index of the carrier; its position is θ_c.
 pub const CARRIER: usize = 2;
-/// Index of the first group of planets; positions are spins ψ relative to the carrier.
+/// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
 /// State of a simulation.
@@ -32,10 +37,48 @@ pub struct State {
     pub statistics: Statistics,
     /// Work of all inputs since the start [J].
     pub work: f64,
-    /// Heat since the start [J].
-    pub heat: f64,
+    /// Heat since the start by cause [J].
+    pub heat: [f64; CAUSES],
+    /// What dry friction holds.
+    pub holds: [Hold; HOLDS],
+    /// Shaft torques over whole mesh cycles.
+    pub bias: Bias,
+    /// Whether the tooth fault has come about.
+    pub fault: bool,
+    /// Command of the lock that acts since the last step.
+    pub lock: f64,
+    /// Command of the carrier's speed that acts since the last step [rad/s].
+    pub carrier_command: f64,
+    /// Damage of the teeth.
+    pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
+}
+
+/// Damage of the teeth so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Fatigue {
+    /// Planets, by group.
+    pub planets: [ToothDamage; MAX_GROUPS],
+    /// Side gears.
+    pub sides: [ToothDamage; 2],
+    /// Root stress of the teeth that stand in mesh with each side gear.
+    pub standing: [Rainflow; 2],
+    /// Damage that it did.
+    pub stood: [Damage; 2],
+}
+
+/// Time integrals of the shaft torques, kept mesh cycle by mesh cycle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Bias {
+    /// ∫T dt of left and right since the mesh cycle began [N·m·s].
+    pub sum: [f64; 2],
+    /// How long that is [s].
+    pub time: f64,
+    /// Whether it was seen to begin.
+    pub whole: bool,
+    /// Means over the last whole mesh cycle [N·m].
+    pub mean: Option<[f64; 2]>,
 }
 
 impl State {
@@ -49,7 +92,13 @@ impl State {
             control: Control::new(first_step),
             statistics: Statistics::default(),
             work: 0.0,
-            heat: 0.0,
+            heat: [0.0; CAUSES],
+            holds: [Hold::default(); HOLDS],
+            bias: Bias::default(),
+            fault: false,
+            lock: 0.0,
+            carrier_command: 0.0,
+            fatigue: Fatigue::default(),
             energy_at_start: 0.0,
         }
     }
@@ -78,13 +127,17 @@ impl State {
 
     /// Position `i` with its whole periods.
     pub fn position(&self, i: usize, periods: &[f64; MAX_DOF]) -> f64 {
-        self.q[i] + self.turns[i] as f64 * periods[i]
+        let turns = self.turns[i];
+        if turns == 0 { self.q[i] } else { self.q[i] + turns as f64 * periods[i] }
     }
 
     /// Whether all numbers are what a simulation can go on with.
     pub fn is_valid(&self) -> bool {
-        let numbers = [self.time, self.work, self.heat, self.energy_at_start, self.control.last_error];
-        self.q.iter().chain(&self.v).chain(&numbers).all(|x| x.is_finite())
+        let numbers =
+            [self.time, self.work, self.energy_at_start, self.control.last_error, self.bias.time, self.carrier_command];
+        let anchors = self.holds.map(|h| h.anchor);
+        self.q.iter().chain(&self.v).chain(&numbers).chain(&self.heat).chain(&anchors).all(|x| x.is_finite())
+            && (0.0..=1.0).contains(&self.lock)
             && self.control.next > 0.0
             && self.control.next.is_finite()
             && self.control.last >= 0.0

@@ -28,6 +28,11 @@ fn input(
     }
 }
 
+/// A command between 0 and 1.
+fn command(name: &'static str, at: fn(&mut Inputs) -> &mut f64, description: &'static str) -> Variable {
+    Variable { range: Some(Range { min: 0.0, max: 1.0 }), ..input(name, units::ONE, None, 1.0, at, description) }
+}
+
 /// Rows of all inputs.
 pub fn rows() -> Vec<Variable> {
     vec![
@@ -71,5 +76,23 @@ pub fn rows() -> Vec<Variable> {
             |i| &mut i.planet_spin,
             "Imposed planet spin relative to the carrier; positive speeds the left side up",
         ),
+        input(
+            "left.speed_command",
+            units::RAD_PER_S,
+            Some(DEG_PER_S),
+            MAX_SPEED,
+            |i| &mut i.side_speed[0],
+            "Imposed speed of the wheel side of the left half-shaft when it is speed-driven",
+        ),
+        input(
+            "right.speed_command",
+            units::RAD_PER_S,
+            Some(DEG_PER_S),
+            MAX_SPEED,
+            |i| &mut i.side_speed[1],
+            "Imposed speed of the wheel side of the right half-shaft when it is speed-driven",
+        ),
+        command("lock.command", |i| &mut i.lock, "Command of the differential lock: 0 open, 1 locked"),
+        command("fault.trigger", |i| &mut i.fault, "Breaks the tooth of effects.tooth_fault when it rises above 0.5"),
     ]
 }

@@ -1,6 +1,22 @@
 //! The one table of FMI variables: names, units, starts, ranges and access to the model's quantities.
 //! The model description, value references and the C ABI all come from it.
 
+/// Declares an enumeration type and its row: the literals and their Rust counterparts stand side by side once.
+macro_rules! choice {
+    ($name:literal, $type:literal, $group:ident . $field:ident, $description:literal,
+     $($value:path => $literal:literal $meaning:literal),+) => {{
+        static TYPE: super::row::EnumType = super::row::EnumType {
+            name: $type,
+            choices: &[$(super::row::Choice { value: $value as i32, name: $literal, description: $meaning }),+],
+        };
+        fn set(p: &mut crate::model::Parameters, value: i32) {
+            $(if value == $value as i32 { p.$group.$field = $value; })+
+        }
+        super::parameters::row($name, super::row::Access::Enumeration(&TYPE, |p| p.$group.$field as i32, set), $description)
+    }};
+}
+
+mod effects;
 mod inputs;
 mod outputs;
 mod parameters;

@@ -1,7 +1,7 @@
 //! Rows of the outputs.
 
 use super::row::{Access, Causality, OutputSource, Variability, Variable};
-use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, MPA, Unit};
 use crate::model::{Books, Forces, Motion, efficiency};
 
 fn output(
@@ -64,6 +64,13 @@ macro_rules! side {
                 units::RAD_PER_S2,
                 |f| f.side_acceleration[$s],
                 "Side gear acceleration",
+            ),
+            output(
+                concat!($name, ".twist"),
+                units::RADIAN,
+                Some(DEG),
+                OutputSource::Forces(|f| f.twist[$s]),
+                "Twist of the half-shaft, side gear ahead of the wheel; 0 where it is rigid",
             ),
             forces(
                 concat!($name, ".shaft_torque"),
@@ -191,7 +198,59 @@ pub fn rows() -> Vec<Variable> {
         forces("power.out", units::WATT, |f| f.power_out, "Power delivered to the wheels"),
         forces("power.loss", units::WATT, |f| f.power_loss, "Power turned into heat"),
         forces("efficiency", units::ONE, efficiency, "1 - power.loss per power fed in at either end; 1 at zero power"),
-        books("heat.contact", units::JOULE, |b| b.heat_contact, "Heat of contact damping since the start"),
+        forces(
+            "torque_bias_ratio",
+            units::ONE,
+            |f| f.torque_bias_ratio,
+            "Torque of the slow over the fast half-shaft, over the last whole mesh cycle where shafts twist; 1 at zero torque",
+        ),
+        forces(
+            "locking_value",
+            units::ONE,
+            |f| f.locking_value,
+            "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist",
+        ),
+        output(
+            "stress.contact_max",
+            units::PASCAL,
+            Some(MPA),
+            OutputSource::Forces(|f| f.stresses.contact_max),
+            "Largest Hertz pressure of all tooth pairs where they touch",
+        ),
+        output(
+            "stress.contact_pitch",
+            units::PASCAL,
+            Some(MPA),
+            OutputSource::Forces(|f| f.stresses.contact_pitch),
+            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; largest of all meshes",
+        ),
+        output(
+            "stress.root_planet_max",
+            units::PASCAL,
+            Some(MPA),
+            OutputSource::Forces(|f| f.stresses.root_max[0]),
+            "Largest root stress of the planets by ISO 10300 method B1",
+        ),
+        output(
+            "stress.root_side_max",
+            units::PASCAL,
+            Some(MPA),
+            OutputSource::Forces(|f| f.stresses.root_max[1]),
+            "Largest root stress of the side gears by ISO 10300 method B1",
+        ),
+        books("damage.planet", units::ONE, |b| b.damage[0][0], "Miner sum of the roots of the worst planet"),
+        books("damage.side", units::ONE, |b| b.damage[1][0], "Miner sum of the roots of the worse side gear"),
+        books("damage.planet_flank", units::ONE, |b| b.damage[0][1], "Miner sum of pitting of the worst planet"),
+        books("damage.side_flank", units::ONE, |b| b.damage[1][1], "Miner sum of pitting of the worse side gear"),
+        books("heat.contact", units::JOULE, |b| b.heat[0], "Heat of contact damping since the start"),
+        books("heat.tooth_friction", units::JOULE, |b| b.heat[1], "Heat of friction along the flanks since the start"),
+        books("heat.thrust", units::JOULE, |b| b.heat[2], "Heat of thrust washers and pins since the start"),
+        books("heat.clutch", units::JOULE, |b| b.heat[3], "Heat of limited-slip clutches and lock since the start"),
+        books("heat.drag", units::JOULE, |b| b.heat[4], "Heat of bearings and oil since the start"),
+        books("heat.half_shaft", units::JOULE, |b| b.heat[5], "Heat of damping in the half-shafts since the start"),
+        books("heat.support", units::JOULE, |b| b.heat[6], "Heat of damping in pins and case since the start"),
+        books("held.sides", units::ONE, |b| b.held[0], "Side gears that dry friction holds to the carrier"),
+        books("held.planets", units::ONE, |b| b.held[1], "Groups of planets that dry friction holds on their pins"),
         books("solver.steps", units::ONE, |b| b.steps, "Accepted steps"),
         books("solver.rejected", units::ONE, |b| b.rejected, "Rejected steps"),
         books("solver.rhs_calls", units::ONE, |b| b.rhs_calls, "Evaluations of the tooth forces"),

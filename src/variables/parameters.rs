@@ -1,12 +1,12 @@
 //! Rows of the parameters: all fixed but those that say tunable.
 
-use super::row::{Access, Causality, Choice, EnumType, Range, RealParameter, Variability, Variable};
+use super::row::{Access, Causality, Range, RealParameter, Variability, Variable};
 use super::units::{self, DisplayUnit, Unit};
-use crate::contact::ContactLaw;
+use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::AddendumSystem;
-use crate::model::{CarrierDrive, GearContact, Method, Parameters, PlanetSpin, Start};
+use crate::model::{CarrierDrive, GearContact, Method, Parameters, PlanetSpin, SideDrive, Start};
 
-fn row(name: &'static str, access: Access, description: &'static str) -> Variable {
+pub(super) fn row(name: &'static str, access: Access, description: &'static str) -> Variable {
     Variable {
         name,
         description,
@@ -19,7 +19,7 @@ fn row(name: &'static str, access: Access, description: &'static str) -> Variabl
     }
 }
 
-fn real(
+pub(super) fn real(
     name: &'static str,
     unit: Unit,
     display: Option<DisplayUnit>,
@@ -30,7 +30,7 @@ fn real(
     Variable { unit: Some(unit), display, range: Some(Range { min, max }), ..row(name, Access::Real(at), description) }
 }
 
-fn integer(
+pub(super) fn integer(
     name: &'static str,
     (min, max): (i32, i32),
     at: fn(&mut Parameters) -> &mut i32,
@@ -40,28 +40,13 @@ fn integer(
     Variable { range, ..row(name, Access::Integer(at), description) }
 }
 
-fn switch(name: &'static str, at: fn(&mut Parameters) -> &mut bool, description: &'static str) -> Variable {
+pub(super) fn switch(name: &'static str, at: fn(&mut Parameters) -> &mut bool, description: &'static str) -> Variable {
     row(name, Access::Boolean(at), description)
-}
-
-/// Declares an enumeration type and its row: the literals and their Rust counterparts stand side by side once.
-macro_rules! choice {
-    ($name:literal, $type:literal, $group:ident . $field:ident, $description:literal,
-     $($value:path => $literal:literal $meaning:literal),+) => {{
-        static TYPE: EnumType = EnumType {
-            name: $type,
-            choices: &[$(Choice { value: $value as i32, name: $literal, description: $meaning }),+],
-        };
-        fn set(p: &mut Parameters, value: i32) {
-            $(if value == $value as i32 { p.$group.$field = $value; })+
-        }
-        row($name, Access::Enumeration(&TYPE, |p| p.$group.$field as i32, set), $description)
-    }};
 }
 
 /// Rows of all parameters.
 pub fn rows() -> Vec<Variable> {
-    use units::{DEG, MM, MPA, N_PER_MM15, NS_PER_MM};
+    use units::{DEG, MM, MPA, N_PER_MM, N_PER_MM_UM, N_PER_MM15, NS_PER_MM};
     let mut rows = vec![
         real(
             "geometry.module",
@@ -143,6 +128,14 @@ pub fn rows() -> Vec<Variable> {
             "Circumferential backlash at the outer pitch circle",
         ),
         real(
+            "geometry.root_fillet",
+            units::ONE,
+            None,
+            (0.0, 1.0),
+            |p| &mut p.geometry.root_fillet,
+            "Fillet radius at the root of the teeth per module, for their stiffness",
+        ),
+        real(
             "geometry.planet_bore",
             units::METRE,
             Some(MM),
@@ -217,7 +210,7 @@ pub fn rows() -> Vec<Variable> {
             None,
             (0.0, 1e6),
             |p| &mut p.inertia.left_end,
-            "Wheel side of the left half-shaft, rigid on the side gear; 0 = none",
+            "Wheel side of the left half-shaft; rigid on the side gear unless effects.half_shaft; 0 = none",
         ),
         real(
             "inertia.right_end",
@@ -225,10 +218,12 @@ pub fn rows() -> Vec<Variable> {
             None,
             (0.0, 1e6),
             |p| &mut p.inertia.right_end,
-            "Wheel side of the right half-shaft, rigid on the side gear; 0 = none",
+            "Wheel side of the right half-shaft; rigid on the side gear unless effects.half_shaft; 0 = none",
         ),
         choice!("contact.law", "ContactLaw", contact.law, "Law of tooth contact",
-            ContactLaw::Impact => "impact" "Adams IMPACT at the mean cone distance"),
+            ContactLaw::Impact => "impact" "Adams IMPACT at the mean cone distance",
+            ContactLaw::Line => "line" "tooth stiffness from geometry over the face width, linear",
+            ContactLaw::LineWeber => "line_weber" "the same with the Hertz part as the load has it"),
         switch(
             "contact.stiffness_from_hertz",
             |p| &mut p.contact.stiffness_from_hertz,
@@ -262,16 +257,63 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.contact.penetration_depth,
             "Penetration at which damping is full",
         ),
+        choice!("contact.damping_model", "DampingModel", contact.damping_model, "Damping of a tooth pair",
+            DampingModel::Step => "step" "contact.damping, built up over contact.penetration_depth as in Adams IMPACT",
+            DampingModel::Restitution => "restitution" "Hunt-Crossley, from contact.restitution at contact.impact_speed"),
+        real(
+            "contact.restitution",
+            units::ONE,
+            None,
+            (0.05, 1.0),
+            |p| &mut p.contact.restitution,
+            "Coefficient of restitution, with contact.damping_model restitution",
+        ),
+        real(
+            "contact.impact_speed",
+            units::M_PER_S,
+            None,
+            (1e-6, 1e3),
+            |p| &mut p.contact.impact_speed,
+            "Impact speed at which the restitution holds",
+        ),
+        real(
+            "contact.reference_line_load",
+            units::N_PER_M,
+            Some(N_PER_MM),
+            (1.0, 1e8),
+            |p| &mut p.contact.line_load,
+            "Line load at the mean cone distance for the Hertz part of contact.law line and of the lumped stiffness",
+        ),
+        switch(
+            "contact.mesh_stiffness_from_geometry",
+            |p| &mut p.contact.mesh_stiffness_from_geometry,
+            "Stiffness of a lumped mesh from the geometry of its teeth; false: contact.mesh_stiffness",
+        ),
+        real(
+            "contact.mesh_stiffness",
+            units::N_PER_M2,
+            Some(N_PER_MM_UM),
+            (1e3, 1e15),
+            |p| &mut p.contact.mesh_stiffness,
+            "Stiffness of a lumped mesh per face width, if not from geometry",
+        ),
     ];
     rows.extend([
         choice!("scene.carrier_drive", "CarrierDrive", scene.carrier_drive, "How the carrier is driven",
             CarrierDrive::Speed => "speed" "carrier.speed_command is imposed",
             CarrierDrive::Torque => "torque" "carrier.torque_command acts; carrier.speed_command is the initial speed"),
+        choice!("scene.left_drive", "SideDrive", scene.left_drive, "How the left half-shaft is driven",
+            SideDrive::Torque => "torque" "the load torque acts on its wheel side",
+            SideDrive::Speed => "speed" "the speed command is imposed on its wheel side; the half-shaft twists"),
+        choice!("scene.right_drive", "SideDrive", scene.right_drive, "How the right half-shaft is driven",
+            SideDrive::Torque => "torque" "the load torque acts on its wheel side",
+            SideDrive::Speed => "speed" "the speed command is imposed on its wheel side; the half-shaft twists"),
         choice!("scene.planet_spin", "PlanetSpin", scene.planet_spin, "Whether planets spin freely on their pins",
             PlanetSpin::Free => "free" "spin follows from the tooth forces",
             PlanetSpin::Imposed => "imposed" "planet.spin_command is imposed"),
         choice!("scene.gear_contact", "GearContact", scene.gear_contact, "Representation of tooth contact",
             GearContact::Ideal => "ideal" "no teeth: Willis' equation as a constraint",
+            GearContact::Lumped => "lumped" "one spring per mesh",
             GearContact::Tooth => "tooth" "tooth pair by tooth pair along the path of contact"),
         choice!("scene.start", "Start", scene.start, "State at the start time",
             Start::Equilibrium => "equilibrium" "meshes preloaded by the loads at the start time",
@@ -287,6 +329,20 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.effects.corner_contact,
             "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
         ),
+        switch("effects.tooth_errors", |p| &mut p.effects.tooth_errors, "Deviations, modifications and misalignment"),
+        switch(
+            "effects.tooth_fault",
+            |p| &mut p.effects.tooth_fault,
+            "A tooth that breaks by fault.trigger or in time",
+        ),
+        switch("effects.tooth_friction", |p| &mut p.effects.tooth_friction, "Friction along the flanks"),
+        switch("effects.thrust_friction", |p| &mut p.effects.thrust_friction, "Friction of thrust washers and pins"),
+        switch("effects.limited_slip", |p| &mut p.effects.limited_slip, "Clutch packs between side gears and carrier"),
+        switch("effects.half_shaft", |p| &mut p.effects.half_shaft, "Torsion of the half-shafts"),
+        switch("effects.pin_compliance", |p| &mut p.effects.pin_compliance, "Pins and case that give way"),
+        switch("effects.bearing_drag", |p| &mut p.effects.bearing_drag, "Drag of bearings and churned oil"),
+        switch("effects.final_drive", |p| &mut p.effects.final_drive, "Excitation by the final drive's ring gear"),
+        switch("effects.strength", |p| &mut p.effects.strength, "Stress and fatigue of the teeth"),
         choice!("solver.method", "SolverMethod", solver.method, "Integration method",
             Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5"),
         real(
@@ -297,6 +353,12 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.solver.relative_tolerance,
             "Relative tolerance of the local error per step",
         ),
+        switch(
+            "solver.merge_planets",
+            |p| &mut p.solver.merge_planets,
+            "Planets that are identical and in phase are simulated once and counted; false: each by itself",
+        ),
     ]);
+    rows.extend(super::effects::rows());
     rows
 }

@@ -57,6 +57,16 @@ pub const N_PER_MM15: DisplayUnit = shown("N/mm^1.5", 3.162_277_660_168_379_5e-5
 pub const NS_PER_MM: DisplayUnit = shown("N.s/mm", 1e-3);
 /// Megapascal.
 pub const MPA: DisplayUnit = shown("MPa", 1e-6);
+/// Micrometre.
+pub const UM: DisplayUnit = shown("um", 1e6);
+/// Newton per millimetre.
+pub const N_PER_MM: DisplayUnit = shown("N/mm", 1e-3);
+/// Newton per micrometre.
+pub const N_PER_UM: DisplayUnit = shown("N/um", 1e-6);
+/// Newton per millimetre and micrometre.
+pub const N_PER_MM_UM: DisplayUnit = shown("N/(mm.um)", 1e-9);
+/// Millipascal-second.
+pub const MPA_S: DisplayUnit = shown("mPa.s", 1e3);
 /// Kilonewton.
 pub const KN: DisplayUnit = shown("kN", 1e-3);
 
@@ -72,7 +82,7 @@ units! {
     /// Dimensionless.
     ONE = "1", base(0, 0, 0, 0), [];
     /// Length.
-    METRE = "m", base(0, 1, 0, 0), [MM];
+    METRE = "m", base(0, 1, 0, 0), [MM, UM];
     /// Angle.
     RADIAN = "rad", base(0, 0, 0, 1), [DEG];
     /// Angular speed.
@@ -101,4 +111,18 @@ units! {
     JOULE = "J", base(1, 2, -2, 0), [];
     /// Time.
     SECOND = "s", base(0, 0, 1, 0), [];
+    /// Speed.
+    M_PER_S = "m/s", base(0, 1, -1, 0), [];
+    /// Line load, and stiffness.
+    N_PER_M = "N/m", base(1, 0, -2, 0), [N_PER_MM, N_PER_UM];
+    /// Stiffness per width.
+    N_PER_M2 = "N/m2", base(1, -1, -2, 0), [N_PER_MM_UM];
+    /// Torsional stiffness.
+    NM_PER_RAD = "N.m/rad", base(1, 2, -2, -1), [];
+    /// Torsional damping.
+    NMS_PER_RAD = "N.m.s/rad", base(1, 2, -1, -1), [];
+    /// Torque by the square of a speed.
+    NMS2_PER_RAD2 = "N.m.s2/rad2", base(1, 2, 0, -2), [];
+    /// Viscosity.
+    PA_S = "Pa.s", base(1, -1, -1, 0), [MPA_S];
 }

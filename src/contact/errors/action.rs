@@ -1,0 +1,95 @@
+//! Normal and place of contact in the directions of a mesh: what displacements of the gears are projected on.
+//!
+//! Directions of a mesh: a_p, a_s along the axes of planet and side gear from apex to heel; u ⟂ a_p and v ⟂ a_s in the
+//! plane of both axes, each toward the other axis; t = x̂ × r̂ across it, the way a planet is carried by a carrier that
+//! turns forward. With P₀ along the pitch line and Q₀ ⟂ P₀ in the plane of the axes, toward the planet's tip,
+//!
+//!   T₀ = sinα Q₀ ± cosα t  (+ drive, − coast),   C(s) = cos s P₀ + sin s T₀,   T(s) = dC/ds = cos s T₀ − sin s P₀
+//!
+//! are the place of contact on the unit sphere and the normal there, pointing from the planet into the side gear.
+//! Left and right mesh are mirror images, so that the components below hold for both.
+
+use crate::contact::pairs::Flank;
+use crate::geometry::Pair;
+use crate::numeric::{Scalar, cos, sin};
+
+/// Sines and cosines of the pressure angle and of both pitch angles.
+#[derive(Clone, Copy, Debug)]
+pub struct Action {
+    /// sinα.
+    pub sin_pressure: f64,
+    cos_pressure: f64,
+    sin_pitch: [f64; 2],
+    cos_pitch: [f64; 2],
+}
+
+/// Components of the contact normal T(s).
+#[derive(Clone, Copy, Debug)]
+pub struct Normal<T> {
+    /// Along the axes of planet and side gear: T·a_p, T·a_s.
+    pub axial: [T; 2],
+    /// Away from the axes of planet and side gear, in their plane: T·u, T·v.
+    pub radial: [T; 2],
+    /// Across the plane of the axes: T·t.
+    pub across: T,
+}
+
+/// +1 for the drive flank, −1 for the coast flank.
+pub fn push(flank: Flank) -> f64 {
+    match flank {
+        Flank::Drive => 1.0,
+        Flank::Coast => -1.0,
+    }
+}
+
+impl Action {
+    /// Line of action of `pair`.
+    pub fn new(pair: &Pair) -> Self {
+        Self {
+            sin_pressure: sin(pair.pressure_angle),
+            cos_pressure: cos(pair.pressure_angle),
+            sin_pitch: pair.gears.map(|g| sin(g.pitch)),
+            cos_pitch: pair.gears.map(|g| cos(g.pitch)),
+        }
+    }
+
+    /// Normal at `s` [rad] on `flank`.
+    #[inline]
+    pub fn normal<T: Scalar>(&self, flank: Flank, s: T) -> Normal<T> {
+        let (along_pitch, along) = (-s.sin(), s.cos());
+        let depthwise = along * self.sin_pressure;
+        let [sp, ss] = self.sin_pitch;
+        let [cp, cs] = self.cos_pitch;
+        Normal {
+            axial: [along_pitch * cp - depthwise * sp, along_pitch * cs + depthwise * ss],
+            radial: [along_pitch * sp + depthwise * cp, along_pitch * ss - depthwise * cs],
+            across: along * (push(flank) * self.cos_pressure),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn the_normal_has_unit_length_and_the_base_circles_as_lever_arms() {
+        let pair = Pair::new(&GearSpec { shaft_angle: 1.3, ..GearSpec::default() });
+        let action = Action::new(&pair);
+        for flank in [Flank::Drive, Flank::Coast] {
+            for s in [-0.2, 0.0, 0.15] {
+                let n = action.normal(flank, s);
+                // C(s) is T a quarter turn back
+                let c = action.normal(flank, s - std::f64::consts::FRAC_PI_2);
+                for i in 0..2 {
+                    let length = n.axial[i].powi(2) + n.radial[i].powi(2) + n.across.powi(2);
+                    assert!((length - 1.0).abs() < 1e-14);
+                    // (C × T)·a of each gear: the lever arm sinδ_b of physics and theory
+                    let lever = c.radial[i] * n.across - c.across * n.radial[i];
+                    assert!((lever - push(flank) * pair.lever()[i]).abs() < 1e-14, "{i} {lever}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! All errors together: the gap of a pair is their sum.
+
+use super::action::Action;
+use super::crowning::Crowning;
+use super::misalignment::Misalignment;
+use super::pitch::{PitchDeviations, Tolerances};
+use super::relief::TipRelief;
+use super::runout::Runout;
+use super::{MeshId, PairId, ToothErrorSpec};
+use crate::geometry::Pair;
+use crate::numeric::Scalar;
+use crate::problem::Problem;
+
+/// Deviations and modifications of all teeth of a differential.
+#[derive(Clone, Debug)]
+pub struct ToothErrors {
+    planets: usize,
+    teeth: [usize; 2],
+    per_mean_cone: f64,
+    action: Action,
+    pitch: Option<PitchDeviations>,
+    runout: Option<Runout>,
+    relief: Option<TipRelief>,
+    crowning: Option<Crowning>,
+    misalignment: Option<Misalignment>,
+}
+
+impl ToothErrors {
+    /// Errors after `spec` on the gears of `pair`, for `planets` equally spaced planets; or what is wrong with `spec`.
+    pub fn new(spec: &ToothErrorSpec, pair: &Pair, planets: usize) -> Result<Self, Problem> {
+        spec.check()?;
+        if planets == 0 {
+            return Err(Problem::new("geometry.planet_count", "0 planets: there must be one at least"));
+        }
+        let runout = if spec.runout_by_grade {
+            [0, 1].map(|i| Tolerances::of_gear(spec.accuracy_grade, pair, i).runout)
+        } else {
+            [spec.planet_runout, spec.side_runout]
+        };
+        let action = Action::new(pair);
+        Ok(Self {
+            planets,
+            teeth: pair.gears.map(|g| g.teeth.unsigned_abs().max(1) as usize),
+            per_mean_cone: 1.0 / pair.mean_cone,
+            action,
+            pitch: PitchDeviations::new(spec.accuracy_grade, spec.seed, pair, planets),
+            runout: Runout::new(runout, spec.seed, pair, planets),
+            relief: TipRelief::new(spec, pair),
+            crowning: Crowning::new(spec, pair),
+            misalignment: Misalignment::new(spec, &action, planets),
+        })
+    }
+
+    /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of contact
+    /// or past its ends: the sum of all errors.
+    #[inline]
+    pub fn gap<T: Scalar>(&self, mesh: MeshId, pair: PairId, r: f64, s: T) -> T {
+        let (mesh, pair) = self.in_range(mesh, pair);
+        let mut gap = T::constant(0.0);
+        if let Some(pitch) = &self.pitch {
+            gap = gap + pitch.gap(mesh, pair) * (r * self.per_mean_cone);
+        }
+        if let Some(crowning) = &self.crowning {
+            gap = gap + crowning.gap(r);
+        }
+        if let Some(relief) = &self.relief {
+            gap = gap + relief.gap(s);
+        }
+        if self.misalignment.is_some() || self.runout.is_some() {
+            let normal = self.action.normal(pair.flank, s);
+            if let Some(misalignment) = &self.misalignment {
+                gap = gap + misalignment.gap(mesh, r, &normal);
+            }
+            if let Some(runout) = &self.runout {
+                gap = gap + runout.gap(mesh, pair, s, &normal);
+            }
+        }
+        gap
+    }
+
+    /// The part of the gap that the tooth pair has everywhere [m]: that of pitch deviations, as it is at R_m. In
+    /// [`Self::gap`] it grows with R, being a rotation of the teeth about their axes.
+    #[inline]
+    pub fn per_tooth(&self, mesh: MeshId, pair: PairId) -> f64 {
+        let (mesh, pair) = self.in_range(mesh, pair);
+        self.pitch.as_ref().map_or(0.0, |pitch| pitch.gap(mesh, pair))
+    }
+
+    /// How far the teeth of planet (`gear` = 0) or side gear (1) number `index` stand off its axis [m], and in which azimuth
+    /// from the centre of tooth 0, in the direction in which teeth are numbered [rad].
+    pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
+        let gear = gear % 2;
+        let gears = [self.planets, 2][gear];
+        self.runout.as_ref().map_or([0.0; 2], |runout| runout.eccentricity(gear, index % gears))
+    }
+
+    /// Whether e/R is the same all over the face, as a penetration arc of perfect teeth is: slices then are alike.
+    pub fn is_uniform_over_face(&self) -> bool {
+        self.runout.is_none()
+            && self.relief.is_none()
+            && self.crowning.is_none()
+            && self.misalignment.as_ref().is_none_or(Misalignment::is_rotation)
+    }
+
+    /// Whether planets differ, by their teeth or by where they stand, so that none may represent another.
+    pub fn is_individual(&self) -> bool {
+        self.pitch.is_some()
+            || self.runout.is_some()
+            || self.misalignment.as_ref().is_some_and(Misalignment::is_individual)
+    }
+
+    /// Whether the gap of every pair is zero everywhere.
+    pub fn is_perfect(&self) -> bool {
+        self.pitch.is_none() && self.misalignment.is_none() && self.is_uniform_over_face()
+    }
+
+    #[inline]
+    fn in_range(&self, mesh: MeshId, pair: PairId) -> (MeshId, PairId) {
+        (
+            MeshId { planet: mesh.planet % self.planets, side: mesh.side % 2 },
+            PairId {
+                planet_tooth: pair.planet_tooth % self.teeth[0],
+                side_tooth: pair.side_tooth % self.teeth[1],
+                flank: pair.flank,
+            },
+        )
+    }
+}

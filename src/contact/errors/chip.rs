@@ -1,0 +1,118 @@
+//! A tooth that has lost a piece: where material is missing the gap is the depth removed, and nothing touches.
+//!
+//! Under the laws that integrate over the face the piece covers the slices beyond R_e − f b, f its fraction of the face
+//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece is gone
+//! at once: on both flanks, in every mesh the tooth comes to, and for good.
+
+use super::spec::{FaultyGear, ToothFaultSpec};
+use super::{MeshId, PairId};
+use crate::geometry::Pair;
+use crate::problem::Problem;
+
+/// The broken tooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Chip {
+    on_planet: bool,
+    index: usize,
+    tooth: usize,
+    teeth: usize,
+    gears: usize,
+    /// Cone distance beyond which material is missing [m].
+    from: f64,
+    depth: f64,
+    onset: f64,
+}
+
+impl Chip {
+    /// The tooth that `spec` breaks on the gears of `pair` with `planets` planets, if any.
+    pub fn new(spec: &ToothFaultSpec, pair: &Pair, planets: usize) -> Result<Option<Self>, Problem> {
+        spec.check(pair.gears.map(|g| g.teeth), planets)?;
+        let on_planet = spec.gear == FaultyGear::Planet;
+        let gear = &pair.gears[usize::from(!on_planet)];
+        let face_width = pair.outer_cone - pair.inner_cone;
+        // all of it passed the check above
+        let whole = |i: i32| usize::try_from(i).unwrap_or(0);
+        Ok((spec.gear != FaultyGear::None).then(|| Self {
+            on_planet,
+            index: whole(spec.index),
+            tooth: whole(spec.tooth),
+            teeth: whole(gear.teeth),
+            gears: if on_planet { planets } else { 2 },
+            from: pair.outer_cone - spec.missing_fraction * face_width,
+            depth: spec.depth,
+            onset: spec.onset,
+        }))
+    }
+
+    /// Whether the piece is gone at `time` [s] by its onset, or `triggered`.
+    pub fn is_gone(&self, time: f64, triggered: bool) -> bool {
+        triggered || (self.onset > 0.0 && time >= self.onset)
+    }
+
+    /// Time at which the piece breaks off by itself [s], if it does.
+    pub fn onset(&self) -> Option<f64> {
+        (self.onset > 0.0).then_some(self.onset)
+    }
+
+    /// Whether the broken tooth is in the pair.
+    #[inline]
+    pub fn is_in(&self, mesh: MeshId, pair: PairId) -> bool {
+        let (index, tooth) =
+            if self.on_planet { (mesh.planet, pair.planet_tooth) } else { (mesh.side, pair.side_tooth) };
+        index % self.gears == self.index && tooth % self.teeth == self.tooth
+    }
+
+    /// Depth missing [m] at cone distance `r` [m] of the broken tooth.
+    #[inline]
+    pub fn missing(&self, r: f64) -> f64 {
+        if r > self.from { self.depth } else { 0.0 }
+    }
+
+    /// Gap [m] of a pair at cone distance `r` [m] once the piece is gone.
+    #[inline]
+    pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64) -> f64 {
+        if self.is_in(mesh, pair) { self.missing(r) } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::pairs::Flank;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn only_the_broken_tooth_misses_material_and_only_from_the_heel() {
+        let pair = Pair::new(&GearSpec::default());
+        let spec = ToothFaultSpec {
+            gear: FaultyGear::Side,
+            index: 1,
+            tooth: 5,
+            missing_fraction: 0.25,
+            depth: 2e-3,
+            ..ToothFaultSpec::default()
+        };
+        let chip = Chip::new(&spec, &pair, 2).unwrap().unwrap();
+        let id = |side_tooth| PairId { planet_tooth: 3, side_tooth, flank: Flank::Coast };
+        let (left, right) = (MeshId { planet: 0, side: 0 }, MeshId { planet: 1, side: 1 });
+        let heel = pair.outer_cone - 1e-3;
+        assert_eq!(chip.gap(right, id(5), heel), 2e-3);
+        assert_eq!(chip.gap(right, id(5 + 16), heel), 2e-3);
+        assert_eq!(chip.gap(right, id(5), pair.mean_cone), 0.0);
+        assert_eq!(chip.gap(right, id(4), heel), 0.0);
+        assert_eq!(chip.gap(left, id(5), heel), 0.0);
+        assert_eq!(Chip::new(&ToothFaultSpec::default(), &pair, 2), Ok(None));
+        assert!(Chip::new(&ToothFaultSpec { index: 2, ..spec }, &pair, 2).is_err());
+    }
+
+    #[test]
+    fn a_piece_breaks_off_by_time_or_by_trigger() {
+        let pair = Pair::new(&GearSpec::default());
+        let spec = ToothFaultSpec { gear: FaultyGear::Planet, onset: 0.2, ..ToothFaultSpec::default() };
+        let chip = Chip::new(&spec, &pair, 2).unwrap().unwrap();
+        assert!(!chip.is_gone(0.19, false) && chip.is_gone(0.2, false) && chip.is_gone(0.0, true));
+        let never = Chip::new(&ToothFaultSpec { onset: 0.0, ..spec }, &pair, 2).unwrap().unwrap();
+        assert!(!never.is_gone(1e9, false) && never.is_gone(0.0, true));
+        assert_eq!((chip.onset(), never.onset()), (Some(0.2), None));
+    }
+}

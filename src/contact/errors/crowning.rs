@@ -1,0 +1,52 @@
+//! Lengthwise crowning: the flank recedes toward both ends of the face.
+//!
+//!   e(R) = C_β ((R − R_m) / (b/2))²
+//!
+//! the parabola of ISO 21771 for symmetric crowning, here for both flanks of a pair together.
+
+use super::spec::ToothErrorSpec;
+use crate::geometry::Pair;
+
+/// Crowning of a tooth pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Crowning {
+    /// Gap at the ends of the face C_β [m].
+    amount: f64,
+    middle: f64,
+    per_half_width: f64,
+}
+
+impl Crowning {
+    /// Crowning after `spec` over the face of `pair`, if there is any.
+    pub fn new(spec: &ToothErrorSpec, pair: &Pair) -> Option<Self> {
+        (spec.crowning != 0.0).then(|| Self {
+            amount: spec.crowning,
+            middle: pair.mean_cone,
+            per_half_width: 1.0 / (pair.outer_cone - pair.mean_cone),
+        })
+    }
+
+    /// Gap [m] at cone distance `r` [m].
+    #[inline]
+    pub fn gap(&self, r: f64) -> f64 {
+        let x = (r - self.middle) * self.per_half_width;
+        self.amount * x * x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn crowning_is_a_parabola_over_the_face() {
+        let pair = Pair::new(&GearSpec::default());
+        let crowning = Crowning::new(&ToothErrorSpec { crowning: 8e-6, ..ToothErrorSpec::default() }, &pair).unwrap();
+        let quarter = 0.5 * (pair.mean_cone + pair.outer_cone);
+        for (r, e) in [(pair.inner_cone, 8e-6), (pair.mean_cone, 0.0), (quarter, 2e-6), (pair.outer_cone, 8e-6)] {
+            assert!((crowning.gap(r) - e).abs() < 1e-18);
+        }
+        assert!(Crowning::new(&ToothErrorSpec::default(), &pair).is_none());
+    }
+}

@@ -1,0 +1,62 @@
+//! Teeth that are not perfect: the gap e(R, s) by which each tooth pair misses material along the line of action.
+//!
+//! A pair of perfect teeth penetrates at cone distance R by R (a − g); with errors by d = R (a − g) − e(R, s), e ≥ 0
+//! being missing material. To first order errors add up, each from a file of its own: pitch deviations (`pitch`), runout
+//! (`runout`), tip relief (`relief`), lengthwise crowning (`crowning`), and misalignment (`misalignment`). A broken tooth
+//! (`chip`) stands apart, because it comes into being while running.
+
+#[cfg(feature = "tooth_errors")]
+mod action;
+#[cfg(feature = "tooth_errors")]
+mod all;
+#[cfg(feature = "tooth_fault")]
+mod chip;
+#[cfg(feature = "tooth_errors")]
+mod crowning;
+#[cfg(feature = "tooth_errors")]
+mod misalignment;
+#[cfg(feature = "tooth_errors")]
+pub mod pitch;
+#[cfg(feature = "tooth_errors")]
+mod random;
+#[cfg(feature = "tooth_errors")]
+mod relief;
+#[cfg(feature = "tooth_errors")]
+mod runout;
+mod spec;
+
+#[cfg(feature = "tooth_errors")]
+pub use all::ToothErrors;
+#[cfg(feature = "tooth_fault")]
+pub use chip::Chip;
+pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
+
+use super::pairs::Flank;
+
+/// A mesh of a differential.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshId {
+    /// Number of the planet.
+    pub planet: usize,
+    /// Side gear: 0 left, 1 right.
+    pub side: usize,
+}
+
+/// A tooth pair of a mesh.
+///
+/// Planet teeth are numbered in the direction of positive spin (about the axis pointing to the apex), side gear teeth in
+/// the direction of forward rotation (about +x̂), both from any tooth of the gear; numbers may run on past a revolution.
+/// At the left mesh both counts run along t, the way a planet is carried forward; at the right mesh that of the planet
+/// runs against it. While a gear turns forward, teeth of falling number come into its mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PairId {
+    /// Number of the planet's tooth.
+    pub planet_tooth: usize,
+    /// Number of the side gear's tooth.
+    pub side_tooth: usize,
+    /// Flanks in contact.
+    pub flank: Flank,
+}
+
+#[cfg(all(test, feature = "tooth_errors"))]
+mod tests;

@@ -1,0 +1,97 @@
+//! Gaps of individual tooth pairs, slice by slice: errors of the teeth, and a broken tooth once it is broken.
+
+use super::detailed::{Gaps, PairName};
+#[cfg(feature = "tooth_fault")]
+use super::errors::Chip;
+#[cfg(feature = "tooth_errors")]
+use super::errors::ToothErrors;
+use super::errors::{MeshId, PairId};
+use super::pairs::Flank;
+use crate::geometry::Pair;
+#[cfg(feature = "tooth_errors")]
+use crate::numeric::{Dual, Scalar};
+
+/// Gaps of all tooth pairs.
+#[derive(Clone, Debug)]
+pub struct FlankGaps {
+    /// Errors of the teeth.
+    #[cfg(feature = "tooth_errors")]
+    pub errors: Option<ToothErrors>,
+    /// The broken tooth.
+    #[cfg(feature = "tooth_fault")]
+    pub chip: Option<Chip>,
+    /// Cone distances of the slices [m].
+    pub cones: Vec<f64>,
+    /// Numbers of planets, planet teeth and side gear teeth.
+    pub counts: [i64; 3],
+    /// A gap that no pair falls below [m].
+    pub least: f64,
+}
+
+/// Step over which the slope of a gap is differenced [rad]: its curvature enters the Jacobian alone.
+#[cfg(feature = "tooth_errors")]
+const STEP: f64 = 1e-5;
+
+impl FlankGaps {
+    /// Perfect teeth of `pair`.
+    pub fn perfect(pair: &Pair, planets: i32, cones: Vec<f64>) -> Self {
+        let teeth = pair.gears.map(|g| i64::from(g.teeth));
+        Self {
+            #[cfg(feature = "tooth_errors")]
+            errors: None,
+            #[cfg(feature = "tooth_fault")]
+            chip: None,
+            cones,
+            counts: [i64::from(planets), teeth[0], teeth[1]],
+            least: 0.0,
+        }
+    }
+
+    /// Numbers of mesh and teeth as errors count them: planet teeth with positive spin, seen from the left mesh up the path
+    /// on the drive flank and from the right mesh, half a turn on, down; side gear teeth forward. The drive flank pushes
+    /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
+    fn ids(&self, name: PairName) -> (MeshId, PairId) {
+        let [planets, z_p, z_s] = self.counts;
+        let ahead = name.tooth + z_s * name.planet as i64 / planets;
+        let planet_tooth = if name.side == 0 { name.tooth } else { z_p / 2 - name.tooth };
+        let side_tooth = if name.flank == Flank::Drive { ahead } else { ahead - 1 };
+        (
+            MeshId { planet: name.planet, side: name.side },
+            PairId {
+                planet_tooth: planet_tooth.rem_euclid(z_p) as usize,
+                side_tooth: side_tooth.rem_euclid(z_s) as usize,
+                flank: name.flank,
+            },
+        )
+    }
+
+    /// Numbers of the teeth of a pair: the planet's and the side gear's.
+    pub fn teeth(&self, name: PairName) -> [usize; 2] {
+        let (_, pair) = self.ids(name);
+        [pair.planet_tooth, pair.side_tooth]
+    }
+}
+
+impl Gaps for FlankGaps {
+    fn at(&self, name: PairName, slice: usize, s: f64) -> [f64; 3] {
+        let (mesh, pair) = self.ids(name);
+        let r = self.cones[slice];
+        let mut gap = [0.0; 3];
+        let _ = (&mut gap, mesh, pair, r, s);
+        #[cfg(feature = "tooth_errors")]
+        if let Some(errors) = &self.errors {
+            let at = |s: f64| errors.gap(mesh, pair, r, Dual::<1>::variable(s, 0));
+            let here = at(s);
+            gap = [here.value(), here.d[0], (at(s + STEP).d[0] - at(s - STEP).d[0]) / (2.0 * STEP)];
+        }
+        #[cfg(feature = "tooth_fault")]
+        if let Some(chip) = &self.chip {
+            gap[0] += chip.gap(mesh, pair, r);
+        }
+        gap
+    }
+
+    fn least(&self) -> f64 {
+        self.least
+    }
+}

@@ -1,0 +1,125 @@
+//! Laws that a tooth pair can follow: an elastic response, and a damping on top of it.
+//!
+//! Elastic energy is a function of the penetration d, taken at the cone distance where the pair's resultant acts, and of
+//! the place s on the path: U(d, s). Damping scales or adds to the force along d alone.
+
+use super::damping::Damping;
+use super::impact::{Force, Impact};
+use super::spring::Spring;
+
+/// Force of one tooth pair and what depends on its place on the path.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Response {
+    /// Force along d with its derivatives.
+    pub force: Force,
+    /// ∂U/∂s [J/rad].
+    pub by_place: f64,
+    /// ∂²U/∂d∂s = ∂F_el/∂s [N/rad].
+    pub elastic_by_place: f64,
+    /// ∂F/∂s of the damped force [N/rad].
+    pub total_by_place: f64,
+    /// ∂²U/∂s² [J/rad²].
+    pub by_place_twice: f64,
+}
+
+/// Law of a tooth pair at penetration `d` > 0 [m], rate ḋ [m/s] and place `s` [rad].
+pub trait PairLaw {
+    /// Force and its derivatives.
+    fn respond(&self, d: f64, rate: f64, s: f64) -> Response;
+    /// U(d, s) [J].
+    fn energy(&self, d: f64, s: f64) -> f64;
+}
+
+impl PairLaw for Impact {
+    #[inline(always)]
+    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
+        Response { force: self.force(d, rate), ..Response::default() }
+    }
+    #[inline(always)]
+    fn energy(&self, d: f64, _s: f64) -> f64 {
+        Impact::energy(self, d)
+    }
+}
+
+/// The elastic part of IMPACT with a damping of one's choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// Elastic part; its own damping is not used.
+    pub elastic: Impact,
+    /// Damping.
+    pub damping: Damping,
+}
+
+impl PairLaw for Power {
+    #[inline(always)]
+    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
+        let elastic = self.elastic.force(d, 0.0);
+        let stiffness = self.elastic.exponent * elastic.elastic / d;
+        Response { force: self.damping.apply(elastic.elastic, stiffness, d, rate), ..Response::default() }
+    }
+    #[inline(always)]
+    fn energy(&self, d: f64, _s: f64) -> f64 {
+        self.elastic.energy(d)
+    }
+}
+
+/// A linear spring per mesh: the mean of the tooth pairs along the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lumped {
+    /// Stiffness k [N/m] at the cone distance of the mesh.
+    pub stiffness: f64,
+    /// Damping.
+    pub damping: Damping,
+}
+
+impl PairLaw for Lumped {
+    #[inline(always)]
+    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
+        Response { force: self.damping.apply(self.stiffness * d, self.stiffness, d, rate), ..Response::default() }
+    }
+    #[inline(always)]
+    fn energy(&self, d: f64, _s: f64) -> f64 {
+        0.5 * self.stiffness * d * d
+    }
+}
+
+/// A pair whose slices over the face width all follow one specific law Φ(p, s), p = d/R: U = J Φ with J = ∫R² dR.
+#[derive(Clone, Debug)]
+pub struct Face<S> {
+    /// Specific law, per unit of J.
+    pub specific: S,
+    /// J [m³].
+    pub moment: f64,
+    /// 1/R_F of the cone distance at which the resultant acts [1/m].
+    pub per_cone: f64,
+    /// Damping.
+    pub damping: Damping,
+}
+
+impl<S: Spring> PairLaw for Face<S> {
+    #[inline(always)]
+    fn respond(&self, d: f64, rate: f64, s: f64) -> Response {
+        let e = self.specific.at(d * self.per_cone, s);
+        let (per_arc, per_depth) = (self.moment, self.moment * self.per_cone);
+        let (elastic, stiffness) = (per_depth * e.torque, per_depth * self.per_cone * e.stiffness);
+        let force = self.damping.apply(elastic, stiffness, d, rate);
+        let elastic_by_place = per_depth * e.torque_by_place;
+        // damping either adds to the elastic force or scales it
+        let total_by_place = match self.damping {
+            _ if force.total <= 0.0 => 0.0,
+            Damping::Step { .. } => elastic_by_place,
+            Damping::HuntCrossley { lambda } => elastic_by_place * (1.0 + lambda * rate),
+        };
+        Response {
+            force,
+            by_place: per_arc * e.by_place,
+            elastic_by_place,
+            total_by_place,
+            by_place_twice: per_arc * e.by_place_twice,
+        }
+    }
+    #[inline(always)]
+    fn energy(&self, d: f64, s: f64) -> f64 {
+        self.moment * self.specific.at(d * self.per_cone, s).energy
+    }
+}

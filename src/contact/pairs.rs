@@ -1,0 +1,230 @@
+//! Which tooth pairs of a mesh touch, where, and how deep.
+//!
+//! Coordinates: q = sinδ_bs·α − σ·sinδ_bp·ψ, the relative position measured from "tooth in the middle of the gap", and
+//! x = σ·sinδ_bp·ψ + h, the planet's travel along the line of action. Both are arcs on the unit sphere [rad].
+//! The drive flanks approach by a = −q − b_n/2, the coast flanks by a = q − b_n/2. Tooth pair k stands at
+//! s = γ_p,pitch sinδ_bp ± x + k p_b (+ drive, − coast) and penetrates by d = R (a − g), where g is the corner gap
+//! beyond the planet's tip, at Δ = s − s_hi, or beyond the side gear's tip, at Δ = s_lo − s + a: that corner rides on
+//! the side gear, whose own position is s − a.
+
+use crate::geometry::Pair;
+use crate::geometry::corner::CornerGap;
+
+/// Flank of the planet tooth that carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flank {
+    /// Carrier drives the side gear forward.
+    Drive,
+    /// Side gear drives the carrier forward.
+    Coast,
+}
+
+/// Where a loaded pair touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// On the path of contact.
+    Path,
+    /// The planet's tip corner on the side gear's flank.
+    PlanetTip,
+    /// The side gear's tip corner on the planet's flank.
+    SideTip,
+}
+
+/// One loaded tooth pair, with the derivatives of its penetration arc p = d/R by q and x.
+#[derive(Clone, Copy, Debug)]
+pub struct ToothPair {
+    /// Flank in contact.
+    pub flank: Flank,
+    /// Kind of contact.
+    pub spot: Spot,
+    /// Number k of the pair, counted along the path.
+    pub number: i64,
+    /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
+    pub place: f64,
+    /// Place s by the planet's rotation [rad]: runs on smoothly past the ends of the path.
+    pub s: f64,
+    /// ∂s/∂x; q does not move it.
+    pub s_slope: f64,
+    /// Penetration arc p = a − g [rad], positive.
+    pub depth: f64,
+    /// ∂p/∂q and ∂p/∂x.
+    pub slope: [f64; 2],
+    /// ∂²p/∂q² = ∂²p/∂q∂x, and ∂²p/∂x² [1/rad].
+    pub curvature: [f64; 2],
+}
+
+impl ToothPair {
+    /// The one pair of a mesh that knows no tooth pairs, at the pitch point.
+    #[inline(always)]
+    pub fn single(flank: Flank, depth: f64) -> Self {
+        let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
+        Self {
+            flank,
+            spot: Spot::Path,
+            number: 0,
+            place: 0.0,
+            s: 0.0,
+            s_slope: 0.0,
+            depth,
+            slope: [sign, 0.0],
+            curvature: [0.0; 2],
+        }
+    }
+}
+
+/// The tooth pairs of a planet with a side gear.
+#[derive(Clone, Debug)]
+pub struct Engagement {
+    /// Gap functions of the planet's and the side gear's tip corner.
+    pub corner: [CornerGap; 2],
+    half_backlash: f64,
+    base_pitch: f64,
+    per_base_pitch: f64,
+    centred: f64,
+    low: f64,
+    high: f64,
+    corner_contact: bool,
+    /// Where tooth pairs can touch at working loads, and up to the largest approach.
+    windows: [Window; 2],
+}
+
+/// Part of the line of action in which pairs can touch up to some approach.
+#[derive(Clone, Copy, Debug)]
+struct Window {
+    /// Its lower end [rad].
+    low: f64,
+    /// Tooth pairs that fit in: a fixed count, so that no wild trial state can keep a step busy.
+    candidates: usize,
+}
+
+/// Approach [rad] up to which the narrow window serves: some tenths of a millimetre, beyond any working load.
+const WORKING_APPROACH: f64 = 5e-3;
+
+/// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
+const ROUNDING: f64 = 1e-9;
+
+/// Smallest whole number not below `x`, for |x| far below 2⁶³.
+#[inline]
+fn ceil(x: f64) -> f64 {
+    let whole = x as i64 as f64;
+    if whole < x { whole + 1.0 } else { whole }
+}
+
+impl Engagement {
+    /// Tooth pairs of `pair` for approaches up to `reach` [rad].
+    pub fn new(pair: &Pair, corner_contact: bool, reach: f64) -> Self {
+        let corner = [CornerGap::new(pair, 0, reach), CornerGap::new(pair, 1, reach)];
+        let low = -corner[1].end;
+        let high = corner[0].end;
+        let window = |approach: f64| {
+            let beyond = |i: usize| if corner_contact { corner[i].reach(approach) } else { 0.0 };
+            let length = beyond(1) + (high - low) + beyond(0);
+            Window { low: low - beyond(1), candidates: libm::ceil(length / pair.base_pitch) as usize }
+        };
+        Self {
+            windows: [window(WORKING_APPROACH), window(reach)],
+            half_backlash: pair.normal_backlash / 2.0,
+            base_pitch: pair.base_pitch,
+            per_base_pitch: 1.0 / pair.base_pitch,
+            centred: pair.centred_position(),
+            low,
+            high,
+            corner,
+            corner_contact,
+        }
+    }
+
+    /// Half the normal backlash [rad].
+    pub fn half_backlash(&self) -> f64 {
+        self.half_backlash
+    }
+
+    /// Approach of the drive flanks a_d at relative position `q` [rad].
+    pub fn drive_approach(&self, q: f64) -> f64 {
+        -q - self.half_backlash
+    }
+
+    /// Approach of the flank pair that carries, negative inside the lash [rad].
+    pub fn approach(&self, q: f64) -> f64 {
+        q.abs() - self.half_backlash
+    }
+
+    /// Calls `visit` with each loaded tooth pair at position (q, x).
+    #[inline(always)]
+    pub fn pairs(&self, [q, x]: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
+        // only one flank of a gap can carry
+        let approach = self.approach(q);
+        if approach <= 0.0 {
+            return;
+        }
+        let flank = if q < 0.0 { Flank::Drive } else { Flank::Coast };
+        self.near(flank, x, approach, |pair| {
+            if pair.depth > 0.0 {
+                visit(pair);
+            }
+        });
+    }
+
+    /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach, the
+    /// penetrating ones among them.
+    #[inline(always)]
+    pub fn near(&self, flank: Flank, x: f64, approach: f64, mut visit: impl FnMut(&ToothPair)) {
+        // sign = ∂a/∂q = −∂s/∂x
+        let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
+        let start = self.centred - sign * x;
+        let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
+        let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
+        let mut number = first as i64;
+        let mut s = start + first * self.base_pitch;
+        for _ in 0..window.candidates {
+            let past_planet_tip = s - self.high;
+            let past_side_tip = self.low - s + approach;
+            if past_planet_tip > 0.0 {
+                if past_planet_tip * past_planet_tip < approach * self.corner[0].spread && self.corner_contact {
+                    let g = self.corner[0].at(past_planet_tip);
+                    visit(&ToothPair {
+                        flank,
+                        spot: Spot::PlanetTip,
+                        number,
+                        place: past_planet_tip,
+                        s,
+                        s_slope: -sign,
+                        depth: approach - g.v,
+                        slope: [sign, sign * g.d],
+                        curvature: [0.0, -g.dd],
+                    });
+                }
+            } else if past_side_tip > 0.0 && self.corner_contact {
+                if past_side_tip * past_side_tip < approach * self.corner[1].spread {
+                    // Δ moves with q by `sign` and with x by `sign` too
+                    let g = self.corner[1].at(past_side_tip);
+                    visit(&ToothPair {
+                        flank,
+                        spot: Spot::SideTip,
+                        number,
+                        place: past_side_tip,
+                        s,
+                        s_slope: -sign,
+                        depth: approach - g.v,
+                        slope: [sign * (1.0 - g.d), -sign * g.d],
+                        curvature: [-g.dd, -g.dd],
+                    });
+                }
+            } else if s >= self.low {
+                visit(&ToothPair {
+                    flank,
+                    spot: Spot::Path,
+                    number,
+                    place: s,
+                    s,
+                    s_slope: -sign,
+                    depth: approach,
+                    slope: [sign, 0.0],
+                    curvature: [0.0, 0.0],
+                });
+            }
+            s += self.base_pitch;
+            number += 1;
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Compliance of a loaded tooth pair per unit of width: bending, shear, compression and root of both teeth, and Hertz.
+//!
+//! C. Weber, K. Banaschek: Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern (1953), in plane
+//! strain: E' = E/(1−ν²), ν' = ν/(1−ν). With the chord s(y) of the true profile, fillet included, and the load at an
+//! angle τ to the chord, crossing the tooth's middle at y_c, a lever l above the root section of chord s_F:
+//!
+//! q = cos²τ/E' { 12∫(y_c−y)²/s³ dy + (2.4(1+ν') + tan²τ)∫dy/s
+//!     + 18/π (l/s_F)² + 2(1−ν') l/s_F + 4.8/π (1 + tan²τ/(2.4(1+ν'))) }, integrals from y₀ to y_c.
+//!
+//! Hertz between the flank and the teeth's middles at depths t₁, t₂, w the load per width, b half the width of contact:
+//! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
+
+use super::quadrature::integrate;
+use super::section::Section;
+use crate::numeric::{PI, cos, sqrt, tan};
+
+/// Elastic constants of both gears.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Elasticity {
+    /// Young's modulus E [Pa].
+    pub young: f64,
+    /// Poisson's ratio ν.
+    pub poisson: f64,
+}
+
+impl Elasticity {
+    /// Modulus in plane strain E' = E/(1−ν²) [Pa].
+    pub fn plane_modulus(&self) -> f64 {
+        self.young / (1.0 - self.poisson * self.poisson)
+    }
+
+    /// Factor B = 2(1−ν²)/(πE) of the Hertz compliance [1/Pa].
+    pub fn local(&self) -> f64 {
+        2.0 / (PI * self.plane_modulus())
+    }
+}
+
+/// Compliances of a tooth pair per unit of width [1/Pa], and its contact.
+#[derive(Clone, Copy, Debug)]
+pub struct PairCompliance {
+    /// Teeth q₁, q₂ [1/Pa].
+    pub gear: [f64; 2],
+    /// Hertz q_H [1/Pa].
+    pub local: f64,
+    /// Half the width of contact b [m].
+    pub half_width: f64,
+}
+
+impl PairCompliance {
+    /// q₁ + q₂ + q_H [1/Pa].
+    pub fn total(&self) -> f64 {
+        self.gear[0] + self.gear[1] + self.local
+    }
+
+    /// Stiffness c per unit of width [Pa]; 1e9 Pa = 1 N/(mm·µm).
+    pub fn stiffness(&self) -> f64 {
+        1.0 / self.total()
+    }
+}
+
+impl Section {
+    /// Compliance q of the tooth per unit of width [1/Pa] under a load at roll length `roll` [m].
+    pub fn compliance(&self, roll: f64, elasticity: &Elasticity) -> f64 {
+        let load = self.load(roll);
+        let nu = elasticity.poisson / (1.0 - elasticity.poisson);
+        let top = load.height;
+        let mut bending = 0.0;
+        let mut shear = 0.0;
+        if load.lever < 0.0 {
+            // a load that crosses the middle below the root section relieves a tooth of constant chord
+            let share = load.lever / self.root_chord;
+            (bending, shear) = (share * share * share / 3.0, share);
+        }
+        for span in self.spans() {
+            let end = span.at_height(top);
+            if end <= span.from {
+                break;
+            }
+            let [b, s] = integrate(span.from, end, |u| {
+                let point = span.piece.at(u);
+                let (arm, chord) = (top - point.height, 2.0 * point.half_chord);
+                let slenderness = arm / chord;
+                [slenderness * slenderness / chord * point.rise, point.rise / chord]
+            });
+            bending += b;
+            shear += s;
+        }
+        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
+        let slide = 2.4 * (1.0 + nu);
+        let share = load.lever / self.root_chord;
+        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_tau * tan_tau / slide);
+        cos_tau * cos_tau / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_tau * tan_tau) * shear + root)
+    }
+}
+
+/// Two sections in mesh without play, and what they are made of.
+#[derive(Clone, Debug)]
+pub struct SectionPair {
+    /// Sections of gear 1 and 2.
+    pub sections: [Section; 2],
+    /// Elastic constants.
+    pub elasticity: Elasticity,
+}
+
+impl SectionPair {
+    /// Roll lengths of both gears at `place` [m] from the pitch point along the line of action, toward gear 1's tip.
+    pub fn rolls(&self, place: f64) -> [f64; 2] {
+        [self.sections[0].pitch_roll + place, self.sections[1].pitch_roll - place]
+    }
+
+    /// Compliances at `place` [m] under the load `line_load` [N/m].
+    pub fn at(&self, place: f64, line_load: f64) -> PairCompliance {
+        let rolls = self.rolls(place);
+        let gear = [0, 1].map(|i| self.sections[i].compliance(rolls[i], &self.elasticity));
+        let depth = [0, 1].map(|i| self.sections[i].load(rolls[i]).depth);
+        let b2 = self.half_width_squared(rolls, line_load);
+        let nu = self.elasticity.poisson;
+        let local = self.elasticity.local() * (libm::log(4.0 * depth[0] * depth[1] / b2) - nu / (1.0 - nu));
+        PairCompliance { gear, local, half_width: sqrt(b2) }
+    }
+
+    /// b² [m²] at roll lengths `rolls` [m] under `line_load` [N/m].
+    pub fn half_width_squared(&self, rolls: [f64; 2], line_load: f64) -> f64 {
+        4.0 * self.elasticity.local() * line_load * (rolls[0] * rolls[1] / (rolls[0] + rolls[1]))
+    }
+}

@@ -1,0 +1,171 @@
+//! Two laws of a tooth pair from its compliance: linear, and with Hertz's part following the load.
+//!
+//! Slices of a straight bevel pair are similar, so with a line load w = ωR the deflection is Rp at every R, and
+//! p = ω q(ω, s), q = Q(s) − B ln(ω/ω₀) as b² grows with ω; Q is the compliance at ω₀. Both laws give the elastic
+//! response per ∫R²dR: multiplied by (R_e³ − R_i³)/3 it is that of the pair, torque ω∫R²dR.
+//!
+//! * [`Line`]: q at a fixed load, Φ = p²/2q.
+//! * [`LineWeber`]: with v = q/B the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
+//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, where b outgrows half the depth to
+//!   the teeth's middles and the logarithm has no meaning, p(ω) goes on along its tangent.
+
+use std::sync::Arc;
+
+use super::table::Table;
+use crate::contact::spring::{Elastic, Spring};
+
+/// Compliance constant in load: Hertz's part is that of a reference load.
+#[derive(Clone, Debug)]
+pub struct Line {
+    pub(super) table: Arc<Table>,
+    /// q at the reference load less Q, at every place alike [1/Pa].
+    pub(super) shift: f64,
+}
+
+impl Line {
+    /// Compliance q at place `s` [1/Pa].
+    pub fn compliance(&self, s: f64) -> f64 {
+        self.table.at(s).v + self.shift
+    }
+}
+
+impl Spring for Line {
+    #[inline]
+    fn at(&self, p: f64, s: f64) -> Elastic {
+        let q = self.table.at(s);
+        let c = 1.0 / (q.v + self.shift);
+        let load = c * p;
+        let turn = load * q.d;
+        Elastic {
+            energy: 0.5 * p * load,
+            torque: load,
+            stiffness: c,
+            by_place: -0.5 * load * turn,
+            torque_by_place: -c * turn,
+            by_place_twice: c * turn * turn - 0.5 * load * load * q.dd,
+        }
+    }
+}
+
+/// Compliance with Hertz's part of the load that acts.
+#[derive(Clone, Debug)]
+pub struct LineWeber {
+    table: Arc<Table>,
+    /// B = 2(1−ν²)/(πE) [1/Pa].
+    local: f64,
+    /// ω₀, line load per cone distance up to which the logarithm holds [N/m²].
+    limit: f64,
+    per_local: f64,
+    per_limit: f64,
+}
+
+/// Iterations for v: one serves, two near ω₀.
+const ITERATIONS: usize = 4;
+/// A relative correction below this leaves an error of its fourth power.
+const CONVERGED: f64 = 1e-4;
+
+/// ln of a positive normal number within 2e-4: exponent, and a quartic in the mantissa.
+#[inline]
+fn rough_ln(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let exponent = (bits >> 52) as i64 - 1023;
+    let m = f64::from_bits(bits & ((1 << 52) - 1) | 1.0f64.to_bits());
+    let mantissa = -1.741_793_9 + m * (2.821_202_6 + m * (-1.469_956_8 + m * (0.447_179_55 - 0.056_570_851 * m)));
+    exponent as f64 * std::f64::consts::LN_2 + mantissa
+}
+
+/// v > 1 with v − ln v = `ratio` − ln `x` > 1: asymptotic start, then the iteration of fourth order by F. N. Fritsch,
+/// R. E. Shafer, W. P. Crowley (Algorithm 443, CACM 16, 1973), one logarithm each.
+#[inline]
+fn compliance_ratio(ratio: f64, x: f64) -> f64 {
+    let k = ratio - rough_ln(x);
+    let l = rough_ln(k);
+    let mut v = k + l + l / k * (1.0 + (1.0 - 0.5 * l) / k);
+    for _ in 0..ITERATIONS {
+        let z = v - ratio + libm::log(x / v);
+        let w = 1.0 - v;
+        let q = 2.0 * w * (w + 2.0 / 3.0 * z);
+        let correction = z * (q - z) / (w * (q - 2.0 * z));
+        v += v * correction;
+        if correction.abs() < CONVERGED {
+            break;
+        }
+    }
+    v
+}
+
+impl LineWeber {
+    pub(super) fn new(table: Arc<Table>, local: f64, limit: f64) -> Self {
+        Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
+    }
+
+    /// Largest line load per cone distance at which the half width of contact is within half the depth of the teeth's
+    /// middles everywhere on the path [N/m²].
+    pub fn limit_load(&self) -> f64 {
+        self.limit
+    }
+
+    /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and place `s` [rad], and the tangent dω/dp.
+    fn load(&self, p: f64, q: f64) -> (f64, f64, bool) {
+        let ratio = q * self.per_local;
+        let x = p * self.per_local * self.per_limit;
+        if x < ratio {
+            let v = compliance_ratio(ratio, x);
+            (p * self.per_local / v, self.per_local / (v - 1.0), true)
+        } else {
+            let tangent = self.per_local / (ratio - 1.0);
+            ((p - self.limit * self.local) * tangent, tangent, false)
+        }
+    }
+}
+
+impl Spring for LineWeber {
+    #[inline]
+    fn at(&self, p: f64, s: f64) -> Elastic {
+        if p <= 0.0 {
+            return Elastic::default();
+        }
+        let q = self.table.at(s);
+        let (load, tangent, logarithmic) = self.load(p, q.v);
+        // Φ = ωp − ∫p dω
+        let energy = if logarithmic {
+            0.5 * p * load - 0.25 * self.local * load * load
+        } else {
+            let limit = self.local * self.limit;
+            0.5 * load * (p - limit) + 0.25 * limit * self.limit
+        };
+        let turn = load * q.d;
+        Elastic {
+            energy,
+            torque: load,
+            stiffness: tangent,
+            by_place: -0.5 * load * turn,
+            torque_by_place: -tangent * turn,
+            by_place_twice: tangent * turn * turn - 0.5 * load * load * q.dd,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rough_logarithm_is_good_for_a_start() {
+        for j in 0..2700 {
+            let x = 1e-300 * libm::exp(0.25 * f64::from(j));
+            assert!((rough_ln(x) - libm::log(x)).abs() < 2e-4, "{x:e}");
+        }
+    }
+
+    #[test]
+    fn the_ratio_solves_its_equation_from_the_limit_to_the_smallest_load() {
+        for ratio in [2.5, 4.0, 8.0, 25.0] {
+            for j in 0..3000 {
+                let x = ratio * libm::exp(-0.2 * f64::from(j));
+                let v = compliance_ratio(ratio, x);
+                assert!((v - ratio + libm::log(x / v)).abs() < 4e-16 * (v + ratio), "{ratio} {x:e}: {v}");
+            }
+        }
+    }
+}

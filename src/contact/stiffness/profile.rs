@@ -1,0 +1,159 @@
+//! Half of a tooth's profile in pieces, from the root circle up: fillet, radial line, involute.
+//!
+//! The tooth stands on the y axis, its gear's axis is the origin. Each piece gives half the chord x and the height y of
+//! a point with dy/du, as a function of a parameter u in which it is smooth and y rises strictly.
+
+use crate::numeric::{cos, sin, sqrt};
+
+/// A point of the profile.
+#[derive(Clone, Copy, Debug)]
+pub struct Point {
+    /// Half the chord x [m].
+    pub half_chord: f64,
+    /// Height y above the gear's axis [m].
+    pub height: f64,
+    /// dy/du [m per unit of u].
+    pub rise: f64,
+}
+
+/// A smooth piece of the profile.
+#[derive(Clone, Copy, Debug)]
+pub enum Piece {
+    /// Fillet arc about (x, y) with a radius; u is the angle φ of (x − ρ cosφ, y + ρ sinφ).
+    Arc {
+        /// Centre x [m].
+        x: f64,
+        /// Centre y [m].
+        y: f64,
+        /// Radius ρ [m].
+        radius: f64,
+    },
+    /// Fillet left by the rounded tip of a rack: u = x_c, how far the rack has rolled past the
+    /// place where the rounding's centre, the instant centre and the axis are in line.
+    Trochoid {
+        /// Reference radius r [m].
+        pitch: f64,
+        /// Distance H from the reference circle to the centre of the rack's tip rounding [m].
+        depth: f64,
+        /// Tip radius ρ of the rack [m].
+        radius: f64,
+        /// Distance E_c from the middle of the tooth space to that centre [m].
+        offset: f64,
+        /// Half pitch angle π/z [rad].
+        half_pitch: f64,
+    },
+    /// Radial line below the base circle; u = y.
+    Radial {
+        /// Slope x/y.
+        slope: f64,
+    },
+    /// Involute; u is the roll length ρ, the distance to where the normal touches the base circle.
+    Involute {
+        /// Base radius r_b [m].
+        base: f64,
+        /// Half tooth angle γ_b at the base circle [rad].
+        angle: f64,
+    },
+}
+
+impl Piece {
+    /// Point at parameter `u`.
+    pub fn at(&self, u: f64) -> Point {
+        match *self {
+            Self::Arc { x, y, radius } => {
+                let (s, c) = (sin(u), cos(u));
+                Point { half_chord: x - radius * c, height: y + radius * s, rise: radius * c }
+            }
+            Self::Trochoid { pitch, depth, radius, offset, half_pitch } => {
+                // (p, q): point of the rounding on the normal through the instant centre; turned counter-clockwise by
+                // a = (x_c − E_c)/r it stands in the frame of the gap, reflected at half a pitch in that of the tooth
+                let reach = sqrt(u * u + depth * depth);
+                let (k, dk) = (1.0 + radius / reach, -radius * u / (reach * reach * reach));
+                let (p, q) = (u * k, pitch - depth * k);
+                let (dp, dq) = (k + u * dk, -depth * dk);
+                let turn = half_pitch + (u - offset) / pitch;
+                let (s, c) = (sin(turn), cos(turn));
+                let half_chord = q * s - p * c;
+                Point { half_chord, height: q * c + p * s, rise: dq * c + dp * s - half_chord / pitch }
+            }
+            Self::Radial { slope } => Point { half_chord: slope * u, height: u, rise: 1.0 },
+            Self::Involute { base, angle } => {
+                let tau = angle - u / base;
+                let (s, c) = (sin(tau), cos(tau));
+                Point { half_chord: base * s + u * c, height: base * c - u * s, rise: u * c / base }
+            }
+        }
+    }
+}
+
+/// A piece with the parameters between which it is part of the profile.
+#[derive(Clone, Copy, Debug)]
+pub struct Span {
+    /// The piece.
+    pub piece: Piece,
+    /// Parameter at its lower end.
+    pub from: f64,
+    /// Parameter at its upper end.
+    pub to: f64,
+}
+
+/// Bisections and Newton steps that find a height: halving alone would end the search.
+const SEARCH: usize = 80;
+
+impl Span {
+    /// Parameter at which the piece has height `y` [m]; the end nearest to it if it lies outside.
+    pub fn at_height(&self, y: f64) -> f64 {
+        let (mut low, mut high) = (self.from, self.to);
+        if y <= self.piece.at(low).height {
+            return low;
+        }
+        if y >= self.piece.at(high).height {
+            return high;
+        }
+        let mut u = 0.5 * (low + high);
+        for _ in 0..SEARCH {
+            let point = self.piece.at(u);
+            let error = point.height - y;
+            if error > 0.0 {
+                high = u;
+            } else {
+                low = u;
+            }
+            let newton = u - error / point.rise;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - u).abs() <= 1e-15 * (self.to - self.from).abs() || next == u {
+                return next;
+            }
+            u = next;
+        }
+        u
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rises_are_derivatives_and_heights_are_found() {
+        let spans = [
+            Span { piece: Piece::Arc { x: 6e-3, y: 22e-3, radius: 1e-3 }, from: -1.2, to: 0.1 },
+            Span {
+                piece: Piece::Trochoid { pitch: 45e-3, depth: 4e-3, radius: 1e-3, offset: 1.2e-3, half_pitch: 0.157 },
+                from: 0.0,
+                to: 11e-3,
+            },
+            Span { piece: Piece::Radial { slope: 0.1 }, from: 20e-3, to: 21e-3 },
+            Span { piece: Piece::Involute { base: 25e-3, angle: 0.17 }, from: 0.0, to: 15e-3 },
+        ];
+        for span in spans {
+            for share in [0.01, 0.3, 0.8] {
+                let (u, h) = (span.from + share * (span.to - span.from), 1e-5 * (span.to - span.from));
+                let point = span.piece.at(u);
+                let rise = (span.piece.at(u + h).height - span.piece.at(u - h).height) / (2.0 * h);
+                assert!((point.rise / rise - 1.0).abs() < 1e-6, "{span:?}: {} {rise}", point.rise);
+                assert!((span.at_height(point.height) / u - 1.0).abs() < 1e-9, "{span:?}");
+            }
+        }
+    }
+}

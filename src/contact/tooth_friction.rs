@@ -1,0 +1,52 @@
+//! Friction along the flanks of a tooth pair, by one of the laws of `friction`.
+
+use crate::friction::{Conditions, ToothFrictionSpec, signed_coefficient};
+use crate::numeric::Scalar;
+
+/// How two flanks slide on each other.
+#[derive(Clone, Copy, Debug)]
+pub struct Sliding<T> {
+    /// Sliding speed, with sign [m/s].
+    pub sliding: T,
+    /// Sum of both flanks' speeds along the profile, with sign [m/s].
+    pub rolling: T,
+    /// Load per width [N/m].
+    pub load: T,
+    /// Radii of curvature of both flanks [m].
+    pub curvature: [T; 2],
+}
+
+/// Friction of the flanks of a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct ToothFriction {
+    /// Law, lubricant and surface.
+    pub spec: ToothFrictionSpec,
+    /// E* of the contact [Pa].
+    pub modulus: f64,
+    /// Face width [m].
+    pub face_width: f64,
+}
+
+impl ToothFriction {
+    /// Face width [m].
+    #[inline]
+    pub fn face_width(&self) -> f64 {
+        self.face_width
+    }
+
+    /// Coefficient of friction with the sign of the sliding speed.
+    #[inline]
+    pub fn signed<T: Scalar>(&self, at: &Sliding<T>) -> T {
+        let [a, b] = at.curvature;
+        signed_coefficient(
+            &self.spec,
+            &Conditions {
+                sliding: at.sliding,
+                rolling: at.rolling.abs(),
+                line_load: at.load,
+                radius: a * b / (a + b),
+                modulus: self.modulus,
+            },
+        )
+    }
+}

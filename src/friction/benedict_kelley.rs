@@ -1,0 +1,81 @@
+//! Benedict and Kelley: μ = 0.0127 · 1.13/(1.13 − R_a) · log₁₀(29 700 w/(η v_s v_Σ²)).
+//!
+//! With R_a in µm, w in N/mm, η in mPa·s, v_s and v_Σ in m/s. The original reads 50/(50 − S) and 3.17e8 for the rms
+//! roughness S in µin, lbf/in, cP and in/s; 3.17e8 lbf/in per N/mm over (in/s per m/s)³ makes 29 663.
+//!
+//! Source: Benedict, Kelley (1961), Instantaneous coefficients of gear tooth friction, ASLE Trans. 4, p. 59; in the
+//! units used here AGMA 925-A03, 6.2.2, which holds the roughness factor between 1 and 3.
+
+use super::{Conditions, Outside, ToothFrictionSpec, smooth};
+use crate::numeric::Scalar;
+
+/// Least argument of the logarithm: one decade. Fast, lightly loaded contacts carry a full film, which the discs did not
+/// have; the formula would go on to negative friction.
+const LEAST_DECADE: f64 = 10.0;
+
+/// Largest roughness factor in AGMA 925-A03; reached at R_a = ⅔ · 1.13 µm.
+const ROUGHEST: f64 = 3.0;
+
+/// Factor of the roughness R_a [µm].
+fn roughness_factor(ra: f64) -> f64 {
+    if ra < 1.13 * (1.0 - 1.0 / ROUGHEST) { 1.13 / (1.13 - ra) } else { ROUGHEST }
+}
+
+/// Argument of the logarithm.
+fn argument<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
+    // 1e-3: N/m to N/mm
+    at.line_load * (29_700.0 * 1e-3 / spec.centipoise()) / (at.sliding * at.rolling * at.rolling)
+}
+
+/// Coefficient at positive speeds, load and radius; 0.0127 times the roughness factor where the film is full.
+pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
+    let decades = smooth::floor(argument(spec, at), LEAST_DECADE, 0.5 * LEAST_DECADE).ln() * std::f64::consts::LOG10_E;
+    decades * (0.0127 * roughness_factor(spec.micrometres()))
+}
+
+/// The quantity outside of what the formula is published for, if any.
+pub fn outside(spec: &ToothFrictionSpec, at: &Conditions<f64>) -> Option<Outside> {
+    let roughest = 1.13 * (1.0 - 1.0 / ROUGHEST);
+    Outside::test(("roughness R_a", "µm"), spec.micrometres(), [0.0, roughest], "AGMA 925-A03").or_else(|| {
+        let film = ("load against film 29700 w/(η v_s v_Σ²)", "1");
+        let low = 1.5 * LEAST_DECADE;
+        Outside::test(film, argument(spec, at), [low, f64::INFINITY], "formula falls to zero at 1")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spec() -> ToothFrictionSpec {
+        ToothFrictionSpec { oil_viscosity: 0.010, roughness: 0.5e-6, ..ToothFrictionSpec::default() }
+    }
+
+    const AT: Conditions<f64> =
+        Conditions { sliding: 2.0, rolling: 8.0, line_load: 400e3, radius: 0.01, modulus: 1.15e11 };
+
+    #[test]
+    fn value_equals_the_formula_by_hand() {
+        // 29700 · 400/(10 · 2 · 64) = 9281.25, log10 = 3.967606475; 1.13/0.63 = 1.793650794; times 0.0127
+        let by_hand = 0.0127 * 1.793650793650794 * 3.967606473;
+        assert!((coefficient(&spec(), &AT) - by_hand).abs() < 1e-9, "{} {by_hand}", coefficient(&spec(), &AT));
+    }
+
+    #[test]
+    fn original_inch_units_give_the_same_within_their_rounding() {
+        let (w, vs, vr): (f64, f64, f64) = (400.0 * 25.4 / 4.4482216, 2.0 / 0.0254, 8.0 / 0.0254);
+        let s: f64 = 0.5 / 0.0254 * (1.27 / 1.13); // rms over arithmetic mean as the two forms of the factor have it
+        let original = 0.0127 * 50.0 / (50.0 - s) * (3.17e8 * w / (10.0 * vs * vr * vr)).log10();
+        assert!((coefficient(&spec(), &AT) / original - 1.0).abs() < 3e-4);
+    }
+
+    #[test]
+    fn full_films_and_rough_flanks_are_told() {
+        assert_eq!(outside(&spec(), &AT), None);
+        let fast = Conditions { sliding: 30.0, rolling: 60.0, line_load: 1e4, ..AT };
+        assert_eq!(coefficient(&spec(), &fast), 0.0127 * (1.13 / (1.13 - 0.5)));
+        assert!(outside(&spec(), &fast).is_some());
+        let rough = ToothFrictionSpec { roughness: 0.8e-6, ..spec() };
+        assert!(outside(&rough, &AT).unwrap().to_string().contains("R_a of 0.8000 µm is outside"));
+    }
+}

@@ -1,0 +1,68 @@
+//! ISO/TR 14179-2: μ = 0.048 · (w/(v_Σ ρ))^0.2 · η^−0.05 · R_a^0.25 · X_L.
+//!
+//! With w in N/mm, v_Σ in m/s, ρ in mm, η in mPa·s, R_a in µm. The report means the average over a mesh from the load
+//! F_bt/b, the sum speed and the curvature at the pitch point, found on test gears; here it is taken with each pair's
+//! own. Its line load counts as 150 N/mm where it is less, and its speed as that of 50 m/s on the pitch circle where it
+//! is more, which for 20° pressure angle is v_Σ = 2·50·sin 20° = 34.2 m/s. Both bounds are rounded over a tenth.
+//!
+//! Source: ISO/TR 14179-2:2001, after Schlenk (1994) and Niemann, Winter, Maschinenelemente II.
+
+use super::{Conditions, Outside, ToothFrictionSpec, smooth};
+use crate::numeric::{Scalar, sqrt};
+
+/// Least line load [N/m].
+const LEAST_LOAD: f64 = 150e3;
+
+/// Largest sum speed [m/s].
+const FASTEST: f64 = 34.2;
+
+const SOURCE: &str = "ISO/TR 14179-2";
+
+/// Coefficient at positive speeds, load and radius.
+pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T {
+    let load = smooth::floor(at.line_load, LEAST_LOAD, 0.1 * LEAST_LOAD) * 1e-3; // N/mm
+    let speed = smooth::ceiling(at.rolling, FASTEST, 0.1 * FASTEST);
+    let radius = at.radius * 1e3; // mm
+    // η^−0.05 stands under the fifth root, R_a^0.25 is a root of a root: one power instead of three
+    let fourth_root = |x: f64| sqrt(sqrt(x));
+    let constant = 0.048 * fourth_root(spec.micrometres()) * spec.lubricant_factor.clamp(0.0, 10.0);
+    (load / (speed * radius * fourth_root(spec.centipoise()))).powf(0.2) * constant
+}
+
+/// The quantity outside of what the formula is published for, if any.
+pub fn outside(at: &Conditions<f64>) -> Option<Outside> {
+    Outside::test(("line load w", "N/mm"), at.line_load * 1e-3, [LEAST_LOAD * 1e-3, f64::INFINITY], SOURCE)
+        .or_else(|| Outside::test(("sum speed v_Σ", "m/s"), at.rolling, [0.0, FASTEST], SOURCE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AT: Conditions<f64> =
+        Conditions { sliding: 1.0, rolling: 4.0, line_load: 320e3, radius: 0.010, modulus: 1.15e11 };
+
+    #[test]
+    fn value_equals_the_formula_by_hand() {
+        // 320/(4·10) = 8, 8^0.2 = 2^0.6 = 1.515716567; 16^−0.05 = 2^−0.2 = 0.870550563; 0.0625^0.25 = 0.5; X_L = 0.8
+        let spec = ToothFrictionSpec {
+            oil_viscosity: 0.016,
+            roughness: 0.0625e-6,
+            lubricant_factor: 0.8,
+            ..ToothFrictionSpec::default()
+        };
+        let by_hand = 0.048 * 1.515716566510398 * 0.870550563296124 * 0.5 * 0.8;
+        assert!((coefficient(&spec, &AT) / by_hand - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn small_loads_count_as_150_newton_per_millimetre_and_are_told() {
+        let spec = ToothFrictionSpec::default();
+        let at = |line_load| Conditions { line_load, ..AT };
+        assert_eq!(coefficient(&spec, &at(1e4)), coefficient(&spec, &at(1.2e5)));
+        assert_eq!((outside(&AT), outside(&at(1e4)).unwrap().quantity), (None, "line load w"));
+        let fast = Conditions { rolling: 40.0, ..AT };
+        assert_eq!(outside(&fast).unwrap().quantity, "sum speed v_Σ");
+        assert_eq!(coefficient(&spec, &fast), coefficient(&spec, &Conditions { rolling: 90.0, ..AT }));
+    }
+}

@@ -1,0 +1,39 @@
+//! Where a published law has been left.
+
+use std::fmt;
+
+/// A quantity outside the range that its law was published for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outside {
+    /// The quantity, with its symbol.
+    pub quantity: &'static str,
+    /// Its unit as in `value`, `low` and `high`.
+    pub unit: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Lower end of the range.
+    pub low: f64,
+    /// Upper end of the range.
+    pub high: f64,
+    /// Where the range is from.
+    pub source: &'static str,
+}
+
+impl Outside {
+    /// `Some` if the value is outside.
+    pub(super) fn test(
+        (quantity, unit): (&'static str, &'static str),
+        value: f64,
+        [low, high]: [f64; 2],
+        source: &'static str,
+    ) -> Option<Self> {
+        if (low..=high).contains(&value) { None } else { Some(Self { quantity, unit, value, low, high, source }) }
+    }
+}
+
+impl fmt::Display for Outside {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { quantity, unit, value, low, high, source } = self;
+        write!(f, "{quantity} of {value:.4} {unit} is outside {low} to {high} {unit} ({source})")
+    }
+}

@@ -1,0 +1,146 @@
+//! What must hold for every law.
+
+use super::*;
+use crate::numeric::Dual;
+
+const LAWS: [FrictionLaw; 4] =
+    [FrictionLaw::CoulombStribeck, FrictionLaw::BenedictKelley, FrictionLaw::Iso14179, FrictionLaw::XuKahraman];
+
+fn spec(law: FrictionLaw) -> ToothFrictionSpec {
+    ToothFrictionSpec { law, static_ratio: 1.4, ..ToothFrictionSpec::default() }
+}
+
+const AT: Conditions<f64> = Conditions { sliding: 0.3, rolling: 3.0, line_load: 300e3, radius: 8e-3, modulus: 1.15e11 };
+
+/// splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+    /// Zero, or a number of any size and sign.
+    fn any(&mut self) -> f64 {
+        match self.bits() % 8 {
+            0 => 0.0,
+            1 => f64::MAX.copysign(self.unit() - 0.5),
+            2 => f64::MIN_POSITIVE.copysign(self.unit() - 0.5),
+            3 => (self.unit() - 0.5) * 1e300,
+            _ => 10f64.powf(self.unit() * 24.0 - 12.0).copysign(self.unit() - 0.2),
+        }
+    }
+}
+
+fn dual(at: &Conditions<f64>) -> Conditions<Dual<4>> {
+    Conditions {
+        sliding: Dual::variable(at.sliding, 0),
+        rolling: Dual::variable(at.rolling, 1),
+        line_load: Dual::variable(at.line_load, 2),
+        radius: Dual::variable(at.radius, 3),
+        modulus: at.modulus,
+    }
+}
+
+#[test]
+fn coefficient_and_derivatives_are_finite_and_odd_for_all_finite_arguments() {
+    let mut random = Random(1);
+    for round in 0..40_000 {
+        let law = LAWS[round % 4];
+        let wild = ToothFrictionSpec {
+            law,
+            coefficient: random.any(),
+            static_ratio: random.any(),
+            stribeck_speed: random.any(),
+            regularisation_speed: random.any(),
+            oil_viscosity: random.any(),
+            lubricant_factor: random.any(),
+            roughness: random.any(),
+        };
+        let spec = if round % 3 == 0 { wild } else { spec(law) };
+        let at = Conditions {
+            sliding: random.any(),
+            rolling: random.any(),
+            line_load: random.any(),
+            radius: random.any(),
+            modulus: random.any(),
+        };
+        let h = signed_coefficient(&spec, &at);
+        assert!(h.abs() <= LARGEST && h * at.sliding >= 0.0, "{spec:?} {at:?}: {h}");
+        assert_eq!(signed_coefficient(&spec, &Conditions { sliding: -at.sliding, ..at }), -h);
+        let with_slopes = signed_coefficient(&spec, &dual(&at));
+        assert_eq!(with_slopes.v, h);
+        assert!(with_slopes.d.iter().all(|d| d.is_finite()), "{spec:?} {at:?}: {with_slopes:?}");
+        let _ = outside(&spec, &at);
+    }
+}
+
+#[test]
+fn derivatives_agree_with_central_differences_through_zero_sliding_and_at_every_bound() {
+    let places = [
+        AT,
+        Conditions { sliding: 0.0, ..AT },
+        Conditions { sliding: 4e-4, ..AT },
+        Conditions { sliding: -2e-3, rolling: 2e-3, ..AT },
+        Conditions { sliding: 0.0, rolling: 0.0, ..AT },
+        Conditions { line_load: 153e3, ..AT },
+        Conditions { line_load: 1.1e3, ..AT },
+        Conditions { line_load: -1.0, ..AT },
+        Conditions { sliding: 20.0, rolling: 33.0, line_load: 4e4, ..AT },
+        Conditions { sliding: 5.0, rolling: 4.0, line_load: 2e6, ..AT },
+    ];
+    for law in LAWS {
+        for at in &places {
+            let exact = signed_coefficient(&spec(law), &dual(at)).d;
+            let scales = [at.sliding.abs().max(1e-3), at.rolling.abs().max(1e-3), at.line_load.abs(), at.radius];
+            for (i, scale) in scales.into_iter().enumerate() {
+                let h = scale * 1e-4;
+                let moved = |by: f64| {
+                    let mut x = [at.sliding, at.rolling, at.line_load, at.radius];
+                    x[i] += by;
+                    let [sliding, rolling, line_load, radius] = x;
+                    let at = Conditions { sliding, rolling, line_load, radius, modulus: at.modulus };
+                    signed_coefficient(&spec(law), &at)
+                };
+                // fourth order, so that the comparison is as sharp as rounding lets it be
+                let slope = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
+                let error = (exact[i] - slope).abs() * scale;
+                assert!(error < 1e-9, "{law:?} {at:?}, variable {i}: {} for {slope}", exact[i]);
+            }
+        }
+    }
+}
+
+#[test]
+fn friction_passes_through_zero_with_the_slope_of_the_regularisation() {
+    for law in LAWS {
+        let spec = spec(law);
+        let at = |sliding| signed_coefficient(&spec, &Conditions { sliding, ..AT });
+        assert_eq!(at(0.0), 0.0);
+        let tiny = 1e-9;
+        let exact = signed_coefficient(&spec, &dual(&Conditions { sliding: 0.0, ..AT })).d[0];
+        assert!((at(tiny) / tiny / exact - 1.0).abs() < 1e-9, "{law:?}");
+        assert!(exact > 0.0);
+    }
+    let plain = ToothFrictionSpec::default();
+    let exact = signed_coefficient(&plain, &dual(&Conditions { sliding: 0.0, ..AT })).d[0];
+    assert!((exact - 0.05 / 1e-3).abs() < 1e-12);
+}
+
+#[test]
+fn beyond_the_regularisation_the_published_value_is_reached() {
+    for (law, published) in [
+        (FrictionLaw::BenedictKelley, benedict_kelley::coefficient(&spec(FrictionLaw::BenedictKelley), &AT)),
+        (FrictionLaw::Iso14179, iso14179::coefficient(&spec(FrictionLaw::Iso14179), &AT)),
+        (FrictionLaw::XuKahraman, xu_kahraman::coefficient(&spec(FrictionLaw::XuKahraman), &AT)),
+    ] {
+        let value = signed_coefficient(&spec(law), &AT);
+        assert!((value / published - 1.0).abs() < 2e-5, "{law:?}: {value} for {published}");
+        assert!((0.01..0.12).contains(&value), "{law:?}: {value}");
+    }
+}

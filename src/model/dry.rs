@@ -1,0 +1,279 @@
+//! Dry friction that truly sticks: a spring while a body is held, a limit torque while it slides.
+//!
+//! While stuck T = k (z + τ ω) with the turn z since the body was caught, while sliding T = ±T_max (P. R. Dahl's and
+//! Jenkins' element: a spring in series with a Coulomb slider). The turn z is a position that the model has anyway, less
+//! an anchor, so that holding costs no state and a constant load is held without creep. Transitions are landed on by the
+//! integrator; the energy that the spring gives up or takes on at them is booked as heat.
+
+use serde::{Deserialize, Serialize};
+
+use super::effects::{CAUSES, Grip, PlanetGrip, SideGrip};
+
+/// Ways in which a body can be held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// By a spring from its anchor.
+    #[default]
+    Stuck,
+    /// Slides forward.
+    Forward,
+    /// Slides backward.
+    Backward,
+}
+
+impl Mode {
+    /// +1 or −1 while sliding, 0 while stuck.
+    pub fn direction(self) -> f64 {
+        match self {
+            Mode::Stuck => 0.0,
+            Mode::Forward => 1.0,
+            Mode::Backward => -1.0,
+        }
+    }
+}
+
+/// How a body is held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Hold {
+    /// Stuck or sliding.
+    pub mode: Mode,
+    /// Position at which the spring is relaxed [rad].
+    pub anchor: f64,
+    /// Stiffness that the anchor belongs to [N·m/rad]; 0 = not held yet.
+    pub stiffness: f64,
+}
+
+/// Damping of the spring over its stiffness τ [s].
+const DAMPING_TIME: f64 = 1e-4;
+/// How closely a limit torque is landed on, relative to it.
+const LIMIT_TOLERANCE: f64 = 1e-5;
+/// How closely zero speed is landed on [rad/s].
+const SPEED_TOLERANCE: f64 = 1e-6;
+/// Limit torque below which there is nothing to hold [N·m].
+const NOTHING: f64 = 1e-9;
+/// Parts of a step within which a switch is looked for.
+const FRACTIONS: (f64, f64) = (1e-3, 0.999);
+/// Most effects that can hold.
+const GRIPS: usize = 3;
+
+/// What presses bodies together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pressing {
+    /// Thrust on a side gear, or on a planet [N].
+    pub thrust: f64,
+    /// Magnitude of the torque of the meshes on a side gear [N·m], or of the force across a planet's pin [N].
+    pub load: f64,
+}
+
+/// Motion of a held body against what holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turn {
+    /// Position [rad].
+    pub position: f64,
+    /// Speed [rad/s].
+    pub speed: f64,
+}
+
+/// All that holds one kind of body.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Clamp {
+    parts: [Part; GRIPS],
+    count: usize,
+    /// Stiffness of all together [N·m/rad].
+    pub stiffness: f64,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    constant: f64,
+    per_thrust: f64,
+    per_load: f64,
+    static_ratio: f64,
+    cause: usize,
+}
+
+impl Clamp {
+    fn push(&mut self, part: Part, stiffness: f64) {
+        if stiffness > 0.0 && self.count < GRIPS {
+            self.parts[self.count] = part;
+            self.count += 1;
+            self.stiffness += stiffness;
+        }
+    }
+
+    /// What holds side gears and what holds planets, of `grips`.
+    pub fn of<'a>(grips: impl IntoIterator<Item = &'a Grip>) -> [Self; 2] {
+        let mut clamps = [Self::default(); 2];
+        for grip in grips {
+            let SideGrip { constant, per_thrust, per_torque, stiffness } = grip.side;
+            let (cause, static_ratio) = (grip.cause as usize, grip.static_ratio);
+            clamps[0].push(Part { constant, per_thrust, per_load: per_torque, static_ratio, cause }, stiffness);
+            let PlanetGrip { per_pin_force, per_thrust, stiffness } = grip.planet;
+            clamps[1].push(Part { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, cause }, stiffness);
+        }
+        clamps
+    }
+
+    fn parts(&self) -> &[Part] {
+        &self.parts[..self.count]
+    }
+
+    /// Whether anything holds at all.
+    pub fn is_on(&self) -> bool {
+        self.count > 0
+    }
+
+    /// Whether what presses matters.
+    pub fn depends_on_load(&self) -> bool {
+        self.parts().iter().any(|p| p.per_thrust != 0.0 || p.per_load != 0.0)
+    }
+
+    /// Limit torque while sliding [N·m].
+    pub fn limit(&self, by: &Pressing) -> f64 {
+        self.parts().iter().map(|p| p.at(by)).sum()
+    }
+
+    /// Its slopes by thrust and load.
+    pub fn limit_slopes(&self) -> [f64; 2] {
+        self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load])
+    }
+
+    fn breakaway(&self, by: &Pressing) -> f64 {
+        self.parts().iter().map(|p| p.static_ratio * p.at(by)).sum()
+    }
+
+    /// Torque against the motion.
+    pub fn torque(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> f64 {
+        match hold.mode {
+            Mode::Stuck => self.stiffness * (turn.position - hold.anchor + DAMPING_TIME * turn.speed),
+            Mode::Forward => self.limit(by),
+            Mode::Backward => -self.limit(by),
+        }
+    }
+
+    /// Slopes of the torque by position and speed; by what presses see [`Self::limit_slopes`].
+    pub fn torque_slopes(&self, hold: &Hold) -> [f64; 2] {
+        match hold.mode {
+            Mode::Stuck => [self.stiffness, DAMPING_TIME * self.stiffness],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Adds the heat to its causes, `count` bodies alike.
+    pub fn heat(&self, hold: &Hold, turn: &Turn, by: &Pressing, count: f64, heat: &mut [f64; CAUSES]) {
+        let power = match hold.mode {
+            Mode::Stuck => self.stiffness * DAMPING_TIME * turn.speed * turn.speed,
+            _ => self.torque(hold, turn, by) * turn.speed,
+        };
+        self.book(count * power, by, heat);
+    }
+
+    /// Shares `amount` out to the causes in proportion to what each holds.
+    fn book(&self, amount: f64, by: &Pressing, heat: &mut [f64; CAUSES]) {
+        let whole = self.limit(by);
+        for part in self.parts() {
+            let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
+            heat[part.cause] += amount * share;
+        }
+    }
+
+    /// Energy in the spring [J].
+    pub fn energy(&self, hold: &Hold, position: f64) -> f64 {
+        let z = position - hold.anchor;
+        if hold.mode == Mode::Stuck { 0.5 * self.stiffness * z * z } else { 0.0 }
+    }
+
+    /// How far the hold is past its switch, as a fraction of what is allowed: negative before, above 1 too far.
+    fn overshoot(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> f64 {
+        match hold.mode {
+            Mode::Stuck => {
+                let (torque, limit) = (self.torque(hold, turn, by), self.breakaway(by));
+                // a spring past its limit that is being unwound is cut back, it does not slide
+                if torque * turn.speed <= 0.0 {
+                    return -1.0;
+                }
+                (torque.abs() - limit) / (LIMIT_TOLERANCE * limit + NOTHING)
+            }
+            mode => {
+                let direction = if mode == Mode::Forward { 1.0 } else { -1.0 };
+                -direction * turn.speed / SPEED_TOLERANCE
+            }
+        }
+    }
+
+    /// The fraction of a step to take so that it ends on a switch; `None` if there is none or it is near enough.
+    pub fn crossing(&self, hold: &Hold, start: (&Turn, &Pressing), end: (&Turn, &Pressing)) -> Option<f64> {
+        let after = self.overshoot(hold, end.0, end.1);
+        if after <= 1.0 || self.limit(end.1) <= NOTHING {
+            return None;
+        }
+        // aim at the middle of what is allowed
+        let before = self.overshoot(hold, start.0, start.1).min(0.0);
+        Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
+    }
+
+    /// Switches the hold where it is due; what its spring gives up is heat of `count` bodies. Whether it switched.
+    pub fn settle(&self, hold: &mut Hold, turn: &Turn, by: &Pressing, count: f64, heat: &mut [f64; CAUSES]) -> bool {
+        let before = *hold;
+        let (torque, limit) = (self.torque(hold, turn, by), self.limit(by));
+        let due = self.overshoot(hold, turn, by) > 0.0;
+        match hold.mode {
+            Mode::Stuck if due => hold.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
+            Mode::Stuck => {
+                let z = turn.position - hold.anchor;
+                let most = self.breakaway(by) / self.stiffness;
+                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + NOTHING / self.stiffness {
+                    hold.anchor = turn.position - most * z.signum();
+                }
+            }
+            mode if due => {
+                let z = limit / self.stiffness;
+                hold.mode = Mode::Stuck;
+                hold.anchor = turn.position - if mode == Mode::Forward { z } else { -z };
+            }
+            _ => {}
+        }
+        if *hold == before {
+            return false;
+        }
+        let lost = self.energy(&before, turn.position) - self.energy(hold, turn.position);
+        self.book(count * lost, by, heat);
+        true
+    }
+
+    /// Whether [`Self::settle`] has something to do.
+    pub fn is_due(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> bool {
+        self.settle(&mut hold.clone(), turn, by, 0.0, &mut [0.0; CAUSES])
+    }
+
+    /// Takes a hold over from another stiffness, keeping its torque; a body that was not held yet is caught here.
+    pub fn take_over(&self, hold: &mut Hold, turn: &Turn, heat: &mut [f64; CAUSES], count: f64) {
+        if hold.stiffness == self.stiffness {
+            return;
+        }
+        let before = 0.5 * hold.stiffness * (turn.position - hold.anchor) * (turn.position - hold.anchor);
+        let before = if hold.mode == Mode::Stuck { before } else { 0.0 };
+        let torque = if hold.stiffness > 0.0 { hold.stiffness * (turn.position - hold.anchor) } else { 0.0 };
+        if self.stiffness > 0.0 {
+            if hold.stiffness == 0.0 {
+                hold.mode = match turn.speed {
+                    v if v > SPEED_TOLERANCE => Mode::Forward,
+                    v if v < -SPEED_TOLERANCE => Mode::Backward,
+                    _ => Mode::Stuck,
+                };
+            }
+            hold.anchor = turn.position - torque / self.stiffness;
+        } else {
+            *hold = Hold::default();
+        }
+        hold.stiffness = self.stiffness;
+        let cause = self.parts().first().map_or(super::effects::Cause::Clutch as usize, |p| p.cause);
+        heat[cause] += count * (before - self.energy(hold, turn.position));
+    }
+}
+
+impl Part {
+    fn at(&self, by: &Pressing) -> f64 {
+        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+}

@@ -1,0 +1,92 @@
+//! What an effect on bodies sees, and what it may do.
+
+use std::fmt::Debug;
+
+use super::super::parameters::Inputs;
+use super::super::plan::Layout;
+
+/// Causes of heat, in the order of the ledger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Cause {
+    Contact,
+    ToothFriction,
+    Thrust,
+    Clutch,
+    Drag,
+    Shaft,
+    Support,
+}
+
+/// Number of causes.
+pub const CAUSES: usize = 7;
+
+/// Positions and velocities of all degrees of freedom, where they stand, and what the host commands.
+pub struct Bodies<'a> {
+    /// Positions.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+    /// Which is which.
+    pub layout: &'a Layout,
+    /// Inputs.
+    pub inputs: &'a Inputs,
+}
+
+/// Forces and torques by degree of freedom (on each planet singly), and heat by cause.
+pub struct Action<'a> {
+    /// Sums of forces.
+    pub force: &'a mut [f64],
+    /// Acceleration of a carrier whose motion is imposed [rad/s²].
+    pub imposed: &'a mut f64,
+    /// Power of what drives from outside, beside the commanded torques [W].
+    pub input: &'a mut f64,
+    /// Heat [W].
+    pub heat: &'a mut [f64; CAUSES],
+}
+
+/// Derivatives of the forces, row by row.
+pub struct Slopes<'a> {
+    /// Degrees of freedom in a row.
+    pub n: usize,
+    /// ∂force/∂position.
+    pub by_position: &'a mut [f64],
+    /// ∂force/∂velocity.
+    pub by_velocity: &'a mut [f64],
+    /// ∂(imposed acceleration of the carrier)/∂position and ∂/∂velocity.
+    pub imposed: [&'a mut [f64]; 2],
+}
+
+impl Slopes<'_> {
+    /// Adds to ∂force_i/∂position_j.
+    #[inline]
+    pub fn position(&mut self, i: usize, j: usize, value: f64) {
+        self.by_position[i * self.n + j] += value;
+    }
+
+    /// Adds to ∂force_i/∂velocity_j.
+    #[inline]
+    pub fn velocity(&mut self, i: usize, j: usize, value: f64) {
+        self.by_velocity[i * self.n + j] += value;
+    }
+}
+
+/// An effect that acts on bodies beside the teeth.
+pub trait BodyEffect: Debug + Send + Sync {
+    /// Adds forces and heat.
+    fn act(&self, at: &Bodies, out: &mut Action);
+    /// Adds the exact derivatives of the forces.
+    fn slopes(&self, at: &Bodies, out: &mut Slopes);
+    /// Whether it is part of the structure that carries static loads.
+    fn is_structure(&self) -> bool {
+        false
+    }
+    /// Energy it stores [J].
+    fn energy(&self, _at: &Bodies) -> f64 {
+        0.0
+    }
+    /// Speed that an imposed carrier has instead of `command` [rad/s].
+    fn carrier_speed(&self, _q: &[f64], command: f64) -> f64 {
+        command
+    }
+}

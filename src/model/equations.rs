@@ -1,0 +1,430 @@
+//! Equations of motion with tooth contact.
+//!
+//! Degrees of freedom: α_L, α_R (side gears relative to the carrier), θ_c, and the spin ψ of each group of planets;
+//! velocities ω_L, ω_R, ω_c (absolute) and ψ̇, in which the kinetic energy is diagonal:
+//!
+//!   J_s ω̇_s = Σ Q_α − T_s,   J_c ω̇_c = T_c − Σ_s Σ Q_α,   I_p ψ̈ = Q_ψL + Q_ψR,   α̇_s = ω_s − ω_c
+//!
+//! with q = sinδ_bs α − σ sinδ_bp ψ and x = σ sinδ_bp ψ + h of every mesh, σ = +1 left, −1 right, and the mesh forces
+//! Q_α = sinδ_bs F_q, Q_ψ = σ sinδ_bp (F_x − F_q). Imposed motions have a given acceleration.
+//!
+//! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
+//! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
+
+use super::dry::{Clamp, Hold};
+use super::effects::CAUSES;
+use super::parameters::Inputs;
+use super::plan::MAX_GROUPS;
+use super::state::{CARRIER, HOLDS, LEFT, State};
+use super::teeth::{SIGMA, Teeth};
+use crate::contact::mesh::{MeshForce, MeshState};
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
+
+/// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
+const APPROACH_FLOOR: f64 = 1e-4;
+/// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
+const SPEED_FLOOR: f64 = 1.0;
+/// Twist below which that of a half-shaft is resolved absolutely [rad].
+const TWIST_FLOOR: f64 = 1e-3;
+
+/// Rates of the ledger.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Power {
+    /// Net power of all inputs into the system [W].
+    pub input: f64,
+    /// Power turned into heat by cause [W].
+    pub heat: [f64; CAUSES],
+    /// Torques of the half-shafts [N·m].
+    pub shaft: [f64; 2],
+}
+
+/// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
+/// move, and whether effects act beside the teeth.
+pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> {
+    /// Constants.
+    pub teeth: &'a Teeth,
+    pub(super) inputs: Inputs,
+    pub(super) holds: [Hold; HOLDS],
+    pub(super) clamps: [Clamp; 2],
+    pub(super) fault: bool,
+    /// Relative position taken out by wrapping, by group and side [rad].
+    offset: [[f64; 2]; MAX_GROUPS],
+    /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
+    pub(super) wrapped: [i64; MAX_GROUPS],
+}
+
+impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'a, N, G, P, FULL> {
+    /// Index of the first group of planets.
+    pub const PLANET: usize = CARRIER + 1 + 2 * P;
+    /// Index of the first pin.
+    pub const PIN: usize = Self::PLANET + G;
+    /// Whether half-shafts have ends of their own.
+    pub const ENDS: bool = N > Self::PLANET + (1 + P) * G;
+
+    /// Equations at `state`'s wrapping under `inputs`.
+    pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
+        let mut offset = [[0.0; 2]; MAX_GROUPS];
+        let mut wrapped = [0; MAX_GROUPS];
+        for g in 0..G {
+            wrapped[g] = state.turns[Self::PLANET + g];
+            for s in 0..2 {
+                let spin = if s == 0 { wrapped[g] } else { -wrapped[g] };
+                offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
+            }
+        }
+        let clamps = if FULL { teeth.full.clamps(state.lock) } else { [Clamp::default(); 2] };
+        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
+        Self { teeth, inputs, holds: state.holds, clamps, fault: state.fault, offset, wrapped }
+    }
+
+    /// State of the mesh of group `g` with side `s`.
+    #[inline(always)]
+    pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
+        let [planet, side] = self.teeth.lever;
+        let turn = SIGMA[s] * planet;
+        let (travel, travel_rate) = (turn * at.q[Self::PLANET + g], turn * at.v[Self::PLANET + g]);
+        let (angle, speed) = if P == 0 {
+            (at.q[s], at.v[s] - at.v[CARRIER])
+        } else {
+            (at.q[s] - at.q[Self::PIN + g], at.v[s] - at.v[Self::PIN + g])
+        };
+        MeshState {
+            position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
+            rate: [side * speed - travel_rate, travel_rate],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn members(&self, g: usize) -> f64 {
+        self.teeth.plan.group(g).members
+    }
+
+    /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
+    #[inline(always)]
+    pub(super) fn add_forces(&self, force: &[[[f64; 2]; 2]; G], sum: &mut [f64; N]) {
+        let [planet, side] = self.teeth.lever;
+        let on_side = [0, 1].map(|s| in_pairs(G, |g| self.members(g) * side * force[g][s][0]));
+        for s in 0..2 {
+            sum[s] += on_side[s];
+        }
+        if P == 0 {
+            sum[CARRIER] -= on_side[0] + on_side[1];
+        }
+        for g in 0..G {
+            let [left, right] = &force[g];
+            sum[Self::PLANET + g] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
+            if P > 0 {
+                sum[Self::PIN + g] -= side * left[0] + side * right[0];
+            }
+        }
+    }
+
+    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
+    #[inline(always)]
+    pub(super) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let [planet, side] = self.teeth.lever;
+        let turn = SIGMA[s] * planet;
+        let columns = by.map(|[q, x, w]| [side * q, turn * (x - q), w]);
+        std::array::from_fn(|row| {
+            std::array::from_fn(|c| match row {
+                0 => side * columns[0][c],
+                1 => turn * (columns[1][c] - columns[0][c]),
+                _ => columns[2][c],
+            })
+        })
+    }
+
+    /// The same of a mesh whose side gear has no seat of its own.
+    #[inline(always)]
+    pub(super) fn block(&self, s: usize, by: &[[f64; 2]; 2]) -> [[f64; 3]; 3] {
+        let [[qq, qx], [xq, xx]] = *by;
+        self.local_block(s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
+    }
+
+    /// Adds the blocks of all meshes to ∂(sums)/∂(positions) or ∂(sums)/∂(rates).
+    #[inline(always)]
+    pub(super) fn add_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
+        for g in 0..G {
+            let (i, members) = (Self::PLANET + g, self.members(g));
+            for s in 0..2 {
+                let l = &blocks[g][s];
+                m[s][i] += members * l[0][1];
+                m[i][s] += l[1][0];
+                m[i][i] += l[1][1];
+                if P == 0 {
+                    m[CARRIER][i] -= members * l[0][1];
+                } else {
+                    let (pin, seat) = (Self::PIN + g, CARRIER + 1 + s);
+                    m[s][pin] -= members * l[0][0];
+                    m[seat][pin] -= members * l[2][0];
+                    m[seat][i] += members * l[2][1];
+                    m[pin][s] -= l[0][0];
+                    m[pin][pin] += l[0][0];
+                    m[pin][i] -= l[0][1];
+                    m[pin][seat] -= l[0][2];
+                    m[i][pin] -= l[1][0];
+                    m[i][seat] += l[1][2];
+                }
+            }
+        }
+        let total = |s: usize, row: usize, c: usize| in_pairs(G, |g| self.members(g) * blocks[g][s][row][c]);
+        for s in 0..2 {
+            let diagonal = total(s, 0, 0);
+            m[s][s] += diagonal;
+            if P == 0 {
+                m[CARRIER][s] -= diagonal;
+            } else {
+                let seat = CARRIER + 1 + s;
+                m[s][seat] += total(s, 0, 2);
+                m[seat][s] += total(s, 2, 0);
+                m[seat][seat] += total(s, 2, 2);
+            }
+        }
+    }
+
+    /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
+    #[inline(always)]
+    pub(super) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
+        let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
+        let mut input = 0.0;
+        for s in 0..2 {
+            let wheel = if FULL && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
+            if FULL && plan.side_imposed[s] {
+                input -= sum[wheel] * at.v[wheel];
+            } else {
+                sum[wheel] -= self.inputs.load_torque[s];
+                input -= self.inputs.load_torque[s] * at.v[wheel];
+            }
+        }
+        let drive = if plan.carrier_imposed {
+            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        } else {
+            self.inputs.carrier_torque
+        };
+        input += drive * at.v[CARRIER];
+        sum[CARRIER] += drive;
+        if plan.spin_imposed {
+            input -= in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g] * at.v[Self::PLANET + g]);
+        }
+        for i in 0..N {
+            sum[i] *= inverse[i];
+        }
+        if FULL && plan.carrier_imposed {
+            sum[CARRIER] = imposed[CARRIER];
+        }
+        power.input += input;
+    }
+
+    fn divide_by_inertia(&self, m: &mut Matrix<N>) {
+        for (row, inverse) in m.iter_mut().zip(&self.teeth.inverse_inertia) {
+            row.iter_mut().for_each(|x| *x *= inverse);
+        }
+    }
+
+    /// Sums of tooth torques on side gears, carrier, planets and pins without any input, and the heat of contact.
+    #[inline(always)]
+    pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
+        let mut sum = [0.0; N];
+        let mut load = [[MeshForce::default(); 2]; G];
+        for g in 0..G {
+            for s in 0..2 {
+                load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
+            }
+        }
+        self.add_forces(&load.map(|both| both.map(|l| l.force)), &mut sum);
+        (sum, in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
+    }
+
+    /// ∂(tooth torques)/∂q, for the static equilibrium.
+    pub fn tooth_stiffness(&self, at: &Point<N>) -> Matrix<N> {
+        let mut m = [[0.0; N]; N];
+        let mut by = [[[[0.0; 3]; 3]; 2]; G];
+        for g in 0..G {
+            for s in 0..2 {
+                let mut state = self.mesh_state(at, g, s);
+                state.rate = [0.0; 2];
+                by[g][s] = self.block(s, &self.teeth.mesh.linearise(&state).1.by_position);
+            }
+        }
+        self.add_blocks(&by, &mut m);
+        m
+    }
+
+    /// Elastic energy of all meshes [J].
+    pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
+        in_pairs(G, |g| {
+            let of = |s| self.teeth.mesh.energy(self.mesh_state(at, g, s).position);
+            self.members(g) * (of(0) + of(1))
+        })
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
+        let one = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
+        let planets =
+            in_pairs(G, |g| self.members(g) * (one(Self::PLANET + g) + if P > 0 { one(Self::PIN + g) } else { 0.0 }));
+        let others = |range: std::ops::Range<usize>| range.map(one).sum::<f64>();
+        0.5 * (others(0..Self::PLANET) + planets + others(Self::PLANET + (1 + P) * G..N))
+    }
+
+    /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
+    #[inline(always)]
+    pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
+        let mut deepest = (f64::NEG_INFINITY, 0, 0);
+        for g in 0..G {
+            for s in 0..2 {
+                let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
+                if approach > deepest.0 {
+                    deepest = (approach, g, s);
+                }
+            }
+        }
+        deepest
+    }
+
+    fn linearise_teeth(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        let mut power = Power::default();
+        let (mut acceleration, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let mut load = [[MeshForce::default(); 2]; G];
+        let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
+        for g in 0..G {
+            for s in 0..2 {
+                let (force, jacobian) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+                load[g][s] = force;
+                position[g][s] = self.block(s, &jacobian.by_position);
+                rate[g][s] = self.block(s, &jacobian.by_rate);
+            }
+        }
+        self.add_forces(&load.map(|both| both.map(|l| l.force)), &mut acceleration);
+        self.add_blocks(&position, &mut by_position);
+        self.add_blocks(&rate, &mut by_velocity);
+        power.heat[0] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+        // α̇ = ω_s − ω_c
+        self.times_rates(&mut by_velocity);
+        self.divide_by_inertia(&mut by_position);
+        self.divide_by_inertia(&mut by_velocity);
+        self.finish(at, &mut acceleration, &[0.0; N], &mut power);
+        Linearisation { acceleration, by_position, by_velocity, power }
+    }
+
+    fn linearise_all(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        let mut power = Power::default();
+        let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);
+        let mut slopes = super::full::Jacobian::default();
+        self.act(at, &mut acceleration, &mut imposed, &mut power, Some(&mut slopes));
+        let super::full::Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed } = slopes;
+        let mut of_rates = by_rate;
+        self.times_rates(&mut of_rates);
+        for i in 0..N {
+            for j in 0..N {
+                by_velocity[i][j] += of_rates[i][j];
+            }
+        }
+        self.divide_by_inertia(&mut by_position);
+        self.divide_by_inertia(&mut by_velocity);
+        if self.teeth.plan.carrier_imposed {
+            (by_position[CARRIER], by_velocity[CARRIER]) = (of_imposed[0], of_imposed[1]);
+        }
+        self.finish(at, &mut acceleration, &imposed, &mut power);
+        Linearisation { acceleration, by_position, by_velocity, power }
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrder<N> for Equations<'_, N, G, P, FULL> {
+    type Power = Power;
+    const ALIKE: (usize, usize) = (Self::PLANET, (1 + P) * G);
+
+    #[inline(always)]
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+        let mut rates = *v;
+        for s in 0..2 {
+            rates[s] -= v[CARRIER];
+        }
+        if P > 0 {
+            for g in 0..G {
+                rates[Self::PIN + g] -= v[CARRIER];
+            }
+        }
+        if Self::ENDS {
+            for s in 0..2 {
+                rates[N - 2 + s] = v[s] - v[N - 2 + s];
+            }
+        }
+        rates
+    }
+
+    #[inline(always)]
+    fn times_rates(&self, m: &mut Matrix<N>) {
+        for row in m.iter_mut() {
+            row[CARRIER] -= row[0] + row[1];
+            if P > 0 {
+                row[CARRIER] -= in_pairs(G, |g| row[Self::PIN + g]);
+            }
+            if Self::ENDS {
+                for s in 0..2 {
+                    row[s] += row[N - 2 + s];
+                    row[N - 2 + s] = -row[N - 2 + s];
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
+        let mut power = Power::default();
+        if FULL {
+            let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
+            self.act(at, &mut sum, &mut imposed, &mut power, None);
+            self.finish(at, &mut sum, &imposed, &mut power);
+            (sum, power)
+        } else {
+            let (mut sum, heat) = self.tooth_torques(at);
+            power.heat[0] = heat;
+            self.finish(at, &mut sum, &[0.0; N], &mut power);
+            (sum, power)
+        }
+    }
+
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        if FULL { self.linearise_all(at) } else { self.linearise_teeth(at) }
+    }
+
+    #[inline(always)]
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);
+        let [planet, side] = self.teeth.lever.map(|lever| lever * per_approach);
+        let mut q = [planet; N];
+        (q[0], q[1], q[CARRIER]) = (side, side, 1.0);
+        // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
+        let carrier = SPEED_FLOOR + 2.0 * at.v[CARRIER].abs();
+        let mut spin = 0.0f64;
+        for g in 0..G {
+            spin = spin.max(at.v[Self::PLANET + g].abs());
+        }
+        let side_speed = 1.0 / (carrier + spin * self.teeth.lever[0] / self.teeth.lever[1]);
+        let mut v = [1.0 / (carrier + spin); N];
+        (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
+        if P > 0 {
+            let per_length = per_approach / self.teeth.mesh.cone;
+            for s in 0..2 {
+                q[CARRIER + 1 + s] = per_length;
+                v[CARRIER + 1 + s] = v[s] / self.teeth.mesh.cone;
+            }
+            for g in 0..G {
+                (q[Self::PIN + g], v[Self::PIN + g]) = (side, v[CARRIER]);
+            }
+        }
+        if Self::ENDS {
+            for s in 0..2 {
+                q[N - 2 + s] = 1.0 / (TWIST_FLOOR + at.q[N - 2 + s].abs());
+                v[N - 2 + s] = v[s];
+            }
+        }
+        Point { q, v }
+    }
+
+    #[inline(always)]
+    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64> {
+        if FULL { self.holds_crossing(start, end) } else { None }
+    }
+}

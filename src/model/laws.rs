@@ -1,0 +1,153 @@
+//! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
+
+use super::parameters::{GearContact, Parameters};
+use crate::contact::any_spring::AnySpring;
+use crate::contact::damping::{self, Damping};
+use crate::contact::detailed::Slice;
+use crate::contact::impact::Impact;
+use crate::contact::law::{Face, Lumped, Power};
+use crate::contact::mesh::Law;
+use crate::contact::stiffness::{PairStiffness, RootSpec};
+use crate::contact::{ContactLaw, DampingModel, hertz};
+use crate::geometry::Pair;
+use crate::problem::Problem;
+
+/// One law in its two forms.
+pub struct Laws {
+    /// For a plain mesh.
+    pub law: Law,
+    /// For a mesh in detail: the elastic part by itself,
+    pub spring: AnySpring,
+    /// and the slices of the face it acts on.
+    pub slices: Vec<Slice>,
+    /// Cone distance at which the resultant of a pair acts [m].
+    pub cone: f64,
+}
+
+impl Laws {
+    /// Law of the scene; `slices` is the number of slices wanted over the face where the law can be cut into slices.
+    pub fn new(p: &Parameters, pair: &Pair, slices: usize) -> Result<Self, Problem> {
+        let damping = Self::damping(p);
+        let (outer, inner) = (pair.outer_cone, pair.inner_cone);
+        let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
+        let centroid = centroid(pair);
+        let stiffness = || {
+            let root = RootSpec { fillet: p.geometry.root_fillet };
+            PairStiffness::new(pair, &root, p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load)
+        };
+        let whole = |cone: f64, weight: f64| vec![Slice { cone, weight }];
+        if p.scene.gear_contact == GearContact::Lumped {
+            let per_width = if p.contact.mesh_stiffness_from_geometry {
+                stiffness()?.mesh_mean()
+            } else {
+                p.contact.mesh_stiffness
+            };
+            let k = per_width * moment / (centroid * centroid);
+            return Ok(Self {
+                law: Law::Lumped(Lumped { stiffness: k, damping }),
+                spring: AnySpring::Linear(k, centroid),
+                slices: whole(centroid, 1.0),
+                cone: centroid,
+            });
+        }
+        let face = || if slices > 1 { gauss_slices(inner, outer) } else { whole(centroid, moment) };
+        Ok(match p.contact.law {
+            ContactLaw::Impact => {
+                let impact = impact(p, pair);
+                let law = match damping {
+                    Damping::Step { .. } => Law::Impact(impact),
+                    Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
+                };
+                let spring = AnySpring::Power(impact, pair.mean_cone);
+                Self { law, spring, slices: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
+            }
+            ContactLaw::Line => {
+                let specific = stiffness()?.line();
+                let spring = AnySpring::Line(specific.clone());
+                let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                Self { law, spring, slices: face(), cone: centroid }
+            }
+            ContactLaw::LineWeber => {
+                let specific = stiffness()?.line_weber();
+                let spring = AnySpring::LineWeber(specific.clone());
+                let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                Self { law, spring, slices: face(), cone: centroid }
+            }
+        })
+    }
+
+    /// Damping of a tooth pair.
+    pub fn damping(p: &Parameters) -> Damping {
+        match p.contact.damping_model {
+            DampingModel::Step => {
+                Damping::Step { coefficient: p.contact.damping, per_full_depth: 1.0 / p.contact.penetration_depth }
+            }
+            // a restitution that has no damping to go with it is refused before
+            DampingModel::Restitution => Damping::HuntCrossley {
+                lambda: damping::dimensionless_damping(p.contact.restitution).unwrap_or(0.0) / p.contact.impact_speed,
+            },
+        }
+    }
+}
+
+fn impact(p: &Parameters, pair: &Pair) -> Impact {
+    let hertz = || {
+        let radius = |i| 0.5 * pair.outer_pitch_diameter(i);
+        hertz::stiffness(radius(0), radius(1), p.material.young_modulus, p.material.poisson_ratio)
+    };
+    Impact {
+        stiffness: if p.contact.stiffness_from_hertz { hertz() } else { p.contact.stiffness },
+        exponent: p.contact.exponent,
+        damping: p.contact.damping,
+        per_full_depth: 1.0 / p.contact.penetration_depth,
+    }
+}
+
+/// Cone distance at which a load per width that grows with R has its resultant [m].
+pub fn centroid(pair: &Pair) -> f64 {
+    let (outer, inner) = (pair.outer_cone, pair.inner_cone);
+    2.0 / 3.0 * (outer * outer * outer - inner * inner * inner) / (outer * outer - inner * inner)
+}
+
+/// Cone distances of the slices of a cut face [m].
+pub fn slice_cones(pair: &Pair) -> Vec<f64> {
+    gauss_slices(pair.inner_cone, pair.outer_cone).iter().map(|s| s.cone).collect()
+}
+
+/// Gauss–Legendre points and weights on [−1, 1], eight of them (M. Abramowitz, I. A. Stegun, table 25.4).
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// Slices of the face by Gauss's rule, weights times R².
+fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
+    let (middle, half) = (0.5 * (outer + inner), 0.5 * (outer - inner));
+    let points = GAUSS.iter().rev().map(|&(x, w)| (-x, w)).chain(GAUSS);
+    points
+        .map(|(x, w)| {
+            let cone = middle + half * x;
+            Slice { cone, weight: half * w * cone * cone }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slices_integrate_over_the_face() {
+        let (inner, outer) = (22.4e-3, 42.4e-3);
+        let slices = gauss_slices(inner, outer);
+        for power in 0..10 {
+            let sum: f64 = slices.iter().map(|s| s.weight * s.cone.powi(power)).sum();
+            let n = power + 3;
+            let exact = (f64::powi(outer, n) - f64::powi(inner, n)) / f64::from(n);
+            assert!((sum / exact - 1.0).abs() < 1e-13, "power {power}");
+        }
+        assert!(slices.windows(2).all(|s| s[0].cone < s[1].cone));
+    }
+}

@@ -1,0 +1,112 @@
+//! Loads of single tooth pairs at an instant: what outputs, strength and load histories are made of.
+//!
+//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm
+//! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
+//! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
+
+use super::equations::Equations;
+use crate::contact::mesh::Mesh;
+use crate::contact::pairs::{Flank, Spot, ToothPair};
+use crate::geometry::Pair;
+use crate::integrate::Point;
+use crate::numeric::{cos, sin, sqrt};
+
+/// Load of one tooth pair, or of one slice of it where loads differ over the face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToothLoad {
+    /// Planet that stands for its group, from 0.
+    pub planet: usize,
+    /// Side, 0 left and 1 right.
+    pub side: usize,
+    /// Flank.
+    pub flank: Flank,
+    /// Kind of contact.
+    pub spot: Spot,
+    /// Numbers of the planet's and the side gear's tooth, from 0.
+    pub teeth: [usize; 2],
+    /// Place on the path of contact [rad].
+    pub s: f64,
+    /// Cone distance at which the force acts [m].
+    pub cone: f64,
+    /// Share of the face that it stands for.
+    pub share: f64,
+    /// Penetration along the line of action [m].
+    pub depth: f64,
+    /// Normal force [N].
+    pub normal: f64,
+    /// Friction along the flank, positive toward the planet's tip on the planet [N].
+    pub friction: f64,
+    /// Parts of the normal: along the planet's axis and the side gear's, away from the apex, and along the rotation.
+    pub parts: [f64; 3],
+}
+
+/// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
+pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
+    let [lever_p, lever_s] = pair.lever();
+    let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
+    let corner = &mesh.engagement.corner;
+    let (planet, side) = match contact.spot {
+        Spot::Path => (
+            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.place),
+            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.place),
+        ),
+        Spot::PlanetTip => {
+            let corner = corner[0].exact(contact.place);
+            (along(corner.own_polar, lever_p * (1.0 - corner.gap.d)), along(corner.mate_polar, lever_s))
+        }
+        Spot::SideTip => {
+            let corner = corner[1].exact(contact.place);
+            (along(corner.mate_polar, lever_p), along(corner.own_polar, lever_s * (1.0 - corner.gap.d)))
+        }
+    };
+    let forward = sqrt((1.0 - planet * planet - side * side).max(0.0));
+    [planet, side, if contact.flank == Flank::Drive { forward } else { -forward }]
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Shows every loaded tooth pair of the mesh of group `g` with side `s`.
+    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
+        let mesh = &self.teeth.mesh;
+        let planet = self.teeth.plan.group(g).planet;
+        let wrapped = if s == 0 { self.wrapped[g] } else { -self.wrapped[g] };
+        let teeth = |flank: Flank, number: i64| {
+            let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
+            self.teeth.full.sound.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
+        };
+        if FULL && self.teeth.full.in_detail {
+            self.detail::<f64>(at, g, s, |slice| {
+                visit(&ToothLoad {
+                    planet,
+                    side: s,
+                    flank: slice.pair.flank,
+                    spot: slice.pair.spot,
+                    teeth: teeth(slice.pair.flank, slice.pair.number),
+                    s: slice.s,
+                    cone: slice.cone,
+                    share: slice.share,
+                    depth: slice.arc * slice.cone,
+                    normal: slice.normal,
+                    friction: slice.friction,
+                    parts: slice.parts,
+                });
+            });
+            return;
+        }
+        mesh.loaded(&self.mesh_state(at, g, s), |contact, force| {
+            visit(&ToothLoad {
+                planet,
+                side: s,
+                flank: contact.flank,
+                spot: contact.spot,
+                teeth: teeth(contact.flank, contact.number),
+                s: contact.s,
+                cone: mesh.cone,
+                share: 1.0,
+                depth: contact.depth * mesh.cone,
+                normal: force.total,
+                friction: 0.0,
+                parts: parts(pair, mesh, contact),
+            });
+        });
+    }
+}

@@ -1,0 +1,50 @@
+//! How often a tooth is loaded: rolling of a gear relative to the carrier, and which of its flanks a mesh loads.
+//!
+//! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier: a planet's tooth once by
+//! the left and once by the right side gear, on opposite flanks (it is an idler); a side gear's tooth N times, on the
+//! same flank as long as the torque keeps its direction. Straight ahead nothing rolls and nothing counts.
+
+use serde::{Deserialize, Serialize};
+
+use crate::numeric::{PI, TAU};
+
+/// Rolling of a gear, with the play of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
+///
+/// The window of one pitch is pushed along by the gear's angle; only what pushes it counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rolling {
+    /// Place of the gear in its window [rad], −½ to ½ pitch.
+    pub place: f64,
+}
+
+impl Rolling {
+    /// Turns the gear relative to the carrier by `step` [rad], of either sign, with teeth `pitch` [rad] apart; returns
+    /// the revolutions that count.
+    pub fn advance(&mut self, step: f64, pitch: f64) -> f64 {
+        let wanted = self.place + step;
+        if !wanted.is_finite() || pitch.is_nan() || pitch < 0.0 {
+            return 0.0;
+        }
+        self.place = wanted.max(-pitch / 2.0).min(pitch / 2.0);
+        (wanted - self.place).abs() / TAU
+    }
+}
+
+/// Flank (0 or 1) of a gear's teeth that a mesh loads.
+///
+/// A side gear has one mesh position, `far` = false; a planet has two, the left (`far` = false) and the right one
+/// (`far` = true), which load opposite flanks as long as both drive. `driving`: the carrier drives the side gear.
+pub fn loaded_flank(far: bool, driving: bool) -> usize {
+    usize::from(far == driving)
+}
+
+/// Revolutions of a planet relative to the carrier [1] while the car rolls over `distance` [m] of a bend of radius
+/// `bend` [m], with `track` and tyre radius `tyre` [m]: (z_s/z_p)·½·(track/bend)·distance/(2π tyre).
+pub fn planet_revolutions(teeth_ratio: f64, distance: f64, bend: f64, track: f64, tyre: f64) -> f64 {
+    teeth_ratio * track * distance / (4.0 * PI * bend * tyre)
+}
+
+/// Revolutions of a side gear relative to the carrier [1] while its planets do `planet` revolutions: z_p/z_s of them.
+pub fn side_revolutions(teeth_ratio: f64, planet: f64) -> f64 {
+    planet / teeth_ratio
+}

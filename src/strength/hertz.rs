@@ -1,0 +1,133 @@
+//! Contact pressure of two cylinders (Hertz, 1881): p_H = √(w E*/(π ρ)), 1/ρ = 1/ρ_p + 1/ρ_s, E* = E/(2(1−ν²)).
+//!
+//! A spherical involute at arc ψ from its tangent point has the radius ρ = R tanψ at cone distance R; contact at s on
+//! the path has ψ_p = ψ_p0 + s and ψ_s = ψ_s0 − s. So ρ = R τ(s) with τ = sinψ_p sinψ_s / sin(ψ_p + ψ_s).
+//!
+//! The `impact` law acts at R_m, w = F/b. Under the line laws w = 2FR/(R_e² − R_i²) grows with R just as ρ does: the
+//! pressure is the same over the face, and, as R_e² − R_i² = 2 b R_m, it is the same as at R_m under `impact`. One
+//! formula serves both: p_H = √(F E* / (π b R_m τ(s))).
+
+use serde::{Deserialize, Serialize};
+
+use crate::geometry::Pair;
+use crate::numeric::{PI, sin, sqrt};
+
+/// Least curvature radius at which the formula is used, as a part of the pitch point's: nearer to a base circle the
+/// radius goes to zero and the flank is no longer a cylinder in the width of the contact.
+const LEAST_RADIUS: f64 = 1e-3;
+
+/// Line contact of a planet with a side gear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LineContact {
+    /// Modulus of the contact E* [Pa].
+    pub modulus: f64,
+    /// Mean cone distance R_m [m].
+    pub mean_cone: f64,
+    /// Inner and outer cone distance R_i, R_e [m].
+    pub ends: [f64; 2],
+    /// Arcs ψ from the tangent points of planet and side gear to the pitch point [rad].
+    pub pitch_arc: [f64; 2],
+    /// Ends of the path of contact [rad].
+    pub path: [f64; 2],
+    /// Ends of the part of the path where one pair carries alone [rad]: the inner points of single contact of planet
+    /// and side gear.
+    pub single: [f64; 2],
+}
+
+impl LineContact {
+    /// Contact of `pair`, both gears of the same modulus [Pa] and Poisson's ratio.
+    pub fn new(pair: &Pair, young_modulus: f64, poisson_ratio: f64) -> Self {
+        Self {
+            modulus: young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio)),
+            mean_cone: pair.mean_cone,
+            ends: [pair.inner_cone, pair.outer_cone],
+            pitch_arc: pair.pitch_arc,
+            path: [pair.path.low, pair.path.high],
+            single: [pair.path.high - pair.base_pitch, pair.path.low + pair.base_pitch],
+        }
+    }
+
+    /// Relative radius of curvature per unit of cone distance τ at place `s` on the path [rad].
+    ///
+    /// Corner contact beyond an end of the path counts with the flanks' radii at that end. `None` where the radius
+    /// vanishes, at a base circle.
+    pub fn relative_radius(&self, s: f64) -> Option<f64> {
+        if s.is_nan() {
+            return None;
+        }
+        let s = s.max(self.path[0]).min(self.path[1]);
+        let line = sin(self.pitch_arc[0] + self.pitch_arc[1]);
+        let at = |s: f64| sin(self.pitch_arc[0] + s) * sin(self.pitch_arc[1] - s) / line;
+        let radius = at(s);
+        // written so that NaN fails
+        (radius > LEAST_RADIUS * at(0.0)).then_some(radius)
+    }
+
+    /// Radii of curvature [m] of planet and side gear at cone distance `cone` [m] and place `s` [rad].
+    pub fn radii(&self, cone: f64, s: f64) -> [f64; 2] {
+        [self.pitch_arc[0] + s, self.pitch_arc[1] - s].map(|psi| cone * crate::numeric::tan(psi))
+    }
+
+    /// Load per width of a line law w [N/m] at cone distance `cone` [m] under the pair's normal force [N].
+    pub fn line_load(&self, force: f64, cone: f64) -> f64 {
+        2.0 * force * cone / (self.ends[1] * self.ends[1] - self.ends[0] * self.ends[0])
+    }
+
+    /// Pressure [Pa] of a load per width [N/m] at cone distance `cone` [m] and place `s` [rad].
+    ///
+    /// 0 without load; `None` where a radius vanishes or a value makes no sense.
+    pub fn pressure_at(&self, line_load: f64, cone: f64, s: f64) -> Option<f64> {
+        let radius = cone * self.relative_radius(s)?;
+        if line_load.is_nan() || line_load <= 0.0 {
+            return Some(0.0);
+        }
+        let pressure = sqrt(line_load * self.modulus / (PI * radius));
+        pressure.is_finite().then_some(pressure)
+    }
+
+    /// Pressure [Pa] of one tooth pair that carries the normal force `force` [N] at place `s` [rad], under any law.
+    pub fn pressure(&self, force: f64, s: f64) -> Option<f64> {
+        self.pressure_at(self.line_load(force, self.mean_cone), self.mean_cone, s)
+    }
+
+    /// Pressure [Pa] that a rating counts with: one pair carries the mesh's whole normal force `force` [N] at the worse
+    /// inner point of single contact (ISO 10300-2:2001, Z_M-B of teeth without overlap).
+    ///
+    /// S–N curves for pitting are meant for this pressure. That of a pair near the end of the path is higher, as the
+    /// radius vanishes toward the base circle, but it stands where sliding wears and relief unloads the flank.
+    pub fn rated_pressure(&self, force: f64) -> Option<f64> {
+        let [a, b] = self.single.map(|s| self.pressure(force, s));
+        Some(a?.max(b?))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::GearSpec;
+
+    fn contact() -> LineContact {
+        LineContact::new(&Pair::new(&GearSpec::default()), 2.07e11, 0.25)
+    }
+
+    #[test]
+    fn the_short_form_of_the_curvature_is_the_sum_of_both() {
+        let c = contact();
+        for s in [-0.15, 0.0, 0.2] {
+            let [p, g] = c.radii(30e-3, s);
+            let tau = c.relative_radius(s).unwrap();
+            assert!((30e-3 * tau * (1.0 / p + 1.0 / g) - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_line_law_presses_evenly_over_the_face_and_as_impact_does() {
+        let c = contact();
+        for cone in [c.ends[0], 30e-3, c.ends[1]] {
+            let p = c.pressure_at(c.line_load(5e3, cone), cone, 0.1).unwrap();
+            let b = c.ends[1] - c.ends[0];
+            let impact = c.pressure_at(5e3 / b, c.mean_cone, 0.1).unwrap();
+            assert!((p / impact - 1.0).abs() < 1e-14);
+        }
+    }
+}

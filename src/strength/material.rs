@@ -1,0 +1,120 @@
+//! S–N curves of carburised steel, as ISO 6336-5 and ISO 6336-2/-3 draw them for quality MQ.
+//!
+//! N_f = N_ref (S/σ)^k. The knee is at N_ref and the strength S; the slope k follows from the life factor at the
+//! low-cycle end, k = ln(N_ref/N_static)/ln Y_NT.
+
+use serde::{Deserialize, Serialize};
+
+use crate::numeric::pow;
+
+/// Strength as a function of cycles.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SnCurve {
+    /// Strength at the knee S [Pa].
+    pub strength: f64,
+    /// Slope k of the finite life.
+    pub slope: f64,
+    /// Cycles at the knee N_ref.
+    pub reference_cycles: f64,
+    /// Cycles below which the standard holds the strength constant.
+    pub static_cycles: f64,
+    /// Slope below the knee: the same is Miner's rule in its elementary form, `None` an endurance limit.
+    pub endurance_slope: Option<f64>,
+}
+
+impl SnCurve {
+    /// Curve through `strength` [Pa] at `reference_cycles` and `life_factor` times it at `static_cycles`; below the knee
+    /// it goes on with the same slope, which errs on the safe side.
+    pub fn through(strength: f64, reference_cycles: f64, life_factor: f64, static_cycles: f64) -> Self {
+        let slope = libm::log(reference_cycles / static_cycles) / libm::log(life_factor);
+        Self { strength, slope, reference_cycles, static_cycles, endurance_slope: Some(slope) }
+    }
+
+    /// The same with the strength multiplied by `factor` (idler factor, safety, reliability).
+    pub fn weakened(self, factor: f64) -> Self {
+        Self { strength: self.strength * factor, ..self }
+    }
+
+    /// The same with Haibach's slope 2k − 1 below the knee.
+    pub fn haibach(self) -> Self {
+        Self { endurance_slope: Some(2.0 * self.slope - 1.0), ..self }
+    }
+
+    /// The same with an endurance limit: no damage below the knee.
+    pub fn endless(self) -> Self {
+        Self { endurance_slope: None, ..self }
+    }
+
+    /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
+    ///
+    /// Above the static strength the standard states no life; the slope is continued, so that sums stay smooth.
+    /// Whether the static strength is exceeded is a question of its own: [`Self::static_strength`].
+    pub fn damage_per_cycle(&self, stress: f64) -> f64 {
+        let ratio = stress / self.strength;
+        if ratio.is_nan() || ratio <= 0.0 {
+            return 0.0;
+        }
+        let slope = if ratio >= 1.0 { Some(self.slope) } else { self.endurance_slope };
+        match slope {
+            Some(k) => (pow(ratio, k) / self.reference_cycles).clamp(0.0, 1.0),
+            None => 0.0,
+        }
+    }
+
+    /// Cycles to failure N_f at `stress` [Pa]; infinite where no cycle does damage.
+    pub fn cycles_to_failure(&self, stress: f64) -> f64 {
+        let damage = self.damage_per_cycle(stress);
+        if damage > 0.0 { 1.0 / damage } else { f64::INFINITY }
+    }
+
+    /// Stress [Pa] at which `damage` is done per cycle: the inverse of [`Self::damage_per_cycle`].
+    pub fn stress_of_damage(&self, damage: f64) -> f64 {
+        let relative = damage * self.reference_cycles;
+        if relative.is_nan() || relative <= 0.0 {
+            return 0.0;
+        }
+        let slope = if relative >= 1.0 { Some(self.slope) } else { self.endurance_slope };
+        slope.map_or(self.strength, |k| self.strength * pow(relative, 1.0 / k))
+    }
+
+    /// Strength at the low-cycle end [Pa]: more breaks the tooth, or dents the flank, at once.
+    pub fn static_strength(&self) -> f64 {
+        self.strength * pow(self.reference_cycles / self.static_cycles, 1.0 / self.slope)
+    }
+}
+
+/// What a gear's teeth bear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    /// Root bending, pulsating load.
+    pub bending: SnCurve,
+    /// Pitting of the flanks.
+    pub pitting: SnCurve,
+    /// Idler factor Y_M: strength of roots that are bent both ways.
+    pub idler_factor: f64,
+}
+
+impl Default for Material {
+    /// Carburised steel of the kind 20CrMnTi, MQ (ISO 6336-5): σ_FE = 2 σ_Flim with σ_Flim = 500 MPa, knee at 3·10⁶,
+    /// Y_NT = 2.5 at 10³ (ISO 6336-3); σ_Hlim = 1500 MPa, knee at 5·10⁷, Z_NT = 1.6 at 10⁵ (ISO 6336-2); Y_M = 0.7.
+    fn default() -> Self {
+        Self {
+            bending: SnCurve::through(2.0 * 500e6, 3e6, 2.5, 1e3),
+            pitting: SnCurve::through(1500e6, 5e7, 1.6, 1e5),
+            idler_factor: 0.7,
+        }
+    }
+}
+
+impl Material {
+    /// Bending of a gear whose teeth are loaded on alternate flanks.
+    pub fn idler_bending(&self) -> SnCurve {
+        self.bending.weakened(self.idler_factor)
+    }
+
+    /// Sensitivity to mean stress that agrees with the idler factor: Y_M = (1 + M)/2 for purely alternating load
+    /// (ISO 6336-3, annex B, with the stress ratio −1).
+    pub fn mean_stress_sensitivity(&self) -> f64 {
+        (2.0 * self.idler_factor - 1.0).clamp(0.0, 1.0)
+    }
+}

@@ -1,0 +1,140 @@
+//! Rainflow counting of a load history as it comes, ASTM E1049-85 (2017), section 5.4.4.
+//!
+//! For teeth that stay in mesh while the gears do not roll. Peaks and valleys wait on a stack of fixed size; ranges on it
+//! decrease from the bottom to the top, so that only a decaying oscillation fills it. Then the smallest range is
+//! counted at once, as a full cycle, which is what it becomes if the load grows beyond it again and on the safe side if
+//! not; nothing is lost and nothing larger is touched.
+
+use serde::{Deserialize, Serialize};
+
+/// Room for turning points, one of it for the newest; 32 is the longest array for which serde has an implementation.
+pub const CAPACITY: usize = 32;
+
+/// A counted cycle, in the unit of the history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cycle {
+    /// Peak minus valley.
+    pub range: f64,
+    /// Middle between both.
+    pub mean: f64,
+    /// ½ or 1.
+    pub count: f64,
+}
+
+impl Cycle {
+    fn between(a: f64, b: f64, count: f64) -> Self {
+        Self { range: (a - b).abs(), mean: a / 2.0 + b / 2.0, count }
+    }
+}
+
+/// History so far: `Copy`, no allocation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Rainflow {
+    /// Peaks and valleys not yet discarded, the starting point first.
+    points: [f64; CAPACITY],
+    /// How many.
+    length: usize,
+    /// Last value in the present direction: the next turning point, if the direction changes.
+    candidate: f64,
+    /// Direction: 1 rising, −1 falling, 0 not known yet.
+    direction: i8,
+    /// Reversals up to this are no turning points.
+    gate: f64,
+}
+
+impl Rainflow {
+    /// Empty history in which reversals up to `gate` (unit of the history) are ignored; 0 counts all.
+    pub fn new(gate: f64) -> Self {
+        Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
+    }
+
+    /// Adds a value and calls `visit` with each cycle that it closes. Values that are no numbers are ignored.
+    pub fn push(&mut self, value: f64, mut visit: impl FnMut(Cycle)) {
+        if !value.is_finite() {
+            return;
+        }
+        self.tame();
+        if self.length == 0 {
+            self.points[0] = value;
+            self.length = 1;
+            self.candidate = value;
+            self.direction = 0;
+            return;
+        }
+        let onward = (value - self.candidate) * f64::from(self.direction);
+        if self.direction == 0 {
+            if (value - self.candidate).abs() > self.gate {
+                self.direction = if value > self.candidate { 1 } else { -1 };
+                self.candidate = value;
+            }
+        } else if onward >= 0.0 {
+            self.candidate = value;
+        } else if onward < -self.gate {
+            self.turn(&mut visit);
+            self.direction = -self.direction;
+            self.candidate = value;
+        }
+    }
+
+    /// Calls `visit` with what is left as half cycles, the present value taken as the last turning point; the history
+    /// itself stays as it is and may go on.
+    pub fn rest(&self, mut visit: impl FnMut(Cycle)) {
+        let mut last = *self;
+        last.tame();
+        if last.direction != 0 {
+            last.turn(&mut visit);
+        }
+        for pair in last.points[..last.length].windows(2) {
+            visit(Cycle::between(pair[0], pair[1], 0.5));
+        }
+    }
+
+    /// A state read from foreign bytes may claim any length and direction.
+    fn tame(&mut self) {
+        self.length = self.length.min(CAPACITY - 1);
+        self.direction = self.direction.signum();
+    }
+
+    /// Makes the candidate a turning point and counts the ranges that it closes.
+    fn turn(&mut self, visit: &mut impl FnMut(Cycle)) {
+        let value = self.candidate;
+        let top = self.length.saturating_sub(1);
+        let like_top = top > 0 && (self.points[top] > self.points[top - 1]) == (self.direction > 0);
+        if like_top {
+            // the point between was counted when the stack was full; of two peaks in a row the higher one stays
+            if (value - self.points[top]) * f64::from(self.direction) > 0.0 {
+                self.points[top] = value;
+            }
+        } else {
+            self.points[self.length] = value;
+            self.length += 1;
+        }
+        self.close(visit);
+        if self.length == CAPACITY {
+            // ranges decrease toward the top: the last one is the smallest
+            visit(Cycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
+            self.length -= 1;
+        }
+    }
+
+    /// Steps 2 to 5 of the standard: X is the last range, Y the one before.
+    fn close(&mut self, visit: &mut impl FnMut(Cycle)) {
+        while self.length >= 3 {
+            let [a, b, c] = [self.points[self.length - 3], self.points[self.length - 2], self.points[self.length - 1]];
+            if (c - b).abs() < (b - a).abs() {
+                break;
+            }
+            if self.length == 3 {
+                // Y holds the starting point: half a cycle, the start moves on
+                visit(Cycle::between(a, b, 0.5));
+                self.points[0] = b;
+                self.points[1] = c;
+                self.length = 2;
+            } else {
+                visit(Cycle::between(a, b, 1.0));
+                self.points[self.length - 3] = c;
+                self.length -= 2;
+            }
+        }
+    }
+}

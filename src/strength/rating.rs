@@ -1,0 +1,43 @@
+//! All that is constant about the strength of a pair: what a simulation looks up at an accepted step.
+
+use serde::{Deserialize, Serialize};
+
+use super::hertz::LineContact;
+use super::material::{Material, SnCurve};
+use super::root_stress::{LoadFactors, RootStress};
+use crate::geometry::Pair;
+
+/// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rating {
+    /// Contact of the flanks.
+    pub contact: LineContact,
+    /// Roots.
+    pub root: [RootStress; 2],
+    /// S–N curves of the roots: the planet's an idler's.
+    pub bending: [SnCurve; 2],
+    /// S–N curve of the flanks.
+    pub pitting: SnCurve,
+    /// Angles between teeth [rad].
+    pub pitch: [f64; 2],
+}
+
+impl Rating {
+    /// Rating of `pair` with elastic constants E [Pa] and ν, material, and a tool of tip radius `tool_radius` modules.
+    /// `None` if a tooth has no sound root section.
+    pub fn new(
+        pair: &Pair,
+        (young_modulus, poisson_ratio): (f64, f64),
+        material: &Material,
+        tool_radius: f64,
+        factors: &LoadFactors,
+    ) -> Option<Self> {
+        Some(Self {
+            contact: LineContact::new(pair, young_modulus, poisson_ratio),
+            root: [RootStress::new(pair, 0, tool_radius, factors)?, RootStress::new(pair, 1, tool_radius, factors)?],
+            bending: [material.idler_bending(), material.bending],
+            pitting: material.pitting,
+            pitch: pair.gears.map(|g| g.tooth_pitch()),
+        })
+    }
+}
