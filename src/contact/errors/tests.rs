@@ -1,4 +1,6 @@
 use super::*;
+use super::pitch::Tolerances;
+use crate::geometry::Pair;
 use crate::geometry::GearSpec;
 use crate::numeric::Dual;
 
