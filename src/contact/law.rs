@@ -24,6 +24,8 @@ pub struct Response {
 
 /// Law of a tooth pair at penetration `d` > 0 [m], rate ḋ [m/s] and place `s` [rad].
 pub trait PairLaw {
+    /// Whether the response depends on the place.
+    const PLACED: bool;
     /// Force and its derivatives.
     fn respond(&self, d: f64, rate: f64, s: f64) -> Response;
     /// U(d, s) [J].
@@ -31,6 +33,7 @@ pub trait PairLaw {
 }
 
 impl PairLaw for Impact {
+    const PLACED: bool = false;
     #[inline(always)]
     fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
         Response { force: self.force(d, rate), ..Response::default() }
@@ -51,6 +54,7 @@ pub struct Power {
 }
 
 impl PairLaw for Power {
+    const PLACED: bool = false;
     #[inline(always)]
     fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
         let elastic = self.elastic.force(d, 0.0);
@@ -73,6 +77,7 @@ pub struct Lumped {
 }
 
 impl PairLaw for Lumped {
+    const PLACED: bool = false;
     #[inline(always)]
     fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
         Response { force: self.damping.apply(self.stiffness * d, self.stiffness, d, rate), ..Response::default() }
@@ -97,6 +102,7 @@ pub struct Face<S> {
 }
 
 impl<S: Spring> PairLaw for Face<S> {
+    const PLACED: bool = true;
     #[inline(always)]
     fn respond(&self, d: f64, rate: f64, s: f64) -> Response {
         let e = self.specific.at(d * self.per_cone, s);

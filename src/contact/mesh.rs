@@ -94,6 +94,11 @@ impl Law {
     }
 }
 
+/// Whether a law depends on the place of a pair.
+const fn is_placed<L: PairLaw>(_: &L) -> bool {
+    L::PLACED
+}
+
 /// A planet meshing with a side gear.
 #[derive(Clone, Debug)]
 pub struct Mesh {
@@ -154,10 +159,13 @@ impl Mesh {
 
     /// Adds the force of a pair.
     #[inline(always)]
-    fn add(&self, sum: &mut MeshForce, pair: &ToothPair, rate: f64, response: &Response) {
+    fn add<L: PairLaw>(&self, _: &L, sum: &mut MeshForce, pair: &ToothPair, rate: f64, response: &Response) {
         let torque = self.cone * response.force.total;
         sum.force[0] -= torque * pair.slope[0];
-        sum.force[1] -= torque * pair.slope[1] + response.by_place * pair.s_slope;
+        sum.force[1] -= torque * pair.slope[1];
+        if L::PLACED {
+            sum.force[1] -= response.by_place * pair.s_slope;
+        }
         sum.heat += (response.force.total - response.force.elastic) * rate;
     }
 
@@ -168,7 +176,7 @@ impl Mesh {
             let mut sum = MeshForce::default();
             self.visit::<SINGLE>(state.position, |pair| {
                 let (rate, response) = self.respond(law, pair, state);
-                self.add(&mut sum, pair, rate, &response);
+                self.add(law, &mut sum, pair, rate, &response);
             });
             sum
         })
@@ -181,7 +189,7 @@ impl Mesh {
             let r = self.cone;
             self.visit::<SINGLE>(state.position, |pair| {
                 let (rate, response) = self.respond(law, pair, state);
-                self.add(&mut sum, pair, rate, &response);
+                self.add(law, &mut sum, pair, rate, &response);
                 let f = &response.force;
                 let [qq, xx] = pair.curvature;
                 let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];
@@ -193,13 +201,15 @@ impl Mesh {
                         jacobian.by_rate[a][b] -= r * r * f.by_rate * pair.slope[a] * pair.slope[b];
                     }
                 }
-                // the place moves with x alone
-                let m = &mut jacobian.by_position;
-                m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];
-                m[1][0] -= r * response.elastic_by_place * pair.s_slope * pair.slope[0];
-                m[1][1] -= pair.s_slope
-                    * (r * (response.total_by_place + response.elastic_by_place) * pair.slope[1]
-                        + response.by_place_twice * pair.s_slope);
+                if is_placed(law) {
+                    // the place moves with x alone
+                    let m = &mut jacobian.by_position;
+                    m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];
+                    m[1][0] -= r * response.elastic_by_place * pair.s_slope * pair.slope[0];
+                    m[1][1] -= pair.s_slope
+                        * (r * (response.total_by_place + response.elastic_by_place) * pair.slope[1]
+                            + response.by_place_twice * pair.s_slope);
+                }
             });
             (sum, jacobian)
         })

@@ -177,54 +177,43 @@ impl Engagement {
         let mut number = first as i64;
         let mut s = start + first * self.base_pitch;
         for _ in 0..window.candidates {
-            let past_planet_tip = s - self.high;
-            let past_side_tip = self.low - s + approach;
-            if past_planet_tip > 0.0 {
-                if past_planet_tip * past_planet_tip < approach * self.corner[0].spread && self.corner_contact {
-                    let g = self.corner[0].at(past_planet_tip);
-                    visit(&ToothPair {
-                        flank,
-                        spot: Spot::PlanetTip,
-                        number,
-                        place: past_planet_tip,
-                        s,
-                        s_slope: -sign,
-                        depth: approach - g.v,
-                        slope: [sign, sign * g.d],
-                        curvature: [0.0, -g.dd],
-                    });
-                }
-            } else if past_side_tip > 0.0 && self.corner_contact {
-                if past_side_tip * past_side_tip < approach * self.corner[1].spread {
-                    // Δ moves with q by `sign` and with x by `sign` too
-                    let g = self.corner[1].at(past_side_tip);
-                    visit(&ToothPair {
-                        flank,
-                        spot: Spot::SideTip,
-                        number,
-                        place: past_side_tip,
-                        s,
-                        s_slope: -sign,
-                        depth: approach - g.v,
-                        slope: [sign * (1.0 - g.d), -sign * g.d],
-                        curvature: [-g.dd, -g.dd],
-                    });
-                }
-            } else if s >= self.low {
-                visit(&ToothPair {
-                    flank,
-                    spot: Spot::Path,
-                    number,
-                    place: s,
-                    s,
-                    s_slope: -sign,
-                    depth: approach,
-                    slope: [sign, 0.0],
-                    curvature: [0.0, 0.0],
-                });
-            }
+            let place = s;
             s += self.base_pitch;
             number += 1;
+            let past_planet_tip = place - self.high;
+            let past_side_tip = self.low - place + approach;
+            // penetration, its derivatives, and what kind of contact it is
+            let (spot, delta, depth, slope, curvature) = if past_planet_tip > 0.0 {
+                if past_planet_tip * past_planet_tip >= approach * self.corner[0].spread || !self.corner_contact {
+                    continue;
+                }
+                let g = self.corner[0].at(past_planet_tip);
+                (Spot::PlanetTip, past_planet_tip, approach - g.v, [sign, sign * g.d], [0.0, -g.dd])
+            } else if past_side_tip > 0.0 && self.corner_contact {
+                if past_side_tip * past_side_tip >= approach * self.corner[1].spread {
+                    continue;
+                }
+                // Δ moves with q by `sign` and with x by `sign` too
+                let g = self.corner[1].at(past_side_tip);
+                let slope = [sign * (1.0 - g.d), -sign * g.d];
+                (Spot::SideTip, past_side_tip, approach - g.v, slope, [-g.dd, -g.dd])
+            } else if place >= self.low {
+                (Spot::Path, place, approach, [sign, 0.0], [0.0; 2])
+            } else {
+                continue;
+            };
+            // one place to be visited from, so that the visitor is compiled into the loop
+            visit(&ToothPair {
+                flank,
+                spot,
+                number: number - 1,
+                place: delta,
+                s: place,
+                s_slope: -sign,
+                depth,
+                slope,
+                curvature,
+            });
         }
     }
 }

@@ -73,7 +73,8 @@ pub trait SecondOrder<const N: usize> {
 pub fn sum<const N: usize, S: SecondOrder<N> + ?Sized>(from: usize, to: usize, term: impl Fn(usize) -> f64) -> f64 {
     let (first, count) = S::ALIKE;
     let end = first + count;
-    let mut others = 0.0;
+    // adding to −0 changes nothing, and the compiler knows
+    let mut others = -0.0;
     for i in from..to {
         if i < first || i >= end {
             others += term(i);
@@ -82,7 +83,7 @@ pub fn sum<const N: usize, S: SecondOrder<N> + ?Sized>(from: usize, to: usize, t
     if to <= first || from >= end {
         return others;
     }
-    others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { 0.0 })
+    others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { -0.0 })
 }
 
 /// Sum of `count` terms, 0, 1, 2, 4 or 8, in pairs.

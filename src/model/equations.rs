@@ -101,9 +101,10 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
 
     /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
     #[inline(always)]
-    pub(super) fn add_forces(&self, force: &[[[f64; 2]; 2]; G], sum: &mut [f64; N]) {
+    pub(super) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
         let [planet, side] = self.teeth.lever;
-        let on_side = [0, 1].map(|s| in_pairs(G, |g| self.members(g) * side * force[g][s][0]));
+        let on = |s: usize| in_pairs(G, |g| self.members(g) * side * force(g, s)[0]);
+        let on_side = [on(0), on(1)];
         for s in 0..2 {
             sum[s] += on_side[s];
         }
@@ -111,7 +112,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
             sum[CARRIER] -= on_side[0] + on_side[1];
         }
         for g in 0..G {
-            let [left, right] = &force[g];
+            let (left, right) = (force(g, 0), force(g, 1));
             sum[Self::PLANET + g] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
             if P > 0 {
                 sum[Self::PIN + g] -= side * left[0] + side * right[0];
@@ -231,7 +232,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
                 load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
             }
         }
-        self.add_forces(&load.map(|both| both.map(|l| l.force)), &mut sum);
+        self.add_forces(|g, s| load[g][s].force, &mut sum);
         (sum, in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
     }
 
@@ -295,7 +296,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
                 rate[g][s] = self.block(s, &jacobian.by_rate);
             }
         }
-        self.add_forces(&load.map(|both| both.map(|l| l.force)), &mut acceleration);
+        self.add_forces(|g, s| load[g][s].force, &mut acceleration);
         self.add_blocks(&position, &mut by_position);
         self.add_blocks(&rate, &mut by_velocity);
         power.heat[0] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));

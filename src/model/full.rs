@@ -227,7 +227,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                             rate[g][s] = self.block(s, &by.by_rate);
                         }
                     }
-                    self.add_forces(&load.map(|both| both.map(|l| l.force)), sum);
+                    self.add_forces(|g, s| load[g][s].force, sum);
                     self.add_blocks(&position, &mut j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
                     power.heat[Cause::Contact as usize] =
@@ -282,10 +282,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         slopes: Option<&mut Jacobian<N>>,
     ) {
         let loads = self.all_loads::<T>(at);
-        self.add_forces(
-            &std::array::from_fn(|g| [0, 1].map(|s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()])),
-            sum,
-        );
+        self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
         if P > 0 {
             for s in 0..2 {
                 sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].value());
@@ -416,10 +413,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let mut power = Power::default();
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<LOCAL>>(&still);
-        self.add_forces(
-            &std::array::from_fn(|g| [0, 1].map(|s| [loads[g][s].force[0].v, loads[g][s].force[1].v])),
-            &mut sum,
-        );
+        self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
         if P > 0 {
             for s in 0..2 {
                 sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].v);

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod combinations;
+mod commands;
 mod constants;
 mod dry;
 mod effects;

@@ -13,8 +13,8 @@ use super::parameters::{Inputs, Parameters, Start};
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
 use super::rigid::RigidEquations;
 use super::run::{self, BUDGET};
-use super::state::{CARRIER, State};
-use super::{resultants, start};
+use super::state::{CARRIER, PLANET, State};
+use super::{commands, resultants, start};
 use crate::geometry::Pair;
 use crate::numeric::TAU;
 use crate::problem::Problem;
@@ -66,8 +66,6 @@ macro_rules! by_rigid_size {
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
 const FIRST_STEP: f64 = 1e-6;
-/// Longest stretch integrated before positions are wrapped [s].
-const STRETCH: f64 = 1.0;
 
 /// Why a step could not be completed; the simulation stands at the last good time.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +74,12 @@ pub struct StepFailure {
     pub time: f64,
     /// What happened, where, and what may help.
     pub message: String,
+}
+
+impl StepFailure {
+    fn not_finite(time: f64) -> Self {
+        Self { time, message: "the step gave values that are not finite; look at the inputs".into() }
+    }
 }
 
 impl fmt::Display for StepFailure {
@@ -106,8 +110,8 @@ impl Simulation {
                     .map_err(|problem| vec![problem])?;
             }
         }
-        simulation.apply_commands();
-        simulation.catch_holds();
+        commands::apply(&simulation.model, inputs, &mut simulation.state);
+        catch_holds(&simulation.model, inputs, &mut simulation.state);
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; CAUSES];
         simulation.state.energy_at_start = simulation.energy();
@@ -137,152 +141,32 @@ impl Simulation {
     /// Integrates to `until` [s] with constant inputs. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
-        self.apply_commands();
-        self.catch_holds();
-        let model = Arc::clone(&self.model);
-        let dof = model.ideal.plan.layout().count();
+        let Self { model, state, inputs, .. } = self;
+        let model = &**model;
+        commands::apply(model, inputs, state);
+        catch_holds(model, inputs, state);
         if let Gears::Rigid(rigid) = &model.gears {
-            if !rigid.acts(&self.state) {
-                let h = until - self.state.time;
-                model.ideal.advance(&mut self.state, &self.inputs, h);
-                self.state.time = until;
-                self.state.statistics.accepted += 1;
-                self.state.control.last = h;
-                self.state.wrap(&model.periods, dof);
+            if !rigid.acts(state) {
+                let h = until - state.time;
+                let (q, v, work) = (state.q, state.v, state.work);
+                model.ideal.advance(state, inputs, h);
+                if !state.moves() {
+                    (state.q, state.v, state.work) = (q, v, work);
+                    return Err(StepFailure::not_finite(state.time));
+                }
+                state.time = until;
+                state.statistics.accepted += 1;
+                state.control.last = h;
+                state.wrap(&model.periods, PLANET + 1);
                 return Ok(());
             }
         }
-        let (mut outcome, mut budget) = (Ok(()), BUDGET);
-        while outcome.is_ok() && self.state.time < until {
-            let stretch = self.end_of_stretch(until);
-            let (inputs, state) = (&self.inputs, &mut self.state);
-            let whole = match &model.gears {
-                Gears::Rigid(rigid) => by_rigid_size!(
-                    model,
-                    run::rigid_stretch(E::new(rigid, inputs, state), &model, state, stretch, &mut budget)
-                ),
-                Gears::Teeth(teeth) => {
-                    let full = teeth.full.acts(state);
-                    by_size!(
-                        teeth,
-                        full,
-                        run::teeth_stretch(E::new(teeth, inputs, state), &model, state, stretch, &mut budget)
-                    )
-                }
-            };
-            state.wrap(&model.periods, dof);
-            if let Gears::Rigid(rigid) = &model.gears {
-                rigid.constrain(state);
-            }
-            outcome = whole;
-            // the rounding of the time axis may leave a rest too small to integrate
-            if outcome.is_ok() {
-                state.time = stretch;
-            }
-            self.break_tooth();
-        }
-        outcome
+        integrate(model, inputs, state, until)
     }
 
-    /// Where to stop for wrapping positions, or for a tooth that breaks by itself.
-    fn end_of_stretch(&self, until: f64) -> f64 {
-        let time = self.state.time;
-        let mut end = if until - time > 1.5 * STRETCH { time + STRETCH } else { until };
-        let p = &self.model.parameters;
-        let onset = p.tooth_fault.onset;
-        if p.effects.tooth_fault && !self.state.fault && onset > time && onset < end {
-            end = onset;
-        }
-        end
-    }
-
-    /// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.
-    fn break_tooth(&mut self) {
-        let p = &self.model.parameters;
-        let onset = p.tooth_fault.onset;
-        let due = self.inputs.fault > 0.5 || onset > 0.0 && self.state.time >= onset;
-        if p.effects.tooth_fault && !self.state.fault && due {
-            let before = self.energy();
-            self.state.fault = true;
-            self.state.heat[Cause::Contact as usize] += before - self.energy();
-        }
-    }
-
-    /// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
-    fn apply_commands(&mut self) {
-        self.break_tooth();
-        self.state.carrier_command = self.inputs.carrier_speed;
-        let (ideal, state, inputs) = (&self.model.ideal, &mut self.state, &self.inputs);
-        let plan = &ideal.plan;
-        let mut ends = 0.0;
-        for s in (0..2).filter(|&s| plan.side_imposed[s]) {
-            // an imposed end has no inertia of its own
-            let end = plan.layout().end(s);
-            let inertia = ideal.inertia.end[s];
-            let (old, new) = (state.v[end], inputs.side_speed[s]);
-            ends += 0.5 * inertia * (new * new - old * old);
-            state.v[end] = new;
-        }
-        state.work += ends;
-        match &self.model.gears {
-            Gears::Rigid(rigid) => {
-                let carrier_speed = rigid.carrier_speed(state, inputs.carrier_speed);
-                let commanded = Inputs { carrier_speed, ..*inputs };
-                state.work += ideal.jump(state, &commanded);
-            }
-            Gears::Teeth(teeth) => {
-                let layout = &teeth.layout;
-                let mut work = 0.0;
-                let mut jump = |v: &mut f64, command: f64, inertia: f64| {
-                    if *v != command {
-                        work += 0.5 * inertia * (command * command - *v * *v);
-                        *v = command;
-                    }
-                };
-                if plan.carrier_imposed {
-                    let command = teeth.full.carrier_speed(state, inputs.carrier_speed);
-                    jump(&mut state.v[CARRIER], command, teeth.inertia[CARRIER]);
-                }
-                for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
-                    let i = layout.planet(g);
-                    jump(&mut state.v[i], inputs.planet_spin, layout.members[g] * teeth.inertia[i]);
-                }
-                state.work += work;
-            }
-        }
-    }
-
-    /// Catches bodies that dry friction takes hold of, and lets go of those it releases.
-    fn catch_holds(&mut self) {
-        self.state.lock = self.inputs.lock;
-        let (model, inputs, state) = (&self.model, &self.inputs, &mut self.state);
-        match &model.gears {
-            Gears::Rigid(rigid) => by_rigid_size!(model, {
-                let mut equations = E::new(rigid, inputs, state);
-                equations.take_over(&state.point(), &mut state.heat);
-                state.holds = equations.holds;
-            }),
-            Gears::Teeth(teeth) => {
-                let full = teeth.full.acts(state);
-                by_size!(teeth, full, {
-                    let mut equations = E::new(teeth, inputs, state);
-                    equations.take_over(&state.point(), &mut state.heat);
-                    state.holds = equations.holds;
-                });
-            }
-        }
-    }
-
-    /// Kinetic and elastic energy [J].
+    /// Kinetic and stored energy [J].
     fn energy(&self) -> f64 {
-        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        match &model.gears {
-            Gears::Rigid(rigid) => by_rigid_size!(model, E::new(rigid, inputs, state).energy(&state.point())),
-            Gears::Teeth(teeth) => {
-                let full = teeth.full.acts(state);
-                by_size!(teeth, full, E::new(teeth, inputs, state).energy(&state.point()))
-            }
-        }
+        energy(&self.model, &self.inputs, &self.state)
     }
 
     /// Time [s].
@@ -407,5 +291,83 @@ impl Simulation {
     /// One line that tells what is simulated.
     pub fn describe(&self) -> String {
         self.model.ideal.plan.describe()
+    }
+}
+
+/// Integrates to `until` [s]; apart from the closed form, whose few instructions its frame would outweigh.
+#[inline(never)]
+fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
+    let dof = model.ideal.plan.layout().count();
+    let before = *state;
+    let mut budget = BUDGET;
+    while state.time < until {
+        let stretch = commands::end_of_stretch(model, state, until);
+        let outcome = match &model.gears {
+            Gears::Rigid(rigid) => by_rigid_size!(
+                model,
+                run::rigid_stretch(E::new(rigid, inputs, state), model, state, stretch, &mut budget)
+            ),
+            Gears::Teeth(teeth) => {
+                let full = teeth.full.acts(state);
+                by_size!(
+                    teeth,
+                    full,
+                    run::teeth_stretch(E::new(teeth, inputs, state), model, state, stretch, &mut budget)
+                )
+            }
+        };
+        state.wrap(&model.periods, dof);
+        if let Gears::Rigid(rigid) = &model.gears {
+            rigid.constrain(state);
+        }
+        outcome?;
+        // the rounding of the time axis may leave a rest too small to integrate
+        state.time = stretch;
+        break_tooth(model, inputs, state);
+    }
+    if !state.is_valid() {
+        *state = before;
+        return Err(StepFailure::not_finite(state.time));
+    }
+    Ok(())
+}
+
+/// Kinetic and stored energy [J].
+fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
+    match &model.gears {
+        Gears::Rigid(rigid) => by_rigid_size!(model, E::new(rigid, inputs, state).energy(&state.point())),
+        Gears::Teeth(teeth) => {
+            let full = teeth.full.acts(state);
+            by_size!(teeth, full, E::new(teeth, inputs, state).energy(&state.point()))
+        }
+    }
+}
+
+/// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.
+fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
+    if commands::breaks_tooth(model, inputs, state) {
+        let before = energy(model, inputs, state);
+        state.fault = true;
+        state.heat[Cause::Contact as usize] += before - energy(model, inputs, state);
+    }
+}
+
+/// Lets the lock follow its command, catches bodies that dry friction takes hold of, and lets go of those it releases.
+fn catch_holds(model: &Model, inputs: &Inputs, state: &mut State) {
+    break_tooth(model, inputs, state);
+    let was_locked = state.lock > 0.0;
+    state.lock = inputs.lock;
+    match &model.gears {
+        Gears::Rigid(rigid) if rigid.acts(state) || was_locked => by_rigid_size!(model, {
+            let mut equations = E::new(rigid, inputs, state);
+            equations.take_over(&state.point(), &mut state.heat);
+            state.holds = equations.holds;
+        }),
+        Gears::Teeth(teeth) if teeth.full.acts(state) => by_size!(teeth, true, {
+            let mut equations = E::new(teeth, inputs, state);
+            equations.take_over(&state.point(), &mut state.heat);
+            state.holds = equations.holds;
+        }),
+        _ => {}
     }
 }

@@ -117,6 +117,10 @@ impl State {
     /// Moves whole periods of each position into its counter.
     pub fn wrap(&mut self, periods: &[f64; MAX_DOF], dof: usize) {
         for (i, period) in periods.iter().enumerate().take(dof) {
+            // rarely anything to do
+            if self.q[i].abs() < *period {
+                continue;
+            }
             let turns = libm::rint(self.q[i] / period);
             if turns != 0.0 {
                 self.q[i] -= turns * period;
@@ -129,6 +133,13 @@ impl State {
     pub fn position(&self, i: usize, periods: &[f64; MAX_DOF]) -> f64 {
         let turns = self.turns[i];
         if turns == 0 { self.q[i] } else { self.q[i] + turns as f64 * periods[i] }
+    }
+
+    /// Whether positions, speeds and work are finite numbers.
+    pub fn moves(&self) -> bool {
+        // a sum is not finite if a term is not
+        let sum = |x: &[f64]| x.iter().sum::<f64>();
+        (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.work).is_finite()
     }
 
     /// Whether all numbers are what a simulation can go on with.
