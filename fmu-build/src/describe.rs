@@ -183,8 +183,10 @@ fn structure(table: &Table) -> Element {
         .child(Element::new("InitialUnknowns").children(initial))
 }
 
-/// Endings of names of forces' companions that follow from positions and speeds alone.
-const BY_MOTION: [&str; 2] = ["transmission_error", "power.loss"];
+/// Parts of names of forces' companions that follow from positions and speeds alone.
+const BY_MOTION: [&str; 3] = ["transmission_error", "power.loss", "stress."];
+/// Ending of names of what depends on the load of its own side alone.
+const BY_OWN_LOAD: &str = ".twist";
 
 /// Inputs that output `index` depends on without a step in between, over all scenes; tests/python checks it.
 ///
@@ -193,10 +195,14 @@ const BY_MOTION: [&str; 2] = ["transmission_error", "power.loss"];
 pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];
     let of_forces = matches!(row.access, Access::Output(OutputSource::Forces(_)));
-    if !of_forces || BY_MOTION.iter().any(|ending| row.name.ends_with(ending)) {
+    if !of_forces || BY_MOTION.iter().any(|part| row.name.contains(part)) {
         return Vec::new();
     }
-    let is_torque = |i: &usize| table.rows[*i].unit == Some(units::NEWTON_METRE);
+    let own_side = row.name.strip_suffix(BY_OWN_LOAD);
+    let is_torque = |i: &usize| {
+        let input = &table.rows[*i];
+        input.unit == Some(units::NEWTON_METRE) && own_side.is_none_or(|side| input.name.starts_with(side))
+    };
     table.inputs.iter().copied().filter(is_torque).collect()
 }
 

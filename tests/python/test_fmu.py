@@ -183,17 +183,22 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(op
     declared = {(unknown.variable.name, known.name)
                 for unknown in description.outputs for known in unknown.dependencies}
     observed = set()
-    for contact in ["tooth", "ideal"]:
+    ends = {"inertia.left_end": 1.0, "inertia.right_end": 2.0}
+    scenes = [ends, {"effects.half_shaft": True}, {**ends, "effects.half_shaft": True, "effects.strength": True},
+              {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}]
+    for contact, scene in [(contact, scene) for contact in ("tooth", "lumped", "ideal") for scene in scenes]:
+        if contact == "ideal":
+            scene = {**scene, "effects.strength": False}
         for carrier in ["speed", "torque"]:
             for spin in ["free", "imposed"]:
                 with open_fmu() as opened:
+                    for name, value in scene.items():
+                        opened.set(name, value)
                     opened.set("geometry.planet_count", 4)
                     opened.set("scene.gear_contact", contact)
                     opened.set("scene.carrier_drive", carrier)
                     opened.set("scene.planet_spin", spin)
                     opened.set("planet.spin_command", 1.0)
-                    opened.set("inertia.left_end", 1.0)
-                    opened.set("inertia.right_end", 2.0)
                     opened.initialise()
                     opened.fmu.doStep(0.0, 1e-3)
                     for name in inputs:
