@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod describe;
 pub mod documentation;
 pub mod evaluation;
+pub mod off;
 pub mod package;
 pub mod places;
 pub mod progress;

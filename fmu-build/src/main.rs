@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
-use fmu_build::{describe, package, places, study};
+use fmu_build::{describe, off, package, places, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -17,6 +17,8 @@ usage: cargo run --release [-- COMMAND]
   package                build target/fmu/BevelDifferential.fmu
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
+  off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
+                         valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
   help                   show this";
 
 enum Job {
@@ -24,6 +26,7 @@ enum Job {
     Package,
     Describe { check: bool },
     TestPython(Vec<OsString>),
+    Off { quick: bool, write: bool },
     Help,
 }
 
@@ -53,6 +56,8 @@ fn parse() -> Result<Job> {
             (Value(name), None) => job = Some(command(&name.string()?, &mut arguments)?),
             (Long("readme"), None) => job = Some(Job::Study { readme: true }),
             (Long("readme"), Some(Job::Study { readme })) => *readme = true,
+            (Long("quick"), Some(Job::Off { quick, .. })) => *quick = true,
+            (Long("write"), Some(Job::Off { write, .. })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (argument, _) => return Err(argument.unexpected().into()),
         }
@@ -66,6 +71,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "package" => Job::Package,
         "describe" => Job::Describe { check: false },
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
+        "off" => Job::Off { quick: false, write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
     })
@@ -74,6 +80,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
 fn run(job: Job) -> Result<()> {
     match job {
         Job::Help => println!("{USAGE}"),
+        Job::Off { quick, write } => off::run(quick, write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package => {
             let progress = Progress::start("packaging the FMU");

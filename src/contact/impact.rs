@@ -33,7 +33,7 @@ pub struct Impact {
 
 impl Impact {
     /// d^(e−1) for d > 0: multiplications and roots where the exponent is a multiple of ½, which most laws have.
-    #[inline]
+    #[inline(always)]
     fn power(&self, d: f64) -> f64 {
         match self.exponent {
             1.0 => 1.0,
@@ -46,7 +46,7 @@ impl Impact {
     }
 
     /// Force at penetration `d` > 0 [m] and rate `rate` [m/s].
-    #[inline]
+    #[inline(always)]
     pub fn force(&self, d: f64, rate: f64) -> Force {
         let power = self.stiffness * self.power(d);
         let elastic = power * d;
@@ -66,7 +66,7 @@ impl Impact {
     }
 
     /// Elastic energy U [J] at penetration `d` > 0 [m].
-    #[inline]
+    #[inline(always)]
     pub fn energy(&self, d: f64) -> f64 {
         self.stiffness * self.power(d) * d * d / (self.exponent + 1.0)
     }

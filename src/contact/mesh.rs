@@ -117,16 +117,19 @@ impl Mesh {
     }
 
     /// Half the normal backlash [rad].
+    #[inline(always)]
     pub fn half_backlash(&self) -> f64 {
         self.engagement.half_backlash()
     }
 
     /// Approach of the drive flanks a_d at relative position `q` [rad].
+    #[inline(always)]
     pub fn drive_approach(&self, q: f64) -> f64 {
         self.engagement.drive_approach(q)
     }
 
     /// Approach of the flank pair that carries, negative inside the lash [rad].
+    #[inline(always)]
     pub fn approach(&self, q: f64) -> f64 {
         self.engagement.approach(q)
     }

@@ -104,7 +104,7 @@ const WORKING_APPROACH: f64 = 5e-3;
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest whole number not below `x`, for |x| far below 2⁶³.
-#[inline]
+#[inline(always)]
 fn ceil(x: f64) -> f64 {
     let whole = x as i64 as f64;
     if whole < x { whole + 1.0 } else { whole }
@@ -135,16 +135,19 @@ impl Engagement {
     }
 
     /// Half the normal backlash [rad].
+    #[inline(always)]
     pub fn half_backlash(&self) -> f64 {
         self.half_backlash
     }
 
     /// Approach of the drive flanks a_d at relative position `q` [rad].
+    #[inline(always)]
     pub fn drive_approach(&self, q: f64) -> f64 {
         -q - self.half_backlash
     }
 
     /// Approach of the flank pair that carries, negative inside the lash [rad].
+    #[inline(always)]
     pub fn approach(&self, q: f64) -> f64 {
         q.abs() - self.half_backlash
     }

@@ -140,7 +140,7 @@ impl CornerGap {
     }
 
     /// Gap g [rad], g′ and g″ at Δ = `delta` ≥ 0 [rad] from the table.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, delta: f64) -> Jet {
         let count = delta.to_bits() >> SHIFT;
         let j = ((count + 1).saturating_sub(self.first) as usize).min(CELLS - 1);

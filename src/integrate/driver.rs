@@ -183,6 +183,7 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
 
 /// The step to take when `wanted` is predicted and `remaining` is left, and whether it was fitted to the end: the last
 /// few steps are made equal, and slightly longer than predicted where that saves one.
+#[inline(always)]
 fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     let steps = remaining / (LONGEST_FIT * wanted);
     if steps <= 1.0 {
@@ -194,6 +195,7 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
+#[inline(never)]
 fn linearise<const N: usize, S: SecondOrder<N>>(
     system: &S,
     point: &Point<N>,
@@ -206,6 +208,7 @@ fn linearise<const N: usize, S: SecondOrder<N>>(
 
 impl Control {
     /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
+    #[inline(never)]
     fn accept(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
         let mut factor = fifth_root(error) / SAFETY;
         if self.last > 0.0 {
@@ -223,6 +226,7 @@ impl Control {
 }
 
 /// x^(1/(p+1)) for the order p = 4 of the error estimate, to a per mille: all that a step size needs.
+#[inline(never)]
 fn fifth_root(x: f64) -> f64 {
     // a fifth of the exponent is near; Newton's method on y⁵ = x does the rest
     const BIAS: u64 = 1023 << 52;
@@ -236,7 +240,7 @@ fn fifth_root(x: f64) -> f64 {
 }
 
 /// Largest component of the error over what is allowed; NaN if anything is not finite.
-#[inline]
+#[inline(always)]
 fn error_norm<const N: usize, S: SecondOrder<N>>(
     system: &S,
     start: &Point<N>,

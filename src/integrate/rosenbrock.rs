@@ -43,7 +43,7 @@ pub struct Trial<const N: usize> {
 }
 
 /// One step of size `h` from `start`, where `lin` was taken. `None` if the matrix is singular.
-#[inline]
+#[inline(always)]
 pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     tableau: &Tableau<S>,
     system: &E,
@@ -104,7 +104,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
 }
 
 /// y += scale Σ weight_j U_j over the first stages.
-#[inline]
+#[inline(always)]
 fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
     for (weight, u) in weights.iter().zip(u) {
         let weight = weight * scale;

@@ -124,7 +124,7 @@ fn teeth(setting: &Setting, inertia: &Inertias, laws: Laws, tooth: ToothEffects)
         detailed: Detailed::new(pair, laws.spring, damping, laws.slices, single, friction),
         in_detail,
         gaps: tooth.gaps,
-        always: in_detail || !grips.is_empty() || !bodies.is_empty(),
+        always: in_detail || p.effects.strength || !grips.is_empty() || !bodies.is_empty(),
         bodies: Arc::new(bodies),
         grips,
         lock: lock_grip(&p.specs),

@@ -36,6 +36,8 @@ pub struct Power {
     pub heat: [f64; CAUSES],
     /// Torques of the half-shafts [N·m].
     pub shaft: [f64; 2],
+    /// Torque of the carrier's drive beyond its command [N·m].
+    pub drive: f64,
 }
 
 /// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
@@ -200,7 +202,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque
+            self.inputs.carrier_torque + if FULL { power.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;

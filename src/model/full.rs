@@ -255,7 +255,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &mut [f64; N], power: &mut Power) {
         let bodies = self.bodies(at);
         let mut out =
-            Action { force: sum, imposed: &mut imposed[CARRIER], input: &mut power.input, heat: &mut power.heat };
+            Action { force: sum, imposed: &mut imposed[CARRIER], drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.teeth.full.bodies.iter() {
             effect.act(&bodies, &mut out);
         }
@@ -426,7 +426,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let mut carrier = 0.0;
         let bodies = self.bodies(&still);
         let mut action =
-            Action { force: &mut sum, imposed: &mut carrier, input: &mut power.input, heat: &mut power.heat };
+            Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
         let mut unused = [[0.0; N]; 2];
         let mut slopes = Slopes {
             n: N,

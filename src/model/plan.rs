@@ -154,7 +154,7 @@ impl Plan {
     }
 
     /// Group `g` of planets.
-    #[inline]
+    #[inline(always)]
     pub fn group(&self, g: usize) -> &Group {
         &self.groups[g]
     }

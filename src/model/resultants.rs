@@ -148,7 +148,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let carrier = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque
+            self.inputs.carrier_torque + power.drive
         };
         let spin = if plan.spin_imposed { -in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g]) } else { 0.0 };
         (carrier, spin)

@@ -167,7 +167,7 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// Forces, all commanded torques but that of an imposed motion among them, and the carrier's imposed acceleration.
     fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], f64) {
         let (mut sum, mut imposed) = ([0.0; N], 0.0);
-        let mut out = Action { force: &mut sum, imposed: &mut imposed, input: &mut power.input, heat: &mut power.heat };
+        let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.rigid.bodies.iter() {
             effect.act(&self.bodies(at), &mut out);
         }
@@ -196,8 +196,9 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
             }
         }
         if !plan.carrier_imposed {
-            sum[CARRIER] += self.inputs.carrier_torque;
-            power.input += self.inputs.carrier_torque * at.v[CARRIER];
+            let drive = self.inputs.carrier_torque + power.drive;
+            sum[CARRIER] += drive;
+            power.input += drive * at.v[CARRIER];
         }
         (sum, imposed)
     }
@@ -210,12 +211,16 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         })
     }
 
-    fn torques_of(&self, sum: &[f64; N], a: &[f64; N]) -> RigidTorques {
+    fn torques_of(&self, sum: &[f64; N], a: &[f64; N], excess: f64) -> RigidTorques {
         let rigid = self.rigid;
         let lack: [f64; N] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
         let plan = &rigid.plan;
         RigidTorques {
-            carrier: if plan.carrier_imposed { lack[0] + lack[1] + lack[CARRIER] } else { self.inputs.carrier_torque },
+            carrier: if plan.carrier_imposed {
+                lack[0] + lack[1] + lack[CARRIER]
+            } else {
+                self.inputs.carrier_torque + excess
+            },
             spin: if plan.spin_imposed { rigid.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
             gears: [lack[0], lack[1]],
         }
@@ -223,8 +228,9 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
 
     /// Torques that follow from the constraint.
     pub fn torques(&self, at: &Point<N>) -> RigidTorques {
-        let (sum, imposed) = self.forces(at, &mut Power::default());
-        self.torques_of(&sum, &self.accelerations(&sum, imposed))
+        let mut power = Power::default();
+        let (sum, imposed) = self.forces(at, &mut power);
+        self.torques_of(&sum, &self.accelerations(&sum, imposed), power.drive)
     }
 
     /// Kinetic energy, and that of half-shafts and holds [J].
@@ -287,7 +293,7 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         let mut power = Power::default();
         let (sum, imposed) = self.forces(at, &mut power);
         let a = self.accelerations(&sum, imposed);
-        let torques = self.torques_of(&sum, &a);
+        let torques = self.torques_of(&sum, &a, power.drive);
         if self.rigid.plan.carrier_imposed {
             power.input += torques.carrier * at.v[CARRIER];
         }

@@ -20,6 +20,7 @@ struct Jump {
 }
 
 /// Simpson's rule on begin, middle and end of a step.
+#[inline(always)]
 fn simpson<const N: usize>(step: &Step<N, Power>, of: impl Fn(&Power) -> f64) -> f64 {
     let [a, m, b] = &step.power;
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
@@ -72,7 +73,7 @@ pub fn teeth_stretch<const N: usize, const G: usize, const P: usize, const FULL:
                     let torque = [0, 1].map(|s| simpson(&step, |p| p.shaft[s]));
                     cycle.add(bias, [step.start.q[i], step.end.q[i]], step.h, torque);
                 }
-                if let Some(strength) = &model.strength {
+                if let (true, Some(strength)) = (FULL, &model.strength) {
                     count_fatigue(&equations, model, strength, &step, fatigue);
                 }
                 good = (*step.end, step.time);
@@ -93,6 +94,8 @@ pub fn teeth_stretch<const N: usize, const G: usize, const P: usize, const FULL:
     outcome.map_err(|failure| explain(failure, state.time, tolerance, teeth.jump * teeth.mesh.cone))
 }
 
+/// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
+#[inline(never)]
 fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: bool>(
     equations: &Equations<N, G, P, FULL>,
     model: &Model,

@@ -31,8 +31,8 @@ pub struct Teeth {
     pub base_pitch: f64,
     /// Approach beyond which a tooth would jump [rad].
     pub jump: f64,
-    /// What acts beside plain teeth.
-    pub full: Full,
+    /// What acts beside plain teeth; apart, so that these constants lie the same whatever effects a build knows.
+    pub full: Box<Full>,
 }
 
 impl Teeth {
@@ -66,7 +66,7 @@ impl Teeth {
             lever: pair.lever(),
             base_pitch: pair.base_pitch,
             jump,
-            full,
+            full: Box::new(full),
         }
     }
 }

@@ -1,5 +1,8 @@
 //! What an effect on bodies sees, and what it may do.
 
+// a build without any effect on bodies has nobody to look or to act
+#![cfg_attr(not(feature = "bearing_drag"), allow(dead_code))]
+
 use std::fmt::Debug;
 
 use super::super::parameters::Inputs;
@@ -39,8 +42,8 @@ pub struct Action<'a> {
     pub force: &'a mut [f64],
     /// Acceleration of a carrier whose motion is imposed [rad/s²].
     pub imposed: &'a mut f64,
-    /// Power of what drives from outside, beside the commanded torques [W].
-    pub input: &'a mut f64,
+    /// Torque of the carrier's drive beyond its command [N·m].
+    pub drive: &'a mut f64,
     /// Heat [W].
     pub heat: &'a mut [f64; CAUSES],
 }

@@ -28,9 +28,7 @@ impl BodyEffect for FinalDrive {
         if self.imposed {
             *out.imposed -= at.inputs.carrier_speed * self.amplitude * self.teeth * wave * at.v[c];
         } else {
-            let torque = at.inputs.carrier_torque * self.amplitude * wave;
-            out.force[c] += torque;
-            *out.input += torque * at.v[c];
+            *out.drive += at.inputs.carrier_torque * self.amplitude * wave;
         }
     }
 

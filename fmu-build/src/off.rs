@@ -1,0 +1,142 @@
+//! Proof that an effect that is off is nothing: builds that leave its file out are compared with the full build, bit by
+//! bit and instruction by instruction.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail, ensure};
+
+use crate::places;
+use crate::progress::Progress;
+
+/// Every effect with a file of its own, by the name of its cargo feature.
+pub const EFFECTS: [&str; 11] = [
+    "bearing_drag",
+    "final_drive",
+    "half_shaft",
+    "limited_slip",
+    "lock",
+    "pin_compliance",
+    "strength",
+    "thrust_friction",
+    "tooth_errors",
+    "tooth_fault",
+    "tooth_friction",
+];
+
+/// Where the table stands in docs/effects.md.
+const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];
+
+/// Steps of the two runs whose difference is counted: starting up cancels.
+const STEPS: [u32; 2] = [100, 300];
+
+/// What a run gave.
+#[derive(Clone, Debug, PartialEq)]
+struct Run {
+    bits: String,
+    /// Instructions per communication step.
+    instructions: f64,
+}
+
+/// Compares builds without each effect (`quick`: only one without all of them) and returns the table; fails if anything
+/// differs.
+pub fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("building with all effects");
+    let full = build(&EFFECTS, "full")?;
+    let plain = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
+    let mut rows = String::new();
+    let mut different = Vec::new();
+    let left_out: Vec<(&str, Vec<&str>)> = if quick {
+        vec![("all of them", Vec::new())]
+    } else {
+        EFFECTS.iter().map(|&out| (out, EFFECTS.into_iter().filter(|&e| e != out).collect())).collect()
+    };
+    for (name, kept) in &left_out {
+        progress.tell(&format!("building without {name}"));
+        let without = build(kept, "without")?;
+        progress.tell(&format!("counting without {name}"));
+        let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
+        let same_bits = runs.iter().zip(&plain).all(|(a, b)| a.bits == b.bits);
+        let same_count = runs.iter().zip(&plain).all(|(a, b)| a.instructions == b.instructions);
+        if !same_bits || !same_count {
+            different.push(format!("{name}: {runs:?} against {plain:?}"));
+        }
+        let on = if quick { None } else { Some(measure(&full, "turn", &[name])?) };
+        let cost = on.map_or(String::from("–"), |on| {
+            format!("{:.0} ({:.2} ×)", on.instructions, on.instructions / plain[1].instructions)
+        });
+        let yes = |same| if same { "equal" } else { "DIFFERENT" };
+        writeln!(
+            rows,
+            "| {name} | {} | {:.0} | {:.0} | {} | {cost} |",
+            yes(same_bits),
+            plain[1].instructions,
+            runs[1].instructions,
+            yes(same_count),
+        )?;
+    }
+    progress.finish();
+    let table = format!(
+        "| effect | bits, off against left out | instructions a step, off | left out | | on |\n|---|---|---:|---:|---|---:|\n{rows}"
+    );
+    println!("{table}");
+    if write {
+        let file = places::workspace().join("docs").join("effects.md");
+        let text = fs::read_to_string(&file).with_context(|| places::shown(&file))?;
+        let (before, rest) = text.split_once(MARKS[0]).context("docs/effects.md has no place for the table")?;
+        let (_, after) = rest.split_once(MARKS[1]).context("docs/effects.md has no end of the table")?;
+        fs::write(&file, format!("{before}{}\n{table}{}{after}", MARKS[0], MARKS[1]))?;
+    }
+    if !different.is_empty() {
+        bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
+    }
+    Ok(())
+}
+
+/// Builds the stepping program with the effects `kept` alone and returns a copy of it.
+fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
+    let target = places::target().join("off");
+    let output = Command::new(env!("CARGO"))
+        .current_dir(places::workspace())
+        .args(["build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench", "--quiet"])
+        .args(["--no-default-features", "--features", &kept.join(","), "--message-format", "json"])
+        .arg("--target-dir")
+        .arg(&target)
+        .output()
+        .context("cargo did not start")?;
+    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let executable = String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|message| message["target"]["name"] == "steps")
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+        .context("cargo named no executable")?;
+    // the next build takes the place of this one
+    let copy = target.join(name);
+    fs::copy(executable, &copy)?;
+    Ok(copy)
+}
+
+fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
+    let mut counts = [0.0; 2];
+    let mut bits = String::new();
+    for (count, steps) in counts.iter_mut().zip(STEPS) {
+        let output = Command::new("valgrind")
+            .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+            .arg(program)
+            .args([scene, &steps.to_string()])
+            .args(effects)
+            .output()
+            .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
+        let told = String::from_utf8_lossy(&output.stderr);
+        ensure!(output.status.success(), "{scene} {effects:?}: {told}");
+        bits = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+        *count = told
+            .lines()
+            .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
+            .context("valgrind gave no count")?;
+    }
+    Ok(Run { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
+}
