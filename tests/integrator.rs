@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::integrate::{
-    Control, Effort, Failure, Linearisation, Point, Power, RODAS5P, SecondOrder, Statistics, advance, step,
+    Control, Effort, Failure, Flow, Linearisation, Point, RODAS5P, SecondOrder, Statistics, advance, step,
 };
 
 /// A system given by its acceleration and that acceleration's derivatives.
@@ -13,13 +13,15 @@ struct System<F, const N: usize> {
 type Jet<const N: usize> = ([f64; N], [[f64; N]; N], [[f64; N]; N]);
 
 impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N> {
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
-        ((self.acceleration)(at).0, Power::default())
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], ()) {
+        ((self.acceleration)(at).0, ())
     }
 
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N> {
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, ()> {
         let (acceleration, by_position, by_velocity) = (self.acceleration)(at);
-        Linearisation { acceleration, by_position, by_velocity, power: Power::default() }
+        Linearisation { acceleration, by_position, by_velocity, power: () }
     }
 
     fn weights(&self, _: &Point<N>) -> Point<N> {
@@ -111,7 +113,7 @@ fn run<const N: usize, S: SecondOrder<N>>(
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
     let mut budget = 1_000_000;
     let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-    advance(s, point, &mut time, until, effort, |_| Ok(()))?;
+    advance(s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
     Ok(statistics)
 }
 
@@ -144,10 +146,12 @@ fn bouncing(law: Impact, mass: f64) -> System<impl Fn(&Point<1>) -> Jet<1>, 1> {
 struct Scaled<S>(S, f64, f64);
 
 impl<S: SecondOrder<1>> SecondOrder<1> for Scaled<S> {
-    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], Power) {
+    type Power = S::Power;
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], S::Power) {
         self.0.evaluate(at)
     }
-    fn linearise(&self, at: &Point<1>) -> Linearisation<1> {
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, S::Power> {
         self.0.linearise(at)
     }
     fn weights(&self, _: &Point<1>) -> Point<1> {
