@@ -1,7 +1,7 @@
-use super::*;
 use super::pitch::Tolerances;
-use crate::geometry::Pair;
+use super::*;
 use crate::geometry::GearSpec;
+use crate::geometry::Pair;
 use crate::numeric::Dual;
 
 const LEFT: MeshId = MeshId { planet: 0, side: 0 };
