@@ -6,93 +6,27 @@
 #![allow(clippy::needless_range_loop)] // an index names the same axis or gear on both sides
 
 mod mesh_explicit;
+mod mesh_laws;
 
 use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::law::{Face, Lumped, Power};
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::contact::pairs::{Flank, Spot, ToothPair};
-use bevel_differential::contact::stiffness::{PairStiffness, REFERENCE_LINE_LOAD, RootSpec};
+use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::corner::CornerGap;
-use bevel_differential::geometry::{GearSpec, Pair};
 use mesh_explicit::Lcg;
+use mesh_laws::{Kind, PER_FULL_DEPTH, RESTITUTION, STEP, UNDAMPED, meshes};
 
 const STATES: usize = 4000;
 /// Deepest approach tried [rad]: 0.1 mm at R_m.
 const DEEPEST: f64 = 3e-3;
 
-fn law(exponent: f64, damping: f64) -> Impact {
-    Impact { stiffness: 1.8e10, exponent, damping, per_full_depth: 1e4 }
-}
-
-const GEARS: [(i32, i32, f64, f64); 3] = [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 0.0), (11, 15, 2.2, 5e-5)];
-
-fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
-    Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
-}
-
-/// Meshes of three pairs and exponents, with and without corner contact, under `damping`.
-fn meshes(damping: f64, corner_contact: bool) -> Vec<(Mesh, Pair)> {
-    GEARS
-        .into_iter()
-        .map(|of| {
-            let pair = gears(of);
-            (Mesh::new(&pair, Law::Impact(law(of.2, damping)), pair.mean_cone, corner_contact, 0.05), pair)
-        })
-        .collect()
+/// Meshes under IMPACT with `damping`.
+fn impact_meshes(damping: f64, corner_contact: bool) -> Vec<(Mesh, Pair)> {
+    meshes(Kind::Impact, Damping::Step { coefficient: damping, per_full_depth: PER_FULL_DEPTH }, corner_contact)
 }
 
 /// Laws besides IMPACT.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    Power,
-    Line,
-    LineWeber,
-    Lumped,
-}
-
-const KINDS: [Kind; 4] = [Kind::Power, Kind::Line, Kind::LineWeber, Kind::Lumped];
-
-/// No damping, that of IMPACT, and Hunt and Crossley's of a coefficient of restitution of 0.8 at 0.1 m/s.
-const UNDAMPED: Damping = Damping::HuntCrossley { lambda: 0.0 };
-const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: 1e4 };
-const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
-
-/// Meshes of the three pairs under a law of another kind, built as a scene builds them.
-fn other_meshes(kind: Kind, damping: Damping, corner_contact: bool) -> Vec<(Mesh, Pair)> {
-    GEARS
-        .into_iter()
-        .map(|of| {
-            let pair = gears(of);
-            let stiffness =
-                PairStiffness::new(&pair, &RootSpec::default(), 2.07e11, 0.25, REFERENCE_LINE_LOAD).unwrap();
-            let (outer, inner) = (pair.outer_cone, pair.inner_cone);
-            let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
-            let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));
-            let (law, cone) = match kind {
-                Kind::Power => (Law::Power(Power { elastic: law(of.2, 0.0), damping }), pair.mean_cone),
-                Kind::Line => {
-                    let specific = stiffness.line();
-                    (Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping }), centroid)
-                }
-                Kind::LineWeber => {
-                    let specific = stiffness.line_weber();
-                    (Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping }), centroid)
-                }
-                Kind::Lumped => {
-                    let stiffness = stiffness.mesh_mean() * moment / (centroid * centroid);
-                    (Law::Lumped(Lumped { stiffness, damping }), centroid)
-                }
-            };
-            (Mesh::new(&pair, law, cone, corner_contact, 0.05), pair)
-        })
-        .collect()
-}
-
-/// Whether the law knows tooth pairs.
-fn has_pairs(mesh: &Mesh) -> bool {
-    !matches!(mesh.law, Law::Lumped(_))
-}
+const OTHERS: [Kind; 4] = [Kind::Power, Kind::Line, Kind::LineWeber, Kind::Lumped];
 
 fn random_state(random: &mut Lcg, pair: &Pair) -> MeshState {
     let depth = random.between(1e-5, DEEPEST);
@@ -117,12 +51,13 @@ fn loaded(mesh: &Mesh, position: [f64; 2]) -> Vec<ToothPair> {
     pairs
 }
 
-/// Pairs in contact with their kind and whether the law is clipped at zero: where this changes, derivatives may jump.
-fn pattern(mesh: &Mesh, state: &MeshState) -> Vec<(Flank, Spot, bool)> {
+/// Pairs in contact with their kind, whether the law is clipped at zero, and whether IMPACT's damping is full: where this
+/// changes, derivatives may jump or bend.
+fn pattern(mesh: &Mesh, state: &MeshState) -> Vec<(Flank, Spot, bool, bool)> {
     let mut pairs = Vec::new();
     mesh.loaded(state, |p, force| {
         if p.depth > 0.0 {
-            pairs.push((p.flank, p.spot, force.total <= 0.0));
+            pairs.push((p.flank, p.spot, force.total <= 0.0, mesh.cone * p.depth * PER_FULL_DEPTH >= 1.0));
         }
     });
     pairs
@@ -154,7 +89,7 @@ fn smooth(mesh: &Mesh, state: &MeshState, h: f64, of_rate: bool) -> bool {
     (0..2).all(|axis| [-2.0, 2.0].iter().all(|k| pattern(mesh, &shifted(state, axis, k * h, of_rate)) == here))
 }
 
-fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)]) {
+fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)], has_pairs: bool) {
     let mut random = Lcg(11);
     let (mut worst, mut spots) = (0.0f64, [0; 3]);
     for (mesh, pair) in meshes {
@@ -179,19 +114,19 @@ fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)]) {
         }
     }
     println!("worst {worst:e} of |F_q|, pairs on [path, planet tip, side tip]: {spots:?}");
-    assert!(spots.iter().all(|&n| n > 300) || !has_pairs(&meshes[0].0), "{spots:?}");
+    assert!(spots.iter().all(|&n| n > 300) || !has_pairs, "{spots:?}");
 }
 
 #[test]
 fn force_without_damping_is_minus_the_gradient_of_the_energy() {
-    force_is_minus_the_gradient(&meshes(0.0, true));
+    force_is_minus_the_gradient(&impact_meshes(0.0, true), true);
 }
 
 #[test]
 fn force_of_every_law_is_minus_the_gradient_of_its_energy() {
-    for kind in KINDS {
+    for kind in OTHERS {
         print!("{kind:?}: ");
-        force_is_minus_the_gradient(&other_meshes(kind, UNDAMPED, true));
+        force_is_minus_the_gradient(&meshes(kind, UNDAMPED, true), kind.has_pairs());
     }
 }
 
@@ -227,26 +162,29 @@ fn force_stays_the_gradient_across_the_ends(meshes: &[(Mesh, Pair)]) {
 
 #[test]
 fn force_stays_the_gradient_across_the_ends_of_the_path() {
-    force_stays_the_gradient_across_the_ends(&meshes(0.0, true));
+    force_stays_the_gradient_across_the_ends(&impact_meshes(0.0, true));
 }
 
 #[test]
 fn force_of_every_law_stays_the_gradient_across_the_ends_of_the_path() {
-    for kind in KINDS {
+    for kind in OTHERS {
         print!("{kind:?}: ");
-        force_stays_the_gradient_across_the_ends(&other_meshes(kind, UNDAMPED, true));
+        force_stays_the_gradient_across_the_ends(&meshes(kind, UNDAMPED, true));
     }
 }
 
 #[test]
 fn force_of_every_law_is_continuous_where_corners_take_over_and_where_they_leave() {
     let mut worst = 0.0f64;
-    for kind in KINDS {
+    for kind in OTHERS {
         for damping in [UNDAMPED, STEP, RESTITUTION] {
-            for (mesh, pair) in other_meshes(kind, damping, true) {
-                for (hand, depth, rate) in
-                    [(-1.0, 1e-4, [0.2, -0.3]), (-1.0, 1e-3, [-0.1, 0.4]), (1.0, 1e-3, [0.3, 0.1]), (1.0, 3e-3, [0.0; 2])]
-                {
+            for (mesh, pair) in meshes(kind, damping, true) {
+                for (hand, depth, rate) in [
+                    (-1.0, 1e-4, [0.2, -0.3]),
+                    (-1.0, 1e-3, [-0.1, 0.4]),
+                    (1.0, 1e-3, [0.3, 0.1]),
+                    (1.0, 3e-3, [0.0; 2]),
+                ] {
                     let q = hand * (pair.normal_backlash / 2.0 + depth);
                     let [planet, side] = &mesh.engagement.corner;
                     // Δ at which the corner's gap is the approach
@@ -258,12 +196,8 @@ fn force_of_every_law_is_continuous_where_corners_take_over_and_where_they_leave
                         }
                         touches
                     };
-                    let places = [
-                        planet.end,
-                        planet.end + leaves(planet),
-                        -side.end + depth,
-                        -side.end + depth - leaves(side),
-                    ];
+                    let places =
+                        [planet.end, planet.end + leaves(planet), -side.end + depth, -side.end + depth - leaves(side)];
                     for s in places {
                         let force = |past: f64| {
                             let x = -hand * (s + past - pair.centred_position());
@@ -322,17 +256,19 @@ fn jacobian_equals_differences(meshes: &[(Mesh, Pair)]) -> usize {
 
 #[test]
 fn jacobian_equals_differences_of_the_damped_force() {
-    assert!(jacobian_equals_differences(&meshes(5e4, true)) > 100);
+    assert!(jacobian_equals_differences(&impact_meshes(5e4, true)) > 100);
 }
 
 #[test]
 fn jacobian_of_every_law_equals_differences_of_the_damped_force() {
-    for kind in KINDS {
-        for damping in [UNDAMPED, STEP, RESTITUTION] {
+    // and so much damping that flanks often let go
+    let harsh =
+        [Damping::Step { coefficient: 1e7, per_full_depth: PER_FULL_DEPTH }, Damping::HuntCrossley { lambda: 60.0 }];
+    for kind in OTHERS {
+        for damping in [UNDAMPED, STEP, RESTITUTION].into_iter().chain(harsh) {
             print!("{kind:?} {damping:?}: ");
-            let clipped = jacobian_equals_differences(&other_meshes(kind, damping, true));
-            // a rate of 1/λ, 0.28 m/s or some 6 rad/s, is not reached by random states
-            assert!(clipped > 0 || damping != STEP);
+            let clipped = jacobian_equals_differences(&meshes(kind, damping, true));
+            assert!(clipped > 100 || !harsh.contains(&damping));
         }
     }
 }
@@ -340,8 +276,8 @@ fn jacobian_of_every_law_equals_differences_of_the_damped_force() {
 #[test]
 fn hessian_is_symmetric_without_damping() {
     let mut random = Lcg(13);
-    let others = KINDS.into_iter().flat_map(|kind| other_meshes(kind, UNDAMPED, true));
-    for (mesh, pair) in meshes(0.0, true).into_iter().chain(others) {
+    let others = OTHERS.into_iter().flat_map(|kind| meshes(kind, UNDAMPED, true));
+    for (mesh, pair) in impact_meshes(0.0, true).into_iter().chain(others) {
         for _ in 0..STATES {
             let [[_, a], [b, _]] = mesh.linearise(&random_state(&mut random, &pair)).1.by_position;
             assert!((a - b).abs() <= 1e-14 * a.abs(), "{a} {b}");
@@ -379,15 +315,15 @@ fn power_plus_heat_is_what_the_energy_loses(meshes: &[(Mesh, Pair)]) {
 
 #[test]
 fn power_of_the_force_plus_heat_is_what_the_energy_loses() {
-    power_plus_heat_is_what_the_energy_loses(&meshes(5e4, true));
+    power_plus_heat_is_what_the_energy_loses(&impact_meshes(5e4, true));
 }
 
 #[test]
 fn power_of_the_force_of_every_law_plus_heat_is_what_the_energy_loses() {
-    for kind in KINDS {
+    for kind in OTHERS {
         for damping in [STEP, RESTITUTION] {
             print!("{kind:?} {damping:?}: ");
-            power_plus_heat_is_what_the_energy_loses(&other_meshes(kind, damping, true));
+            power_plus_heat_is_what_the_energy_loses(&meshes(kind, damping, true));
         }
     }
 }
@@ -396,8 +332,8 @@ fn power_of_the_force_of_every_law_plus_heat_is_what_the_energy_loses() {
 fn coasting_is_the_mirror_image_of_driving() {
     let mut random = Lcg(15);
     for corner_contact in [true, false] {
-        let others = KINDS.into_iter().flat_map(|kind| other_meshes(kind, RESTITUTION, corner_contact));
-        for (mesh, pair) in meshes(5e4, corner_contact).into_iter().chain(others) {
+        let others = OTHERS.into_iter().flat_map(|kind| meshes(kind, RESTITUTION, corner_contact));
+        for (mesh, pair) in impact_meshes(5e4, corner_contact).into_iter().chain(others) {
             for _ in 0..STATES {
                 let state = random_state(&mut random, &pair);
                 let mirror = MeshState { position: state.position.map(|x| -x), rate: state.rate.map(|x| -x) };
@@ -413,8 +349,8 @@ fn coasting_is_the_mirror_image_of_driving() {
 #[test]
 fn energy_is_the_same_a_base_pitch_further() {
     let mut random = Lcg(16);
-    let others = KINDS.into_iter().flat_map(|kind| other_meshes(kind, UNDAMPED, true));
-    for (mesh, pair) in meshes(0.0, true).into_iter().chain(others) {
+    let others = OTHERS.into_iter().flat_map(|kind| meshes(kind, UNDAMPED, true));
+    for (mesh, pair) in impact_meshes(0.0, true).into_iter().chain(others) {
         for _ in 0..STATES {
             let [q, x] = random_state(&mut random, &pair).position;
             let (here, next) = (mesh.energy([q, x]), mesh.energy([q, x + pair.base_pitch]));
@@ -426,7 +362,7 @@ fn energy_is_the_same_a_base_pitch_further() {
 #[test]
 fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
     let mut random = Lcg(17);
-    for (mesh, pair) in meshes(0.0, false) {
+    for (mesh, pair) in impact_meshes(0.0, false) {
         for _ in 0..STATES {
             let [q, x] = random_state(&mut random, &pair).position;
             let approach = q.abs() - pair.normal_backlash / 2.0;
