@@ -99,12 +99,12 @@ impl Simulation {
         let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
-        if let Gears::Teeth(teeth) = &model.gears {
-            if parameters.scene.start == Start::Equilibrium {
-                let full = teeth.full.acts(state);
-                by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
-                    .map_err(|problem| vec![problem])?;
-            }
+        if let Gears::Teeth(teeth) = &model.gears
+            && parameters.scene.start == Start::Equilibrium
+        {
+            let full = teeth.full.acts(state);
+            by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
+                .map_err(|problem| vec![problem])?;
         }
         simulation.apply_commands();
         simulation.catch_holds();
@@ -141,16 +141,16 @@ impl Simulation {
         self.catch_holds();
         let model = Arc::clone(&self.model);
         let dof = model.ideal.plan.layout().count();
-        if let Gears::Rigid(rigid) = &model.gears {
-            if !rigid.acts(&self.state) {
-                let h = until - self.state.time;
-                model.ideal.advance(&mut self.state, &self.inputs, h);
-                self.state.time = until;
-                self.state.statistics.accepted += 1;
-                self.state.control.last = h;
-                self.state.wrap(&model.periods, dof);
-                return Ok(());
-            }
+        if let Gears::Rigid(rigid) = &model.gears
+            && !rigid.acts(&self.state)
+        {
+            let h = until - self.state.time;
+            model.ideal.advance(&mut self.state, &self.inputs, h);
+            self.state.time = until;
+            self.state.statistics.accepted += 1;
+            self.state.control.last = h;
+            self.state.wrap(&model.periods, dof);
+            return Ok(());
         }
         let (mut outcome, mut budget) = (Ok(()), BUDGET);
         while outcome.is_ok() && self.state.time < until {
