@@ -174,9 +174,8 @@ impl Engagement {
         let start = self.centred - sign * x;
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
-        let mut number = first as i64;
         let mut s = start + first * self.base_pitch;
-        for _ in 0..window.candidates {
+        for number in (first as i64..).take(window.candidates) {
             let past_planet_tip = s - self.high;
             let past_side_tip = self.low - s + approach;
             if past_planet_tip > 0.0 {
@@ -224,7 +223,6 @@ impl Engagement {
                 });
             }
             s += self.base_pitch;
-            number += 1;
         }
     }
 }
