@@ -8,7 +8,7 @@
 mod mesh_explicit;
 
 use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothErrors};
-use bevel_differential::contact::mesh::Flank;
+use bevel_differential::contact::pairs::Flank;
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 use mesh_explicit::{Toothed, V3, about, gears};
 use std::f64::consts::{PI, TAU};

@@ -1,7 +1,7 @@
 //! A mass hits a wall under F = F_el (1 + λ ḋ) and returns with the exact relation's speed, whatever the elastic law.
 
 use bevel_differential::contact::damping::{Damping, restitution};
-use bevel_differential::integrate::{Control, Effort, Linearisation, Point, Power, SecondOrder, Statistics, advance};
+use bevel_differential::integrate::{Control, Effort, Flow, Linearisation, Point, SecondOrder, Statistics, advance};
 
 /// A mass flying into a wall of elastic force K d^n; position is the penetration.
 struct Wall {
@@ -14,14 +14,16 @@ struct Wall {
 }
 
 impl SecondOrder<1> for Wall {
-    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], Power) {
-        (self.linearise(at).acceleration, Power::default())
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
+        (self.linearise(at).acceleration, ())
     }
 
-    fn linearise(&self, at: &Point<1>) -> Linearisation<1> {
-        let (d, rate, power) = (at.q[0], at.v[0], Power::default());
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
+        let (d, rate) = (at.q[0], at.v[0]);
         if d <= 0.0 {
-            return Linearisation { acceleration: [0.0], by_position: [[0.0]], by_velocity: [[0.0]], power };
+            return Linearisation { acceleration: [0.0], by_position: [[0.0]], by_velocity: [[0.0]], power: () };
         }
         let slope = self.stiffness * self.exponent * d.powf(self.exponent - 1.0);
         let f = self.damping.apply(slope * d / self.exponent, slope, d, rate);
@@ -29,7 +31,7 @@ impl SecondOrder<1> for Wall {
             acceleration: [-f.total / self.mass],
             by_position: [[-f.by_depth / self.mass]],
             by_velocity: [[-f.by_rate / self.mass]],
-            power,
+            power: (),
         }
     }
 
@@ -50,7 +52,7 @@ fn rebound(exponent: f64, dimensionless: f64) -> (f64, Statistics) {
         (0.0, Control::new(1e-8), Statistics::default(), 1_000_000);
     let effort = Effort { tolerance: 1e-10, control: &mut control, statistics: &mut statistics, budget: &mut budget };
     // an undamped impact lasts about three times depth/speed, the slowest return here not three times that
-    advance(&wall, &mut point, &mut time, 12.0 * depth / speed, effort, |_| Ok::<(), ()>(())).unwrap();
+    advance(&wall, &mut point, &mut time, 12.0 * depth / speed, effort, |_| Ok::<_, ()>(Flow::Continue)).unwrap();
     assert!(point.q[0] < 0.0, "still in contact");
     (-point.v[0] / speed, statistics)
 }

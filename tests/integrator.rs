@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::integrate::{
-    Control, Effort, Failure, Linearisation, Point, Power, RODAS5P, SecondOrder, Statistics, advance, step,
+    Control, Effort, Failure, Flow, Linearisation, Point, RODAS5P, SecondOrder, Statistics, advance, in_pairs, step,
 };
 
 /// A system given by its acceleration and that acceleration's derivatives.
@@ -13,13 +13,15 @@ struct System<F, const N: usize> {
 type Jet<const N: usize> = ([f64; N], [[f64; N]; N], [[f64; N]; N]);
 
 impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N> {
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
-        ((self.acceleration)(at).0, Power::default())
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], ()) {
+        ((self.acceleration)(at).0, ())
     }
 
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N> {
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, ()> {
         let (acceleration, by_position, by_velocity) = (self.acceleration)(at);
-        Linearisation { acceleration, by_position, by_velocity, power: Power::default() }
+        Linearisation { acceleration, by_position, by_velocity, power: () }
     }
 
     fn weights(&self, _: &Point<N>) -> Point<N> {
@@ -111,7 +113,7 @@ fn run<const N: usize, S: SecondOrder<N>>(
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
     let mut budget = 1_000_000;
     let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-    advance(s, point, &mut time, until, effort, |_| Ok(()))?;
+    advance(s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
     Ok(statistics)
 }
 
@@ -144,10 +146,12 @@ fn bouncing(law: Impact, mass: f64) -> System<impl Fn(&Point<1>) -> Jet<1>, 1> {
 struct Scaled<S>(S, f64, f64);
 
 impl<S: SecondOrder<1>> SecondOrder<1> for Scaled<S> {
-    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], Power) {
+    type Power = S::Power;
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], S::Power) {
         self.0.evaluate(at)
     }
-    fn linearise(&self, at: &Point<1>) -> Linearisation<1> {
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, S::Power> {
         self.0.linearise(at)
     }
     fn weights(&self, _: &Point<1>) -> Point<1> {
@@ -203,4 +207,179 @@ fn a_run_repeats_to_the_bit() {
     let (mut a, mut b) = (START, START);
     let (first, second) = (run(&s, &mut a, 3.0, 1e-7).unwrap(), run(&s, &mut b, 3.0, 1e-7).unwrap());
     assert_eq!((a, first), (b, second));
+}
+
+/// Integrates until the observer stops it, if it does.
+fn stretch<const N: usize, S: SecondOrder<N>>(
+    s: &S,
+    (point, time): (&mut Point<N>, &mut f64),
+    until: f64,
+    control: &mut Control,
+    statistics: &mut Statistics,
+    mut observe: impl FnMut(&Point<N>, f64) -> Flow,
+) {
+    let mut budget = 100_000;
+    let effort = Effort { tolerance: 1e-10, control, statistics, budget: &mut budget };
+    advance(s, point, time, until, effort, |step| Ok::<_, ()>(observe(step.end, step.time))).unwrap();
+}
+
+#[test]
+fn a_run_that_is_stopped_goes_on_to_the_same_bits() {
+    let s = system(pendulum);
+    let (mut whole, mut whole_time, mut control) = (START, 0.0, Control::new(1e-6));
+    let (mut statistics, mut seen) = (Statistics::default(), Vec::new());
+    stretch(&s, (&mut whole, &mut whole_time), 3.0, &mut control, &mut statistics, |end, time| {
+        seen.push((*end, time));
+        Flow::Continue
+    });
+    let (mut point, mut time, mut counted, mut again) = (START, 0.0, Statistics::default(), Control::new(1e-6));
+    let mut stops = 0;
+    while time < 3.0 {
+        let mut steps = 0;
+        stretch(&s, (&mut point, &mut time), 3.0, &mut again, &mut counted, |end, at| {
+            assert_eq!((*end, at), seen[3 * stops + steps]);
+            steps += 1;
+            if steps == 3 { Flow::Stop } else { Flow::Continue }
+        });
+        assert_eq!((point, time), seen[3 * stops + steps - 1], "stopped at the step that was observed");
+        stops += 1;
+    }
+    assert!(stops > 5);
+    assert_eq!((point, time, again), (whole, whole_time, control));
+    assert_eq!((counted.accepted, counted.rejected_error), (statistics.accepted, statistics.rejected_error));
+}
+
+/// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. Which of both is chosen from outside.
+struct Kinked {
+    side: f64,
+}
+
+/// How closely a step must end on the switch.
+const LANDING: f64 = 1e-11;
+
+impl SecondOrder<1> for Kinked {
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
+        ([if self.side > 0.0 { -at.q[0] } else { -4.0 * at.q[0] }], ())
+    }
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
+        let slope = if self.side > 0.0 { -1.0 } else { -4.0 };
+        Linearisation { acceleration: self.evaluate(at).0, by_position: [[slope]], by_velocity: [[0.0]], power: () }
+    }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0], v: [1.0] }
+    }
+    fn crossing(&self, start: &Point<1>, end: &Point<1>) -> Option<f64> {
+        let (from, to) = (start.q[0] * self.side, end.q[0] * self.side);
+        // to the middle of what counts as landed
+        (to < -LANDING).then(|| (from + 0.5 * LANDING) / (from - to))
+    }
+}
+
+#[test]
+fn steps_land_on_switches_in_a_few_attempts() {
+    let mut s = Kinked { side: 1.0 };
+    let (mut point, mut time) = (Point { q: [1.0], v: [0.0] }, 0.0);
+    let (mut control, mut statistics) = (Control::new(1e-3), Statistics::default());
+    let period = 1.5 * std::f64::consts::PI;
+    let mut switches = Vec::new();
+    while time < 10.0 * period {
+        let (side, mut landed) = (s.side, false);
+        stretch(&s, (&mut point, &mut time), 10.0 * period, &mut control, &mut statistics, |end, _| {
+            assert!(end.q[0] * side >= -LANDING, "no step goes on beyond the switch: {}", end.q[0]);
+            landed = end.q[0] * side < 0.0;
+            if landed { Flow::Stop } else { Flow::Continue }
+        });
+        if landed {
+            switches.push(time);
+            s.side = -s.side;
+        }
+    }
+    println!("{} switches, {statistics:?}", switches.len());
+    assert_eq!(switches.len(), 20);
+    // half a period of π above and of π/2 below, the first quarter above
+    for (k, at) in switches.iter().enumerate() {
+        let expected = std::f64::consts::FRAC_PI_2
+            + f64::from(k as u32 / 2) * period
+            + if k % 2 == 1 { std::f64::consts::FRAC_PI_2 } else { 0.0 };
+        assert!((at - expected).abs() < 1e-8, "switch {k} at {at} instead of {expected}");
+    }
+    assert!((point.q[0] - 1.0).abs() < 1e-8 && point.v[0].abs() < 1e-7, "{point:?}");
+    assert!(statistics.rejected_switch <= 20 * 4, "{statistics:?}");
+    assert_eq!(statistics.rejected_invalid, 0);
+}
+
+/// One body with four alike ones around it, `N` − 1 of them simulated, each counted as often as makes four.
+struct Alike<const N: usize>;
+
+impl<const N: usize> Alike<N> {
+    const MEMBERS: f64 = 4.0 / (N - 1) as f64;
+
+    /// Force on body `j` with its derivatives by its distance and relative speed: hardening, with nonlinear damping.
+    fn force(at: &Point<N>, j: usize) -> [f64; 3] {
+        let (d, v) = (at.q[j] - at.q[0], at.v[j] - at.v[0]);
+        [
+            -30.0 * d - 200.0 * d * d * d - 0.3 * v - 0.1 * d * d * v,
+            -30.0 - 600.0 * d * d - 0.2 * d * v,
+            -0.3 - 0.1 * d * d,
+        ]
+    }
+}
+
+impl<const N: usize> SecondOrder<N> for Alike<N> {
+    /// Power at the first body.
+    type Power = f64;
+    const ALIKE: (usize, usize) = (1, N - 1);
+
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], f64) {
+        let lin = self.linearise(at);
+        (lin.acceleration, lin.power)
+    }
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, f64> {
+        let (mut by_position, mut by_velocity, mut acceleration) = ([[0.0; N]; N], [[0.0; N]; N], [0.0; N]);
+        let own = [-2.0 * at.q[0].sin(), -2.0 * at.q[0].cos()];
+        let total = |i: usize| in_pairs(N - 1, |j| Self::MEMBERS * Self::force(at, 1 + j)[i]);
+        acceleration[0] = (own[0] - total(0)) / 3.0;
+        by_position[0][0] = (own[1] + total(1)) / 3.0;
+        by_velocity[0][0] = total(2) / 3.0;
+        for j in 1..N {
+            let [f, by_d, by_v] = Self::force(at, j);
+            acceleration[j] = f / 0.7;
+            (by_position[j][j], by_position[j][0]) = (by_d / 0.7, -by_d / 0.7);
+            (by_velocity[j][j], by_velocity[j][0]) = (by_v / 0.7, -by_v / 0.7);
+            by_position[0][j] = -Self::MEMBERS * by_d / 3.0;
+            by_velocity[0][j] = -Self::MEMBERS * by_v / 3.0;
+        }
+        Linearisation { acceleration, by_position, by_velocity, power: acceleration[0] * at.v[0] }
+    }
+    fn weights(&self, _: &Point<N>) -> Point<N> {
+        Point { q: [1.0; N], v: [0.5; N] }
+    }
+}
+
+/// Bits of the first body and of one of the others, of the ledger, and counts.
+fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
+    let s = Alike::<N>;
+    let mut point = Point { q: [0.2; N], v: [-1.3; N] };
+    (point.q[0], point.v[0]) = (0.5, 3.0);
+    let (mut time, mut control, mut statistics, mut budget) = (0.0, Control::new(1e-4), Statistics::default(), 100_000);
+    let effort = Effort { tolerance: 1e-7, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    let mut bits = Vec::new();
+    advance(&s, &mut point, &mut time, 4.0, effort, |step| {
+        let Point { q, v } = step.end;
+        assert!((1..N).all(|j| (q[j], v[j]) == (q[1], v[1])), "twins stay twins");
+        bits.push([q[0], q[1], v[0], v[1], step.power[0], step.power[1], step.power[2]].map(f64::to_bits));
+        Ok::<_, ()>(Flow::Continue)
+    })
+    .unwrap();
+    (bits, statistics)
+}
+
+#[test]
+fn alike_bodies_simulated_together_or_once_and_counted_give_the_same_bits() {
+    let (one, two, four) = (alike::<2>(), alike::<3>(), alike::<5>());
+    assert!(one.0.len() > 50, "{:?}", one.1);
+    assert_eq!(one, two);
+    assert_eq!(one, four);
 }

@@ -2,12 +2,13 @@
 //!
 //! Axes, signs and the assembled position are those of docs/theory.md; the flanks and the touching are found by vectors
 //! and rotations only (`mesh_explicit`). For every tooth pair near the mesh the side gear's rotation at first touch must
-//! be the one at which `Mesh::pairs` begins to visit that pair.
+//! be the one at which `Engagement::pairs` begins to visit that pair.
 
 mod mesh_explicit;
 
 use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::mesh::{Flank, Mesh, Spot, ToothPair};
+use bevel_differential::contact::mesh::{Law, Mesh};
+use bevel_differential::contact::pairs::{Flank, Spot, ToothPair};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, assembly};
 use mesh_explicit::{Differential, Lcg, Toothed, Touch, gears, pitch_angles, random_spec, roll_at, rolled};
 use std::f64::consts::TAU;
@@ -75,8 +76,8 @@ impl Seen {
         let approach = -self.push * self.position(alpha)[0] - self.pair.normal_backlash / 2.0;
         match p.spot {
             Spot::Path => p.place,
-            Spot::PlanetTip => self.mesh.corner[0].end + p.place,
-            Spot::SideTip => -self.mesh.corner[1].end - p.place + approach,
+            Spot::PlanetTip => self.mesh.engagement.corner[0].end + p.place,
+            Spot::SideTip => -self.mesh.engagement.corner[1].end - p.place + approach,
         }
     }
 
@@ -89,7 +90,7 @@ impl Seen {
     fn first(&self, wanted: impl Fn(&Self, &ToothPair, f64) -> bool) -> Option<(f64, Spot)> {
         let loaded = |alpha: f64| {
             let mut spot = None;
-            self.mesh.pairs(self.position(alpha), |p| {
+            self.mesh.engagement.pairs(self.position(alpha), |p| {
                 let forward = p.flank == Flank::Drive;
                 if p.depth > 0.0 && forward == (self.push > 0.0) && wanted(self, p, alpha) {
                     spot = Some(p.spot);
@@ -127,7 +128,7 @@ fn for_each_flank(spec: &GearSpec, spins: usize, random: &mut Lcg, check: &mut i
     let [planet, side] = cut_at_base_circle(gears(spec, addenda(spec)), spec);
     let explicit = Differential::new(planet, side, n);
     let pair = Pair::new(spec);
-    let mesh = Mesh::new(&pair, LAW, true, 2.0 * REACH);
+    let mesh = Mesh::new(&pair, Law::Impact(LAW), pair.mean_cone, true, 2.0 * REACH);
     for i in 0..n {
         for (sigma, push) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
             for _ in 0..spins {
@@ -248,7 +249,7 @@ fn the_program_sees_no_pair_that_the_teeth_do_not_have() {
     for_each_mesh(1e-4, 2, |seen, touches, name| {
         let alpha = seen.free - seen.push * (REACH + seen.pair.normal_backlash / 2.0) / seen.pair.lever()[1];
         let mut visited = Vec::new();
-        seen.mesh.pairs(seen.position(alpha), |p| {
+        seen.mesh.engagement.pairs(seen.position(alpha), |p| {
             if p.depth > 0.0 {
                 visited.push((seen.place(p, alpha), *p));
             }

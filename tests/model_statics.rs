@@ -1,7 +1,7 @@
 //! What holds without motion: preload, sharing of load, the cogging well of free planets and its threshold.
 
 use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::mesh::{Mesh, MeshState};
+use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{Inputs, Parameters, PlanetSpin, Simulation, Start};
 
@@ -83,7 +83,7 @@ impl Statics {
     fn new() -> Self {
         let pair = Pair::new(&GearSpec::default());
         let law = Impact { stiffness: 5.77e5 * 1e3f64.powf(1.5), exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
-        Self { mesh: Mesh::new(&pair, law, true, 0.1), lever: pair.lever() }
+        Self { mesh: Mesh::new(&pair, Law::Impact(law), pair.mean_cone, true, 0.1), lever: pair.lever() }
     }
 
     /// Both planets alike: energy of the loaded mesh and torque on one planet, for side σ, spin ψ and load `torque`,

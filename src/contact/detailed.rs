@@ -175,7 +175,8 @@ impl<S: Spring> Detailed<S> {
                     Flank::Coast => -(pair.number + state.wrapped),
                 };
                 let name = PairName { planet, side, flank, tooth };
-                let s = (x - x.value()) * -sign + pair.s;
+                // the place of a mesh that knows no pairs stays
+                let s = (x - x.value()) * pair.s_slope + pair.s;
                 self.add_pair(&mut out, engagement, gaps, name, pair, (s, approach, w), state, &mut look);
             };
             if self.single {
@@ -213,7 +214,7 @@ impl<S: Spring> Detailed<S> {
         state: &DetailedState<T>,
         look: &mut impl FnMut(&SliceLoad),
     ) {
-        let sign = if name.flank == Flank::Drive { -1.0 } else { 1.0 };
+        let (sign, s_slope) = (if name.flank == Flank::Drive { -1.0 } else { 1.0 }, pair.s_slope);
         // gap of the tip corner with its slope, as functions of the state
         let (spot, delta) = match pair.spot {
             Spot::PlanetTip => (Spot::PlanetTip, s - engagement.corner[0].end),
@@ -254,8 +255,8 @@ impl<S: Spring> Detailed<S> {
             if p.value() <= 0.0 {
                 continue;
             }
-            // ∂p/∂(q, x, w); the place moves by −sign with x
-            let slope = [by_q, by_x + opening_by_s * (sign / r), nu * (-1.0 / r)];
+            // ∂p/∂(q, x, w)
+            let slope = [by_q, by_x - opening_by_s * (s_slope / r), nu * (-1.0 / r)];
             let elastic = self.spring.at(p.value(), s.value());
             let (dp, ds) = (p - p.value(), s - s.value());
             let torque = (dp * elastic.stiffness + ds * elastic.torque_by_place + elastic.torque) * slice.weight;
@@ -266,12 +267,13 @@ impl<S: Spring> Detailed<S> {
             for i in 0..3 {
                 out.force[i] = out.force[i] - total * slope[i] * r;
             }
-            out.force[1] = out.force[1] + by_place * sign;
+            out.force[1] = out.force[1] - by_place * s_slope;
             out.heat[0] += (total.value() - torque.value() / r) * rate.value();
             let mut friction_force = 0.0;
             if let Some(friction) = &self.friction {
                 let (force, heat) = self.friction_force(friction, slice, s, total, sign, state);
-                friction_force = force[2].value();
+                // the planet's flank slides toward its root where `sliding` is positive
+                friction_force = -force[2].value();
                 out.force[0] = out.force[0] + force[0];
                 out.force[1] = out.force[1] + force[1];
                 out.heat[1] += heat;

@@ -177,12 +177,10 @@ impl Engagement {
         let start = self.centred - sign * x;
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
-        let mut number = first as i64;
         let mut s = start + first * self.base_pitch;
-        for _ in 0..window.candidates {
+        for number in (first as i64..).take(window.candidates) {
             let place = s;
             s += self.base_pitch;
-            number += 1;
             let past_planet_tip = place - self.high;
             let past_side_tip = self.low - place + approach;
             // penetration, its derivatives, and what kind of contact it is
@@ -209,7 +207,7 @@ impl Engagement {
             visit(&ToothPair {
                 flank,
                 spot,
-                number: number - 1,
+                number,
                 place: delta,
                 s: place,
                 s_slope: -sign,

@@ -61,10 +61,10 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
             ),
         );
     }
-    if contact.damping_model == DampingModel::Restitution {
-        if let Err(problem) = crate::contact::damping::dimensionless_damping(contact.restitution) {
-            found.push(problem);
-        }
+    if contact.damping_model == DampingModel::Restitution
+        && let Err(problem) = crate::contact::damping::dimensionless_damping(contact.restitution)
+    {
+        found.push(problem);
     }
     let mut needs = |on: bool, name: &'static str, what: &str| {
         if on {

@@ -103,12 +103,12 @@ impl Simulation {
         let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
-        if let Gears::Teeth(teeth) = &model.gears {
-            if parameters.scene.start == Start::Equilibrium {
-                let full = teeth.full.acts(state);
-                by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
-                    .map_err(|problem| vec![problem])?;
-            }
+        if let Gears::Teeth(teeth) = &model.gears
+            && parameters.scene.start == Start::Equilibrium
+        {
+            let full = teeth.full.acts(state);
+            by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
+                .map_err(|problem| vec![problem])?;
         }
         commands::apply(&simulation.model, inputs, &mut simulation.state);
         catch_holds(&simulation.model, inputs, &mut simulation.state);
@@ -145,21 +145,21 @@ impl Simulation {
         let model = &**model;
         commands::apply(model, inputs, state);
         catch_holds(model, inputs, state);
-        if let Gears::Rigid(rigid) = &model.gears {
-            if !rigid.acts(state) {
-                let h = until - state.time;
-                let (q, v, work) = (state.q, state.v, state.work);
-                model.ideal.advance(state, inputs, h);
-                if !state.moves() {
-                    (state.q, state.v, state.work) = (q, v, work);
-                    return Err(StepFailure::not_finite(state.time));
-                }
-                state.time = until;
-                state.statistics.accepted += 1;
-                state.control.last = h;
-                state.wrap(&model.periods, PLANET + 1);
-                return Ok(());
+        if let Gears::Rigid(rigid) = &model.gears
+            && !rigid.acts(state)
+        {
+            let h = until - state.time;
+            let (q, v, work) = (state.q, state.v, state.work);
+            model.ideal.advance(state, inputs, h);
+            if !state.moves() {
+                (state.q, state.v, state.work) = (q, v, work);
+                return Err(StepFailure::not_finite(state.time));
             }
+            state.time = until;
+            state.statistics.accepted += 1;
+            state.control.last = h;
+            state.wrap(&model.periods, PLANET + 1);
+            return Ok(());
         }
         integrate(model, inputs, state, until)
     }

@@ -1,0 +1,108 @@
+//! Contact laws built as a scene builds them, in both forms: for a plain mesh, and for a mesh in detail.
+
+#![allow(dead_code)] // each test binary uses its own part
+
+use bevel_differential::contact::any_spring::AnySpring;
+use bevel_differential::contact::damping::Damping;
+use bevel_differential::contact::detailed::Slice;
+use bevel_differential::contact::impact::Impact;
+use bevel_differential::contact::law::{Face, Lumped, Power};
+use bevel_differential::contact::mesh::{Law, Mesh};
+use bevel_differential::contact::stiffness::{PairStiffness, REFERENCE_LINE_LOAD, RootSpec};
+use bevel_differential::geometry::{GearSpec, Pair};
+
+/// 1/d_max [1/m].
+pub const PER_FULL_DEPTH: f64 = 1e4;
+/// No damping, that of IMPACT, and Hunt and Crossley's of a coefficient of restitution of 0.8 at 0.1 m/s.
+pub const UNDAMPED: Damping = Damping::Step { coefficient: 0.0, per_full_depth: PER_FULL_DEPTH };
+pub const STEP: Damping = Damping::Step { coefficient: 5e4, per_full_depth: PER_FULL_DEPTH };
+pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
+
+/// Teeth of planet and side gear, exponent of the law, and backlash.
+pub const GEARS: [(i32, i32, f64, f64); 3] = [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 0.0), (11, 15, 2.2, 5e-5)];
+
+pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
+    Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    Impact,
+    Power,
+    Line,
+    LineWeber,
+    Lumped,
+}
+
+impl Kind {
+    /// Whether the law knows tooth pairs.
+    pub fn has_pairs(self) -> bool {
+        self != Kind::Lumped
+    }
+    /// Whether the law holds for every slice of the face.
+    pub fn can_be_sliced(self) -> bool {
+        matches!(self, Kind::Line | Kind::LineWeber)
+    }
+}
+
+pub fn impact(exponent: f64, damping: f64) -> Impact {
+    Impact { stiffness: 1.8e10, exponent, damping, per_full_depth: PER_FULL_DEPTH }
+}
+
+/// One law in both forms.
+pub struct Built {
+    pub law: Law,
+    pub spring: AnySpring,
+    /// The face as one slice.
+    pub whole: Slice,
+    pub cone: f64,
+}
+
+impl Built {
+    pub fn new(pair: &Pair, kind: Kind, exponent: f64, damping: Damping) -> Self {
+        let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, REFERENCE_LINE_LOAD).unwrap();
+        let (outer, inner) = (pair.outer_cone, pair.inner_cone);
+        let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
+        let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));
+        let per_cone = 1.0 / centroid;
+        let elastic = impact(exponent, 0.0);
+        let (law, spring, cone, weight) = match kind {
+            Kind::Impact => {
+                let Damping::Step { coefficient, .. } = damping else { panic!("IMPACT has its own damping") };
+                let law = Law::Impact(impact(exponent, coefficient));
+                (law, AnySpring::Power(elastic, pair.mean_cone), pair.mean_cone, 1.0)
+            }
+            Kind::Power => {
+                let law = Law::Power(Power { elastic, damping });
+                (law, AnySpring::Power(elastic, pair.mean_cone), pair.mean_cone, 1.0)
+            }
+            Kind::Line => {
+                let specific = stiffness.line();
+                let spring = AnySpring::Line(specific.clone());
+                (Law::Line(Face { specific, moment, per_cone, damping }), spring, centroid, moment)
+            }
+            Kind::LineWeber => {
+                let specific = stiffness.line_weber();
+                let spring = AnySpring::LineWeber(specific.clone());
+                (Law::LineWeber(Face { specific, moment, per_cone, damping }), spring, centroid, moment)
+            }
+            Kind::Lumped => {
+                let k = stiffness.mesh_mean() * moment / (centroid * centroid);
+                (Law::Lumped(Lumped { stiffness: k, damping }), AnySpring::Linear(k, centroid), centroid, 1.0)
+            }
+        };
+        Self { law, spring, whole: Slice { cone, weight }, cone }
+    }
+}
+
+/// Meshes of the three pairs under a law.
+pub fn meshes(kind: Kind, damping: Damping, corner_contact: bool) -> Vec<(Mesh, Pair)> {
+    GEARS
+        .into_iter()
+        .map(|of| {
+            let pair = gears(of);
+            let Built { law, cone, .. } = Built::new(&pair, kind, of.2, damping);
+            (Mesh::new(&pair, law, cone, corner_contact, 0.05), pair)
+        })
+        .collect()
+}
