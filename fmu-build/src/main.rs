@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
+use fmu_build::scene::job as scene_job;
 use fmu_build::{describe, package, places, study};
 use lexopt::prelude::*;
 
@@ -16,6 +17,12 @@ usage: cargo run --release [-- COMMAND]
                          --readme: also renew the table in README.md and the pictures in docs/images
   package                build target/fmu/BevelDifferential.fmu
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
+  scene [FILE|NAME] [--run] [--csv OUT.csv]
+                         tell what a scene simulates; without one list the scenes; --run: simulate it and sum up its
+                         outputs; --csv: also record them at each communication point
+  loads --scene FILE|NAME --out OUT.csv [--every TIME]
+                         record the force of each loaded tooth pair, with its place on both gears, for FEA; every
+                         communication step, or every TIME such as 0.1ms
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
   help                   show this";
 
@@ -23,6 +30,8 @@ enum Job {
     Study { readme: bool },
     Package,
     Describe { check: bool },
+    Scene(scene_job::Scene),
+    Loads(scene_job::Loads),
     TestPython(Vec<OsString>),
     Help,
 }
@@ -54,6 +63,12 @@ fn parse() -> Result<Job> {
             (Long("readme"), None) => job = Some(Job::Study { readme: true }),
             (Long("readme"), Some(Job::Study { readme })) => *readme = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
+            (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
+            (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
+            (Long("csv"), Some(Job::Scene(scene))) => scene.csv = Some(arguments.value()?.into()),
+            (Long("scene"), Some(Job::Loads(loads))) => loads.scene = Some(arguments.value()?.string()?),
+            (Long("out"), Some(Job::Loads(loads))) => loads.out = Some(arguments.value()?.into()),
+            (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
             (argument, _) => return Err(argument.unexpected().into()),
         }
     }
@@ -65,6 +80,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "study" => Job::Study { readme: false },
         "package" => Job::Package,
         "describe" => Job::Describe { check: false },
+        "scene" => Job::Scene(scene_job::Scene::default()),
+        "loads" => Job::Loads(scene_job::Loads::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -90,6 +107,8 @@ fn run(job: Job) -> Result<()> {
             }
             println!("{} is up to date", places::shown(&file));
         }
+        Job::Scene(scene) => scene.run()?,
+        Job::Loads(loads) => loads.run()?,
         Job::TestPython(arguments) => {
             let progress = Progress::start("looking for Python");
             let environment = Environment::ready(|what| progress.tell(what))?;
