@@ -13,6 +13,7 @@ pub mod progress;
 pub mod published;
 pub mod python;
 pub mod report;
+pub mod scene;
 pub mod study;
 pub mod theory;
 pub mod xml;

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
+use fmu_build::scene::job as scene_job;
 use fmu_build::{describe, off, package, places, study};
 use lexopt::prelude::*;
 
@@ -16,6 +17,12 @@ usage: cargo run --release [-- COMMAND]
                          --readme: also renew the table in README.md and the pictures in docs/images
   package                build target/fmu/BevelDifferential.fmu
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
+  scene [FILE|NAME] [--run] [--csv OUT.csv]
+                         tell what a scene simulates; without one list the scenes; --run: simulate it and sum up its
+                         outputs; --csv: also record them at each communication point
+  loads --scene FILE|NAME --out OUT.csv [--every TIME]
+                         record the force of each loaded tooth pair, with its place on both gears, for FEA; every
+                         communication step, or every TIME such as 0.1ms
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
   off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
@@ -25,6 +32,8 @@ enum Job {
     Study { readme: bool },
     Package,
     Describe { check: bool },
+    Scene(scene_job::Scene),
+    Loads(scene_job::Loads),
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
     Help,
@@ -59,6 +68,12 @@ fn parse() -> Result<Job> {
             (Long("quick"), Some(Job::Off { quick, .. })) => *quick = true,
             (Long("write"), Some(Job::Off { write, .. })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
+            (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
+            (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
+            (Long("csv"), Some(Job::Scene(scene))) => scene.csv = Some(arguments.value()?.into()),
+            (Long("scene"), Some(Job::Loads(loads))) => loads.scene = Some(arguments.value()?.string()?),
+            (Long("out"), Some(Job::Loads(loads))) => loads.out = Some(arguments.value()?.into()),
+            (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
             (argument, _) => return Err(argument.unexpected().into()),
         }
     }
@@ -70,6 +85,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "study" => Job::Study { readme: false },
         "package" => Job::Package,
         "describe" => Job::Describe { check: false },
+        "scene" => Job::Scene(scene_job::Scene::default()),
+        "loads" => Job::Loads(scene_job::Loads::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
         "help" => Job::Help,
@@ -97,6 +114,8 @@ fn run(job: Job) -> Result<()> {
             }
             println!("{} is up to date", places::shown(&file));
         }
+        Job::Scene(scene) => scene.run()?,
+        Job::Loads(loads) => loads.run()?,
         Job::TestPython(arguments) => {
             let progress = Progress::start("looking for Python");
             let environment = Environment::ready(|what| progress.tell(what))?;

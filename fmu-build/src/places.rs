@@ -30,6 +30,11 @@ pub fn study() -> PathBuf {
     target().join("study")
 }
 
+/// The scenes kept in the repository.
+pub fn scenes() -> PathBuf {
+    workspace().join("scenes")
+}
+
 /// The model description kept in the repository.
 pub fn model_description() -> PathBuf {
     workspace().join("modelDescription").join("modelDescription.xml")

@@ -47,6 +47,10 @@ pub struct DetailedLoad<T> {
 pub struct SliceLoad<'a> {
     /// The pair.
     pub pair: &'a ToothPair,
+    /// Kind of contact, and the arc Δ past the end of the path or the place on it [rad].
+    pub spot: Spot,
+    /// See `spot`.
+    pub place: f64,
     /// Cone distance [m].
     pub cone: f64,
     /// Part of the face width that the slice stands for, by its share of J.
@@ -61,7 +65,7 @@ pub struct SliceLoad<'a> {
     pub name: PairName,
     /// Normal force [N].
     pub normal: f64,
-    /// Friction force along the flank, positive toward the planet's tip on the planet [N].
+    /// Friction force along the flank, positive toward the planet's root on the planet [N].
     pub friction: f64,
     /// Direction parts of the normal: along the planet's axis, along the side gear's axis, along the rotation.
     pub parts: [f64; 3],
@@ -284,6 +288,8 @@ impl<S: Spring> Detailed<S> {
             out.tangential = out.tangential - total * forward * sign;
             look(&SliceLoad {
                 pair,
+                spot,
+                place: if spot == Spot::Path { s.value() } else { delta.value() },
                 cone: r,
                 share: slice.weight / self.whole,
                 arc: p.value(),

@@ -52,8 +52,13 @@ impl FlankGaps {
     /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
     fn ids(&self, name: PairName) -> (MeshId, PairId) {
         let [planets, z_p, z_s] = self.counts;
-        let ahead = name.tooth + z_s * name.planet as i64 / planets;
-        let planet_tooth = if name.side == 0 { name.tooth } else { z_p / 2 - name.tooth };
+        // planets whose meshes stand half a pitch on (assembly::phases) have their tooth 0 half a pitch forward
+        let halves = 2 * z_s * name.planet as i64 / planets;
+        let odd = halves % 2;
+        let forward = if name.side == 1 && z_p % 2 == 1 { 0 } else { odd };
+        let ahead = name.tooth + (halves + forward) / 2;
+        let opposite = if z_p % 2 == 0 { z_p / 2 - odd } else { z_p / 2 };
+        let planet_tooth = if name.side == 0 { name.tooth } else { opposite - name.tooth };
         let side_tooth = if name.flank == Flank::Drive { ahead } else { ahead - 1 };
         (
             MeshId { planet: name.planet, side: name.side },

@@ -46,6 +46,8 @@ pub struct CornerContact {
     pub gap: Jet,
     /// Polar angle of the corner about its own axis: the tip angle [rad].
     pub own_polar: f64,
+    /// Azimuth of the corner about its own axis from the plane of both axes [rad].
+    pub own_azimuth: f64,
     /// Polar angle of the corner about the mate's axis [rad].
     pub mate_polar: f64,
 }
@@ -75,7 +77,7 @@ impl ClosedForm {
         let inv = y.atan2(cos_polar) * (1.0 / sb) - y.atan2(cos_polar * sb);
         let turn = eta - inv + Jet::constant(self.mate_inv_pitch);
         let gap = delta + Jet::constant(self.end) - turn * sb;
-        CornerContact { gap, own_polar: self.tip, mate_polar: crate::numeric::acos(cos_polar.v) }
+        CornerContact { gap, own_polar: self.tip, own_azimuth: chi.v, mate_polar: crate::numeric::acos(cos_polar.v) }
     }
 }
 

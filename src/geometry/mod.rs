@@ -1,5 +1,6 @@
 //! Geometry of a straight bevel pair with spherical-involute flanks: lives on the unit sphere, scales with R.
 
+pub mod action;
 pub mod addendum;
 pub mod assembly;
 pub mod checks;

@@ -8,6 +8,7 @@ use super::equations::Equations;
 use crate::contact::mesh::Mesh;
 use crate::contact::pairs::{Flank, Spot, ToothPair};
 use crate::geometry::Pair;
+use crate::geometry::action::{Action, Contact, Where};
 use crate::integrate::Point;
 use crate::numeric::{cos, sin, sqrt};
 
@@ -22,6 +23,8 @@ pub struct ToothLoad {
     pub flank: Flank,
     /// Kind of contact.
     pub spot: Spot,
+    /// Arc Δ past the end of the path [rad]; the place on the path if on it.
+    pub place: f64,
     /// Numbers of the planet's and the side gear's tooth, from 0.
     pub teeth: [usize; 2],
     /// Place on the path of contact [rad].
@@ -34,10 +37,36 @@ pub struct ToothLoad {
     pub depth: f64,
     /// Normal force [N].
     pub normal: f64,
-    /// Friction along the flank, positive toward the planet's tip on the planet [N].
+    /// Friction along the flank, positive toward the planet's root on the planet [N].
     pub friction: f64,
     /// Parts of the normal: along the planet's axis and the side gear's, away from the apex, and along the rotation.
     pub parts: [f64; 3],
+}
+
+impl ToothLoad {
+    /// Which of the mirror images of the line of action it is on: +1 where the contact moves up the path when the planet
+    /// turns forward about its axis from apex to heel.
+    pub fn turn(&self) -> f64 {
+        if (self.side == 0) == (self.flank == Flank::Coast) { 1.0 } else { -1.0 }
+    }
+
+    /// Where it acts, in the frame of the mesh.
+    pub fn contact(&self, action: &Action) -> Contact {
+        let place = match self.spot {
+            Spot::Path => Where::Path(self.place),
+            Spot::PlanetTip => Where::PlanetTip(self.place),
+            Spot::SideTip => Where::SideTip(self.place),
+        };
+        action.contact(place, self.turn())
+    }
+
+    /// Azimuth of the middle of its tooth of gear `i` (0 planet, 1 side gear) from that of tooth 0, about the gear's axis
+    /// from apex to heel [rad].
+    pub fn tooth_azimuth(&self, pair: &Pair, i: usize) -> f64 {
+        // planet teeth count about the axis to the apex, side gear teeth about +x, which leads away from it on the left
+        let sign = if i == 1 && self.side == 0 { 1.0 } else { -1.0 };
+        sign * self.teeth[i] as f64 * pair.gears[i].tooth_pitch()
+    }
 }
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
@@ -79,7 +108,8 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     planet,
                     side: s,
                     flank: slice.pair.flank,
-                    spot: slice.pair.spot,
+                    spot: slice.spot,
+                    place: slice.place,
                     teeth: teeth(slice.pair.flank, slice.pair.number),
                     s: slice.s,
                     cone: slice.cone,
@@ -98,6 +128,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                 side: s,
                 flank: contact.flank,
                 spot: contact.spot,
+                place: contact.place,
                 teeth: teeth(contact.flank, contact.number),
                 s: contact.s,
                 cone: mesh.cone,

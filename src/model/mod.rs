@@ -38,7 +38,7 @@ pub use parameters::{
     CarrierDrive, Effects, GearContact, InertiaSpec, Inputs, Material, Method, Parameters, PlanetSpin, Scene,
     SideDrive, SolverSpec, Start,
 };
-pub use plan::Plan;
+pub use plan::{Group, Plan};
 pub use readings::{Books, Forces, MAX_PLANETS, MeshForces, Motion, Stresses, efficiency};
-pub use simulation::{Simulation, StepFailure};
+pub use simulation::{CostClass, Simulation, StepFailure};
 pub use state::State;

@@ -194,6 +194,22 @@ impl Plan {
         self.active.into_iter().flatten()
     }
 
+    /// Degrees of freedom, the imposed ones among them; there are twice as many states.
+    pub fn freedoms(&self) -> usize {
+        match self.contact {
+            GearContact::Ideal => 2 + if self.ends { 2 } else { 0 },
+            _ => self.layout().count(),
+        }
+    }
+
+    /// How many of them are imposed.
+    pub fn imposed(&self) -> usize {
+        let spins = if self.contact == GearContact::Ideal { 1 } else { self.layout().groups };
+        usize::from(self.carrier_imposed)
+            + if self.spin_imposed { spins } else { 0 }
+            + self.side_imposed.iter().filter(|&&imposed| imposed).count()
+    }
+
     /// One line that tells what is simulated: level, drives, planets, states, effects.
     pub fn describe(&self) -> String {
         let level = match self.contact {
@@ -217,11 +233,7 @@ impl Plan {
             side(1),
             self.planets,
             self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
-            if self.contact == GearContact::Ideal {
-                2 * (2 + if self.ends { 2 } else { 0 })
-            } else {
-                2 * self.layout().count()
-            },
+            2 * self.freedoms(),
             if effects.is_empty() { "none".into() } else { effects.join(", ") },
         )
     }

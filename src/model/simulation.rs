@@ -10,6 +10,7 @@ use super::effects::{CAUSES, Cause};
 use super::equations::Equations;
 use super::loads::ToothLoad;
 use super::parameters::{Inputs, Parameters, Start};
+use super::plan::Plan;
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
 use super::rigid::RigidEquations;
 use super::run::{self, BUDGET};
@@ -86,6 +87,21 @@ impl fmt::Display for StepFailure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "at t = {} s: {}", self.time, self.message)
     }
+}
+
+/// What a step costs, by what has to be evaluated, cheapest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CostClass {
+    /// No teeth and nothing that acts beside them: a step is a formula.
+    ClosedForm,
+    /// No teeth, but torques of effects: integrated, without fast motion.
+    Rigid,
+    /// Teeth or springs that see no effect.
+    Teeth,
+    /// The same with effects on bodies.
+    TeethAndBodies,
+    /// Teeth slice by slice: errors, friction, pins.
+    TeethInDetail,
 }
 
 /// A simulation; cloning it takes a snapshot (constants are shared, the state is copied).
@@ -286,6 +302,22 @@ impl Simulation {
             s.jacobians,
             self.books().energy_residual
         )
+    }
+
+    /// What is simulated.
+    pub fn plan(&self) -> &Plan {
+        &self.model.ideal.plan
+    }
+
+    /// What a step costs at present; a lock or a broken tooth may change it.
+    pub fn cost(&self) -> CostClass {
+        match &self.model.gears {
+            Gears::Rigid(rigid) if !rigid.acts(&self.state) => CostClass::ClosedForm,
+            Gears::Rigid(_) => CostClass::Rigid,
+            Gears::Teeth(teeth) if teeth.full.in_detail => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.full.acts(&self.state) => CostClass::TeethAndBodies,
+            Gears::Teeth(_) => CostClass::Teeth,
+        }
     }
 
     /// One line that tells what is simulated.

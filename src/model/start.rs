@@ -70,7 +70,10 @@ fn loads(model: &Model, ideal: &Ideal, inputs: &Inputs) -> [f64; 2] {
         [true, false] => [load[1]; 2],
         [false, true] => [load[0]; 2],
         [false, false] => {
-            let a = ideal.side_accelerations(&ideal.motion(inputs));
+            // what shafts carry is quasi-static: wheels at their ends accelerate with their side gears
+            let mut together = *ideal;
+            together.plan.shafts = [false; 2];
+            let a = together.side_accelerations(&together.motion(inputs));
             [0, 1].map(|s| load[s] + model.ideal.inertia.side[s] * a[s])
         }
     }
