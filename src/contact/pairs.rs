@@ -178,7 +178,9 @@ impl Engagement {
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
         let mut s = start + first * self.base_pitch;
-        for number in (first as i64..).take(window.candidates) {
+        // a wild trial state may stand further off than can be counted
+        let first = first as i64;
+        for i in 0..window.candidates as i64 {
             let place = s;
             s += self.base_pitch;
             let past_planet_tip = place - self.high;
@@ -207,7 +209,7 @@ impl Engagement {
             visit(&ToothPair {
                 flank,
                 spot,
-                number,
+                number: first.wrapping_add(i),
                 place: delta,
                 s: place,
                 s_slope: -sign,
