@@ -237,7 +237,7 @@ impl Host {
 
     /// The last message; empty if there is none.
     pub fn last(&self) -> String {
-        self.log().last().map_or_else(String::new, |line| line.message.clone())
+        self.lines.lock().unwrap().last().map_or_else(String::new, |line| line.message.clone())
     }
 
     pub fn clear_log(&self) {
