@@ -53,9 +53,11 @@ pub struct SliceLoad<'a> {
     pub place: f64,
     /// Cone distance [m].
     pub cone: f64,
-    /// Part of the face width that the slice stands for, by its share of J.
+    /// Part of the face that the slice stands for, by its share of J.
     pub share: f64,
-    /// Its penetration arc [rad], position s [rad], and elastic energy [J].
+    /// Normal force per width [N/m].
+    pub line_load: f64,
+    /// Its penetration arc [rad].
     pub arc: f64,
     /// Place on the path [rad].
     pub s: f64,
@@ -67,6 +69,8 @@ pub struct SliceLoad<'a> {
     pub normal: f64,
     /// Friction force along the flank, positive toward the planet's root on the planet [N].
     pub friction: f64,
+    /// How the flanks slide, where friction is looked at.
+    pub sliding: Option<Sliding<f64>>,
     /// Direction parts of the normal: along the planet's axis, along the side gear's axis, along the rotation.
     pub parts: [f64; 3],
 }
@@ -78,12 +82,14 @@ pub struct Slice {
     pub cone: f64,
     /// J_j, its share of ∫R² dR [m³] (of the whole where the law is one for the face).
     pub weight: f64,
+    /// Width over which its force is spread [m].
+    pub width: f64,
 }
 
 /// What tooth errors add to the gap of a pair, slice by slice [m].
 pub trait Gaps: Send + Sync + std::fmt::Debug {
-    /// Gap e with its first and second derivative by s.
-    fn at(&self, pair: PairName, slice: usize, s: f64) -> [f64; 3];
+    /// Gap e with its first and, where it is asked for, second derivative by s.
+    fn at(&self, pair: PairName, slice: usize, s: f64, twice: bool) -> [f64; 3];
     /// A gap that no pair falls below (zero or negative).
     fn least(&self) -> f64;
 }
@@ -118,6 +124,8 @@ pub struct Detailed<S> {
     pitch_arc: [f64; 2],
     lever: [f64; 2],
     whole: f64,
+    /// Cone distance of the resultant of error-free teeth [m]: damping is that of the whole face, shared out.
+    resultant: f64,
 }
 
 impl<S: Spring> Detailed<S> {
@@ -135,6 +143,8 @@ impl<S: Spring> Detailed<S> {
             spring,
             damping,
             whole: slices.iter().map(|s| s.weight).sum(),
+            resultant: slices.iter().map(|s| s.weight).sum::<f64>()
+                / slices.iter().map(|s| s.weight / s.cone).sum::<f64>(),
             slices,
             single,
             friction,
@@ -142,6 +152,12 @@ impl<S: Spring> Detailed<S> {
             pitch_arc: pair.pitch_arc,
             lever: pair.lever(),
         }
+    }
+
+    /// Width over which the force of a whole face is spread [m].
+    pub fn whole_width(&self) -> f64 {
+        let moment: f64 = self.slices.iter().map(|s| s.width * s.cone).sum();
+        moment / self.resultant
     }
 
     /// Loads at `state`; each loaded slice is shown to `look`.
@@ -169,7 +185,8 @@ impl<S: Spring> Detailed<S> {
         let inner = self.slices[0].cone;
         for (flank, sign) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)] {
             let approach = q * sign - engagement.half_backlash();
-            let reach = approach.value() + slack / inner;
+            let excess = slack / inner;
+            let reach = approach.value() + excess;
             if reach <= 0.0 {
                 continue;
             }
@@ -186,7 +203,7 @@ impl<S: Spring> Detailed<S> {
             if self.single {
                 visit(&ToothPair::single(flank, approach.value()));
             } else {
-                engagement.near(flank, x.value(), reach, visit);
+                engagement.near(flank, x.value(), reach, excess, visit);
             }
         }
         out
@@ -251,7 +268,7 @@ impl<S: Spring> Detailed<S> {
             let mut opening = w * nu;
             let mut opening_by_s = w * nu_slope;
             if let Some(gaps) = gaps {
-                let [e, e1, e2] = gaps.at(name, j, s.value());
+                let [e, e1, e2] = gaps.at(name, j, s.value(), T::HAS_SLOPES);
                 opening = opening + s.chain(e, e1);
                 opening_by_s = opening_by_s + s.chain(e1, e2);
             }
@@ -266,18 +283,21 @@ impl<S: Spring> Detailed<S> {
             let torque = (dp * elastic.stiffness + ds * elastic.torque_by_place + elastic.torque) * slice.weight;
             let by_place =
                 (dp * elastic.torque_by_place + ds * elastic.by_place_twice + elastic.by_place) * slice.weight;
-            let rate = (slope[0] * state.rate[0] + slope[1] * state.rate[1] + slope[2] * state.rate[2]) * r;
-            let total = self.damped(torque * (1.0 / r), p * r, rate, slice.weight / self.whole);
+            let rate = slope[0] * state.rate[0] + slope[1] * state.rate[1] + slope[2] * state.rate[2];
+            // as if the whole face were in this state: its force at the cone distance of the resultant
+            let (share, cone) = (slice.weight / self.whole, self.resultant);
+            let damped = self.damped(torque * (1.0 / (share * cone)), p * cone, rate * cone) * (share * cone);
             for i in 0..3 {
-                out.force[i] = out.force[i] - total * slope[i] * r;
+                out.force[i] = out.force[i] - damped * slope[i];
             }
             out.force[1] = out.force[1] - by_place * s_slope;
-            out.heat[0] += (total.value() - torque.value() / r) * rate.value();
-            let mut friction_force = 0.0;
+            out.heat[0] += (damped.value() - torque.value()) * rate.value();
+            let total = damped * (1.0 / r);
+            let (mut friction_force, mut how) = (0.0, None);
             if let Some(friction) = &self.friction {
-                let (force, heat) = self.friction_force(friction, slice, s, total, sign, state);
-                // the planet's flank slides toward its root where `sliding` is positive
-                friction_force = -force[2].value();
+                let (force, heat, sliding) = self.friction_force(friction, slice, s, total, sign, state);
+                how = Some(sliding);
+                friction_force = force[2].value();
                 out.force[0] = out.force[0] + force[0];
                 out.force[1] = out.force[1] + force[1];
                 out.heat[1] += heat;
@@ -291,13 +311,15 @@ impl<S: Spring> Detailed<S> {
                 spot,
                 place: if spot == Spot::Path { s.value() } else { delta.value() },
                 cone: r,
-                share: slice.weight / self.whole,
+                share,
+                line_load: total.value() / slice.width,
                 arc: p.value(),
                 s: s.value(),
                 energy: elastic.energy * slice.weight,
                 name,
                 normal: total.value(),
                 friction: friction_force,
+                sliding: how,
                 parts: [planet_part.value(), side_part.value(), -sign * forward.value()],
             });
         }
@@ -337,19 +359,19 @@ impl<S: Spring> Detailed<S> {
     }
 
     #[inline(always)]
-    fn damped<T: Scalar>(&self, elastic: T, d: T, rate: T, share: f64) -> T {
+    fn damped<T: Scalar>(&self, elastic: T, d: T, rate: T) -> T {
         let total = match self.damping {
             Damping::Step { coefficient, per_full_depth } => {
                 let u = d * per_full_depth;
                 let step = if u.value() < 1.0 { u * u * (u * -2.0 + 3.0) } else { T::constant(1.0) };
-                elastic + step * rate * (coefficient * share)
+                elastic + step * rate * coefficient
             }
             Damping::HuntCrossley { lambda } => elastic * (rate * lambda + 1.0),
         };
         if total.value() > 0.0 { total } else { T::constant(0.0) }
     }
 
-    /// Forces conjugate to q and x of friction in a slice, the force itself, and heat.
+    /// Forces conjugate to q and x of friction in a slice, the force itself, heat, and how the flanks slide.
     #[inline(always)]
     fn friction_force<T: Scalar>(
         &self,
@@ -359,7 +381,7 @@ impl<S: Spring> Detailed<S> {
         normal: T,
         sign: f64,
         state: &DetailedState<T>,
-    ) -> ([T; 3], f64) {
+    ) -> ([T; 3], f64, Sliding<f64>) {
         let [q_rate, x_rate, _] = state.rate;
         // cotδ_b sinψ of both gears, and the travels of their flanks
         let psi = [s + self.pitch_arc[0], s * -1.0 + self.pitch_arc[1]];
@@ -374,17 +396,17 @@ impl<S: Spring> Detailed<S> {
         });
         // the contact point moves across the profile, so that these are the flanks' own speeds along it
         let rolling = own[0] + own[1];
-        let load = normal * (1.0 / self.width_of(slice));
+        let load = normal * (1.0 / slice.width);
         let mu = friction.signed(&Sliding { sliding, rolling, load, curvature });
         let force = normal * mu * -1.0;
         let on = [force * arm[0] * r, force * arm[1] * -r];
         let heat = -(force.value() * sliding.value());
-        ([on[1] * -sign, (on[0] + on[1]) * -sign, force], heat)
-    }
-
-    /// Width of the face that a slice stands for [m].
-    #[inline(always)]
-    fn width_of(&self, slice: &Slice) -> f64 {
-        self.friction.as_ref().map_or(1.0, ToothFriction::face_width) * slice.weight / self.whole
+        let seen = Sliding {
+            sliding: sliding.value(),
+            rolling: rolling.value(),
+            load: load.value(),
+            curvature: curvature.map(Scalar::value),
+        };
+        ([on[1] * -sign, (on[0] + on[1]) * -sign, force], heat, seen)
     }
 }

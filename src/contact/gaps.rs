@@ -78,16 +78,17 @@ impl FlankGaps {
 }
 
 impl Gaps for FlankGaps {
-    fn at(&self, name: PairName, slice: usize, s: f64) -> [f64; 3] {
+    fn at(&self, name: PairName, slice: usize, s: f64, twice: bool) -> [f64; 3] {
         let (mesh, pair) = self.ids(name);
         let r = self.cones[slice];
         let mut gap = [0.0; 3];
-        let _ = (&mut gap, mesh, pair, r, s);
+        let _ = (&mut gap, mesh, pair, r, s, twice);
         #[cfg(feature = "tooth_errors")]
         if let Some(errors) = &self.errors {
             let at = |s: f64| errors.gap(mesh, pair, r, Dual::<1>::variable(s, 0));
             let here = at(s);
-            gap = [here.value(), here.d[0], (at(s + STEP).d[0] - at(s - STEP).d[0]) / (2.0 * STEP)];
+            let curvature = || (at(s + STEP).d[0] - at(s - STEP).d[0]) / (2.0 * STEP);
+            gap = [here.value(), here.d[0], if twice { curvature() } else { 0.0 }];
         }
         #[cfg(feature = "tooth_fault")]
         if let Some(chip) = &self.chip {

@@ -18,7 +18,7 @@ pub enum ToothFriction {}
 
 #[allow(missing_docs)]
 impl ToothFriction {
-    pub fn face_width(&self) -> f64 {
+    pub fn outside(&self, _: &Sliding<f64>) -> Option<String> {
         match *self {}
     }
     pub fn signed<T: Scalar>(&self, _: &Sliding<T>) -> T {

@@ -161,7 +161,7 @@ impl Engagement {
             return;
         }
         let flank = if q < 0.0 { Flank::Drive } else { Flank::Coast };
-        self.near(flank, x, approach, |pair| {
+        self.near(flank, x, approach, 0.0, |pair| {
             if pair.depth > 0.0 {
                 visit(pair);
             }
@@ -169,9 +169,9 @@ impl Engagement {
     }
 
     /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach, the
-    /// penetrating ones among them.
+    /// penetrating ones among them; `slack` is how much of the approach only material in excess can close.
     #[inline(always)]
-    pub fn near(&self, flank: Flank, x: f64, approach: f64, mut visit: impl FnMut(&ToothPair)) {
+    pub fn near(&self, flank: Flank, x: f64, approach: f64, slack: f64, mut visit: impl FnMut(&ToothPair)) {
         // sign = ∂a/∂q = −∂s/∂x
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
         let start = self.centred - sign * x;
@@ -184,7 +184,7 @@ impl Engagement {
             let place = s;
             s += self.base_pitch;
             let past_planet_tip = place - self.high;
-            let past_side_tip = self.low - place + approach;
+            let past_side_tip = self.low - place + (approach - slack);
             // penetration, its derivatives, and what kind of contact it is
             let (spot, delta, depth, slope, curvature) = if past_planet_tip > 0.0 {
                 if past_planet_tip * past_planet_tip >= approach * self.corner[0].spread || !self.corner_contact {

@@ -1,6 +1,6 @@
 //! Friction along the flanks of a tooth pair, by one of the laws of `friction`.
 
-use crate::friction::{Conditions, ToothFrictionSpec, signed_coefficient};
+use crate::friction::{Conditions, ToothFrictionSpec, outside, signed_coefficient};
 use crate::numeric::Scalar;
 
 /// How two flanks slide on each other.
@@ -23,30 +23,29 @@ pub struct ToothFriction {
     pub spec: ToothFrictionSpec,
     /// E* of the contact [Pa].
     pub modulus: f64,
-    /// Face width [m].
-    pub face_width: f64,
 }
 
 impl ToothFriction {
-    /// Face width [m].
-    #[inline]
-    pub fn face_width(&self) -> f64 {
-        self.face_width
-    }
-
     /// Coefficient of friction with the sign of the sliding speed.
     #[inline]
     pub fn signed<T: Scalar>(&self, at: &Sliding<T>) -> T {
+        signed_coefficient(&self.spec, &self.conditions(at))
+    }
+
+    /// What of these conditions lies outside the range that the law was published for.
+    pub fn outside(&self, at: &Sliding<f64>) -> Option<String> {
+        outside(&self.spec, &self.conditions(at)).map(|outside| outside.to_string())
+    }
+
+    #[inline]
+    fn conditions<T: Scalar>(&self, at: &Sliding<T>) -> Conditions<T> {
         let [a, b] = at.curvature;
-        signed_coefficient(
-            &self.spec,
-            &Conditions {
-                sliding: at.sliding,
-                rolling: at.rolling.abs(),
-                line_load: at.load,
-                radius: a * b / (a + b),
-                modulus: self.modulus,
-            },
-        )
+        Conditions {
+            sliding: at.sliding,
+            rolling: at.rolling.abs(),
+            line_load: at.load,
+            radius: a * b / (a + b),
+            modulus: self.modulus,
+        }
     }
 }

@@ -27,6 +27,8 @@ pub struct Instance {
     pub now: Snapshot,
     /// The host's log.
     pub log: Log,
+    /// Whether a law used outside its range was told of.
+    warned: bool,
 }
 
 /// Accuracy and interval the host asks for.
@@ -43,7 +45,7 @@ pub struct Experiment {
 impl Instance {
     /// A fresh instance with start values.
     pub fn new(log: Log) -> Self {
-        Self { now: Snapshot::default(), log }
+        Self { now: Snapshot::default(), log, warned: false }
     }
 
     /// fmi2SetupExperiment. A tolerance the host set as a parameter wins over the one given here.
@@ -104,6 +106,7 @@ impl Instance {
     /// fmi2Reset: as after fmi2Instantiate, but for the log's settings.
     pub fn reset(&mut self) -> Answer {
         self.now = Snapshot::default();
+        self.warned = false;
         Ok(())
     }
 
@@ -141,13 +144,29 @@ impl Instance {
         if until <= time {
             return Ok(());
         }
-        let Err(failure) = simulation.advance(until) else { return Ok(()) };
+        let Err(failure) = simulation.advance(until) else {
+            if simulation.is_watched() {
+                self.watch();
+            }
+            return Ok(());
+        };
         let last = simulation.time();
         self.now.phase = Phase::StepFailed;
         Err(Refusal::discard(format!(
             "{failure}; values are those of the last successful time {last} s; \
              go on with fmi2SetFMUstate or fmi2Reset"
         )))
+    }
+
+    /// Warns once when a law is used outside the range that it was published for.
+    fn watch(&mut self) {
+        if self.warned {
+            return;
+        }
+        if let Some(problem) = self.now.simulation.as_ref().and_then(Simulation::out_of_range) {
+            self.warned = true;
+            self.log.warning(&problem.to_string());
+        }
     }
 
     /// fmi2GetStatus.

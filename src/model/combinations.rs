@@ -38,7 +38,8 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     }
     let speed_driven = scene.left_drive == SideDrive::Speed || scene.right_drive == SideDrive::Speed;
     if speed_driven && left_out("effects.half_shaft") {
-        refuse("scene.left_drive", "a speed-driven side needs its half-shaft, which this build leaves out".into());
+        let name = if scene.left_drive == SideDrive::Speed { "scene.left_drive" } else { "scene.right_drive" };
+        refuse(name, "a speed-driven side needs its half-shaft, which this build leaves out".into());
     }
     let shaft = &p.specs.half_shaft;
     for (s, (drive, end)) in

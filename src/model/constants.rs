@@ -7,7 +7,7 @@ use super::full::Full;
 use super::ideal::Ideal;
 use super::laws::Laws;
 use super::parameters::{GearContact, Parameters};
-use super::plan::Plan;
+use super::plan::{Layout, Plan};
 use super::rigid::Rigid;
 use super::state::MAX_DOF;
 use super::strength::Strength;
@@ -42,6 +42,8 @@ pub struct Model {
     pub gears: Gears,
     /// Stress and fatigue, where the scene asks for them.
     pub strength: Option<Box<Strength>>,
+    /// Where each degree of freedom stands.
+    pub layout: Layout,
     /// Periods of the positions: a tooth pitch, for the carrier a turn [rad].
     pub periods: [f64; MAX_DOF],
     /// What is unusual about the scene.
@@ -76,7 +78,8 @@ impl Model {
         let inertia = Inertias::new(parameters, &pair);
         let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
         let ideal = Ideal { plan, inertia, ratio };
-        let warnings = checks::warnings(&spec, &pair);
+        let mut warnings = checks::warnings(&spec, &pair);
+        warnings.extend(tooth.warning(parameters, &pair));
         let setting = Setting { parameters, pair: &pair, plan: &plan };
         let gears = match plan.contact {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&setting, &ideal))),
@@ -86,7 +89,16 @@ impl Model {
             }
         };
         let strength = Strength::new(parameters, &pair).map_err(|p| vec![p])?.map(Box::new);
-        Ok(Self { parameters: *parameters, ideal, gears, strength, periods: plan.periods(&pair), warnings, pair })
+        Ok(Self {
+            parameters: *parameters,
+            ideal,
+            gears,
+            strength,
+            layout: plan.layout(),
+            periods: plan.periods(&pair),
+            warnings,
+            pair,
+        })
     }
 
     /// Takes over what may be tuned while a simulation runs.
@@ -102,6 +114,8 @@ impl Model {
                 teeth.full.detailed.damping = damping;
                 teeth.full.detailed.friction = ToothEffects::friction(&self.parameters, &self.pair);
                 teeth.full.grips = grips(&setting);
+                // a coefficient that was 0 needs the loads from now on
+                teeth.full.in_detail |= teeth.full.grips.iter().any(|g| g.depends_on_load());
             }
         }
     }

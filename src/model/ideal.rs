@@ -37,9 +37,14 @@ impl Ideal {
     /// M of the equations of motion: m₁₁, m₁₂, m₂₂ [kg·m²].
     fn mass(&self) -> [f64; 3] {
         let (r, j) = (self.ratio, &self.inertia);
-        // an end behind a shaft that twists does not move with its side gear
-        let [left, right] = [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 });
+        let [left, right] = self.side_inertia();
         [j.carrier + left + right, r * (left - right), r * r * (left + right) + j.planets * j.planet]
+    }
+
+    /// Inertias of the side gears: an end behind a shaft that twists does not move with its gear [kg·m²].
+    fn side_inertia(&self) -> [f64; 2] {
+        let j = &self.inertia;
+        [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
     }
 
     /// Lets imposed speeds jump to `inputs`; what is free follows the impulse through the gears. Work of the jump [J].
@@ -121,9 +126,10 @@ impl Ideal {
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, state: &State) -> f64 {
         let (v, j) = (&state.v, &self.inertia);
+        let [left, right] = self.side_inertia();
         0.5 * (j.carrier * v[CARRIER] * v[CARRIER]
-            + j.side[0] * v[0] * v[0]
-            + j.side[1] * v[1] * v[1]
+            + left * v[0] * v[0]
+            + right * v[1] * v[1]
             + j.planets * j.planet * v[PLANET] * v[PLANET])
     }
 }

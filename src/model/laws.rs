@@ -35,7 +35,9 @@ impl Laws {
             let root = RootSpec { fillet: p.geometry.root_fillet };
             PairStiffness::new(pair, &root, p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load)
         };
-        let whole = |cone: f64, weight: f64| vec![Slice { cone, weight }];
+        // a resultant at `cone` of a load that grows with R, spread so that the line load is the one there
+        let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
+        let whole = |cone: f64, weight: f64| vec![Slice { cone, weight, width: width(cone) }];
         if p.scene.gear_contact == GearContact::Lumped {
             let per_width = if p.contact.mesh_stiffness_from_geometry {
                 stiffness()?.mesh_mean()
@@ -129,7 +131,7 @@ fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
     points
         .map(|(x, w)| {
             let cone = middle + half * x;
-            Slice { cone, weight: half * w * cone * cone }
+            Slice { cone, weight: half * w * cone * cone, width: half * w }
         })
         .collect()
 }

@@ -33,6 +33,8 @@ pub struct ToothLoad {
     pub cone: f64,
     /// Share of the face that it stands for.
     pub share: f64,
+    /// Normal force per width [N/m].
+    pub line_load: f64,
     /// Penetration along the line of action [m].
     pub depth: f64,
     /// Normal force [N].
@@ -114,6 +116,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     s: slice.s,
                     cone: slice.cone,
                     share: slice.share,
+                    line_load: slice.line_load,
                     depth: slice.arc * slice.cone,
                     normal: slice.normal,
                     friction: slice.friction,
@@ -133,6 +136,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                 s: contact.s,
                 cone: mesh.cone,
                 share: 1.0,
+                line_load: force.total / self.teeth.full.detailed.whole_width(),
                 depth: contact.depth * mesh.cone,
                 normal: force.total,
                 friction: 0.0,

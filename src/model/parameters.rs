@@ -242,7 +242,11 @@ impl Default for Parameters {
             },
             effects: Effects::TEETH,
             tooth_errors: ToothErrorSpec::default(),
-            tooth_fault: ToothFaultSpec { gear: FaultyGear::Planet, depth: 1e-3, ..ToothFaultSpec::default() },
+            tooth_fault: ToothFaultSpec {
+                gear: FaultyGear::Planet,
+                missing_fraction: 0.6,
+                ..ToothFaultSpec::default()
+            },
             tooth_friction: ToothFrictionSpec::default(),
             specs: EffectSpecs::default(),
             solver: SolverSpec { method: Method::Adaptive, relative_tolerance: 1e-6, merge_planets: true },

@@ -201,9 +201,9 @@ impl Cycle {
             let time = bias.time + part * h;
             let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
             if bias.whole && time > 0.0 {
-                bias.mean = Some(sum.map(|x| x / time));
+                bias.last = Some((sum.map(|x| x / time), time));
             }
-            *bias = super::state::Bias { sum: [0.0; 2], time: 0.0, whole: true, mean: bias.mean };
+            *bias = super::state::Bias { sum: [0.0; 2], time: 0.0, whole: true, last: bias.last };
             left = 1.0 - part;
         }
         bias.time += left * h;

@@ -14,8 +14,9 @@ use super::plan::Plan;
 use super::readings::{Books, Forces, MAX_PLANETS, Motion};
 use super::rigid::RigidEquations;
 use super::run::{self, BUDGET};
-use super::state::{CARRIER, PLANET, State};
+use super::state::{CARRIER, State};
 use super::{commands, resultants, start};
+use crate::friction::FrictionLaw;
 use crate::geometry::Pair;
 use crate::numeric::TAU;
 use crate::problem::Problem;
@@ -174,7 +175,7 @@ impl Simulation {
             state.time = until;
             state.statistics.accepted += 1;
             state.control.last = h;
-            state.wrap(&model.periods, PLANET + 1);
+            state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
         integrate(model, inputs, state, until)
@@ -244,11 +245,38 @@ impl Simulation {
         });
     }
 
+    /// Whether a law is in use whose range may be left while running.
+    pub fn is_watched(&self) -> bool {
+        let p = &self.model.parameters;
+        p.effects.tooth_friction && p.tooth_friction.law != FrictionLaw::CoulombStribeck
+    }
+
+    /// What lies outside the range of the law in use, at this instant.
+    pub fn out_of_range(&self) -> Option<Problem> {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let Gears::Teeth(teeth) = &model.gears else { return None };
+        let friction = teeth.full.detailed.friction.as_ref()?;
+        let mut found = None;
+        by_size!(teeth, true, {
+            let (equations, point) = (E::new(teeth, inputs, state), state.point());
+            for g in 0..model.ideal.plan.groups().len() {
+                for s in 0..2 {
+                    equations.detail::<f64>(&point, g, s, |slice| {
+                        if found.is_none() {
+                            found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
+                        }
+                    });
+                }
+            }
+        });
+        found.map(|what| Problem::new("tooth_friction.law", format!("{what} at t = {} s; told once", state.time)))
+    }
+
     /// Ledger and solver statistics.
     pub fn books(&self) -> Books {
         let (s, f) = (&self.state.statistics, &self.state.fatigue);
         let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
-        let stood = f.stood[0].sum.max(f.stood[1].sum);
+        let stood = |i: usize| f.stood[0][i].sum.max(f.stood[1][i].sum);
         let held = |range: std::ops::Range<usize>| {
             let holds = self.state.holds[range].iter();
             holds.filter(|h| h.stiffness > 0.0 && h.mode == Mode::Stuck).count() as f64
@@ -256,8 +284,8 @@ impl Simulation {
         Books {
             heat: self.state.heat,
             damage: [
-                [worst(&f.planets, ToothDamage::worst_root), worst(&f.planets, ToothDamage::worst_pitting)],
-                [worst(&f.sides, ToothDamage::worst_root) + stood, worst(&f.sides, ToothDamage::worst_pitting)],
+                [worst(&f.planets, ToothDamage::worst_root) + stood(0), worst(&f.planets, ToothDamage::worst_pitting)],
+                [worst(&f.sides, ToothDamage::worst_root) + stood(1), worst(&f.sides, ToothDamage::worst_pitting)],
             ],
             held: [held(0..2), held(2..2 + MAX_PLANETS)],
             energy_residual: self.energy() - self.state.energy_at_start - self.state.work
@@ -293,11 +321,12 @@ impl Simulation {
     pub fn account(&self) -> String {
         let s = &self.state.statistics;
         format!(
-            "solver: {} steps accepted, {} rejected for their error, {} for values that are not finite; \
+            "solver: {} steps accepted, {} rejected for their error, {} for values that are not finite, {} cut at a switch; \
              {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
             s.accepted,
             s.rejected_error,
             s.rejected_invalid,
+            s.rejected_switch,
             s.evaluations,
             s.jacobians,
             self.books().energy_residual
@@ -329,7 +358,6 @@ impl Simulation {
 /// Integrates to `until` [s]; apart from the closed form, whose few instructions its frame would outweigh.
 #[inline(never)]
 fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
-    let dof = model.ideal.plan.layout().count();
     let before = *state;
     let mut budget = BUDGET;
     while state.time < until {
@@ -348,7 +376,7 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
                 )
             }
         };
-        state.wrap(&model.periods, dof);
+        state.wrap(&model.periods, &model.layout);
         if let Gears::Rigid(rigid) = &model.gears {
             rigid.constrain(state);
         }

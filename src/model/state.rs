@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::dry::Hold;
 use super::effects::CAUSES;
-use super::plan::MAX_GROUPS;
+use super::plan::{Layout, MAX_GROUPS};
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
 
@@ -62,10 +62,17 @@ pub struct Fatigue {
     pub planets: [ToothDamage; MAX_GROUPS],
     /// Side gears.
     pub sides: [ToothDamage; 2],
-    /// Root stress of the teeth that stand in mesh with each side gear.
+    /// Force on the teeth that stand in mesh on each side.
     pub standing: [Rainflow; 2],
-    /// Damage that it did.
-    pub stood: [Damage; 2],
+    /// Damage that it did to the roots of planet and side gear, by side.
+    pub stood: [[Damage; 2]; 2],
+}
+
+impl Bias {
+    /// Means over the last whole mesh cycle [N·m], unless rolling has all but stopped since.
+    pub fn mean(&self) -> Option<[f64; 2]> {
+        self.last.filter(|(_, took)| self.time <= 2.0 * took).map(|(mean, _)| mean)
+    }
 }
 
 /// Time integrals of the shaft torques, kept mesh cycle by mesh cycle.
@@ -77,8 +84,8 @@ pub struct Bias {
     pub time: f64,
     /// Whether it was seen to begin.
     pub whole: bool,
-    /// Means over the last whole mesh cycle [N·m].
-    pub mean: Option<[f64; 2]>,
+    /// Means over the last whole mesh cycle [N·m], and how long it took [s].
+    pub last: Option<([f64; 2], f64)>,
 }
 
 impl State {
@@ -115,8 +122,10 @@ impl State {
     }
 
     /// Moves whole periods of each position into its counter.
-    pub fn wrap(&mut self, periods: &[f64; MAX_DOF], dof: usize) {
-        for (i, period) in periods.iter().enumerate().take(dof) {
+    ///
+    /// What dry friction holds is moved along with its body.
+    pub fn wrap(&mut self, periods: &[f64; MAX_DOF], layout: &Layout) {
+        for (i, period) in periods.iter().enumerate().take(layout.count()) {
             // rarely anything to do
             if self.q[i].abs() < *period {
                 continue;
@@ -125,6 +134,11 @@ impl State {
             if turns != 0.0 {
                 self.q[i] -= turns * period;
                 self.turns[i] += turns as i64;
+                let planet = i.wrapping_sub(layout.planet(0));
+                let held = if i < CARRIER { Some(i) } else { (planet < layout.groups).then_some(2 + planet) };
+                if let Some(hold) = held.and_then(|h| self.holds.get_mut(h)) {
+                    hold.anchor -= turns * period;
+                }
             }
         }
     }

@@ -17,12 +17,13 @@ use crate::strength::{Load, LoadFactors, Rainflow, Rating, loaded_flank, pulsati
 pub struct Strength {
     rating: Rating,
     sensitivity: f64,
+    mean_cone: f64,
 }
 
 /// Loads of one mesh as strength sees them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MeshLoad {
-    /// Sum of normal forces [N].
+    /// Sum of normal forces referred to the mean cone distance [N].
     pub normal: f64,
     /// Largest pressure of a pair [Pa].
     pub pressure: f64,
@@ -33,9 +34,10 @@ pub struct MeshLoad {
 impl MeshLoad {
     /// Adds the load of a pair.
     pub fn add(&mut self, strength: &Strength, load: &ToothLoad) {
-        self.normal += load.normal;
+        // referred to the mean cone distance, where the formulas of strength have it
+        self.normal += load.normal * load.cone / strength.mean_cone;
         self.driving = load.flank == Flank::Drive;
-        let pressure = strength.rating.contact.pressure(load.normal / load.share.max(1e-6), load.s);
+        let pressure = strength.rating.contact.pressure_at(load.line_load, load.cone, load.s);
         self.pressure = self.pressure.max(pressure.unwrap_or(0.0));
     }
 }
@@ -62,7 +64,7 @@ impl Strength {
                 ),
             ));
         };
-        Ok(Some(Self { rating, sensitivity: material.mean_stress_sensitivity() }))
+        Ok(Some(Self { rating, sensitivity: material.mean_stress_sensitivity(), mean_cone: pair.mean_cone }))
     }
 
     /// Stresses at an instant, from the loads of all meshes.
@@ -99,23 +101,27 @@ impl Strength {
                 .zip(members)
                 .flat_map(|(both, members)| std::iter::repeat_n(load(1, false, &both[s]), *members as usize));
             side.add((&rating.bending[1], &rating.pitting), roll[s], rating.pitch[1], loads);
-            self.stand(fatigue, s, &mesh[0][s], rolled);
+            let heaviest = mesh.iter().map(|both| both[s]).reduce(|a, b| if b.normal > a.normal { b } else { a });
+            self.stand(fatigue, s, &heaviest.unwrap_or_default(), rolled);
         }
     }
 
-    /// Rainflow of the root stress of the teeth that stand in mesh with side gear `s`.
+    /// Rainflow of the force on the teeth that stand in the heaviest mesh of side `s`, for the roots of both gears.
     fn stand(&self, fatigue: &mut Fatigue, s: usize, mesh: &MeshLoad, rolled: bool) {
-        let curve = &self.rating.bending[1];
+        let rating = &self.rating;
         let (flow, damage) = (&mut fatigue.standing[s], &mut fatigue.stood[s]);
         let mut add = |cycle: crate::strength::Cycle| {
+            // each tooth stands on one flank: the planet's idler strength is for teeth that roll
             let range = pulsating_range(&cycle, self.sensitivity);
-            damage.add(curve, range, cycle.count);
+            for (i, damage) in damage.iter_mut().enumerate() {
+                damage.add(&rating.bending[1], rating.root[i].stress(range), cycle.count);
+            }
         };
         if rolled {
             flow.rest(&mut add);
-            *flow = Rainflow::new(GATE * curve.strength);
+            let weakest = rating.root[0].per_force.max(rating.root[1].per_force);
+            *flow = Rainflow::new(GATE * rating.bending[1].strength / weakest);
         }
-        let sign = if mesh.driving { 1.0 } else { -1.0 };
-        flow.push(sign * self.rating.root[1].stress(mesh.normal), &mut add);
+        flow.push(if mesh.driving { mesh.normal } else { -mesh.normal }, &mut add);
     }
 }

@@ -51,6 +51,24 @@ impl ToothEffects {
         Ok(this)
     }
 
+    /// What is unusual about the effects.
+    pub fn warning(&self, p: &Parameters, pair: &Pair) -> Option<Problem> {
+        let _ = (p, pair);
+        #[cfg(feature = "tooth_errors")]
+        {
+            use crate::contact::errors::pitch::Tolerances;
+            let graded = p.effects.tooth_errors && p.tooth_errors.accuracy_grade > 0;
+            if graded && !(0..2).all(|i| Tolerances::are_valid(pair, i)) {
+                return Some(Problem::new(
+                    "tooth_errors.accuracy_grade",
+                    "the gears lie outside the ranges for which ISO 17485 gives its tolerances \
+                     (mean module 1 to 50 mm, tolerance diameter 5 to 2500 mm, 5 to 400 teeth)",
+                ));
+            }
+        }
+        None
+    }
+
     /// Slices wanted over the face.
     pub fn slices(&self) -> usize {
         if self.sliced { SLICES } else { 1 }
@@ -94,7 +112,6 @@ impl ToothEffects {
         return p.effects.tooth_friction.then(|| ToothFriction {
             spec: p.tooth_friction,
             modulus: p.material.young_modulus / (2.0 * (1.0 - p.material.poisson_ratio * p.material.poisson_ratio)),
-            face_width: pair.outer_cone - pair.inner_cone,
         });
         #[cfg(not(feature = "tooth_friction"))]
         None

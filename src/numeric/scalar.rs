@@ -16,6 +16,8 @@ pub trait Scalar:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
+    /// Whether derivatives come with the values.
+    const HAS_SLOPES: bool;
     /// A constant.
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
@@ -62,6 +64,7 @@ pub trait Scalar:
 }
 
 impl Scalar for f64 {
+    const HAS_SLOPES: bool = false;
     #[inline]
     fn constant(value: f64) -> Self {
         value
@@ -101,6 +104,7 @@ impl<const K: usize> Dual<K> {
 }
 
 impl<const K: usize> Scalar for Dual<K> {
+    const HAS_SLOPES: bool = true;
     #[inline]
     fn constant(v: f64) -> Self {
         Self { v, d: [0.0; K] }

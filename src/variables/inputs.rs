@@ -92,7 +92,11 @@ pub fn rows() -> Vec<Variable> {
             |i| &mut i.side_speed[1],
             "Imposed speed of the wheel side of the right half-shaft when it is speed-driven",
         ),
-        command("lock.command", |i| &mut i.lock, "Command of the differential lock: 0 open, 1 locked"),
+        // a build without a lock takes no command for it
+        Variable {
+            range: Some(Range { min: 0.0, max: if cfg!(feature = "lock") { 1.0 } else { 0.0 } }),
+            ..command("lock.command", |i| &mut i.lock, "Command of the differential lock: 0 open, 1 locked")
+        },
         command("fault.trigger", |i| &mut i.fault, "Breaks the tooth of effects.tooth_fault when it rises above 0.5"),
     ]
 }
