@@ -84,7 +84,8 @@ fn gauss(pair: &Pair) -> Vec<Slice> {
             }
             let slope = legendre(x).1;
             let cone = 0.5 * (outer + inner) + 0.5 * (outer - inner) * x;
-            Slice { cone, weight: (outer - inner) / ((1.0 - x * x) * slope * slope) * cone * cone }
+            let width = (outer - inner) / ((1.0 - x * x) * slope * slope);
+            Slice { cone, weight: width * cone * cone, width }
         })
         .collect()
 }
@@ -97,7 +98,7 @@ struct Waves {
 }
 
 impl Gaps for Waves {
-    fn at(&self, name: PairName, slice: usize, s: f64) -> [f64; 3] {
+    fn at(&self, name: PairName, slice: usize, s: f64, _: bool) -> [f64; 3] {
         let flank = if name.flank == Flank::Drive { 0.0 } else { 0.7 };
         let phase = name.tooth as f64 * 1.3 + slice as f64 * 0.4 + flank;
         let k = 9.0;
@@ -114,7 +115,7 @@ impl Gaps for Waves {
 struct Even(f64);
 
 impl Gaps for Even {
-    fn at(&self, _: PairName, _: usize, _: f64) -> [f64; 3] {
+    fn at(&self, _: PairName, _: usize, _: f64, _: bool) -> [f64; 3] {
         [self.0, 0.0, 0.0]
     }
     fn least(&self) -> f64 {
@@ -297,12 +298,12 @@ fn force_is_minus_the_gradient_of_the_energy_with_gaps_and_seats_that_give_way()
     }
 }
 
-fn coulomb(pair: &Pair, coefficient: f64, regularisation_speed: f64) -> ToothFriction {
-    friction(pair, ToothFrictionSpec { coefficient, regularisation_speed, ..ToothFrictionSpec::default() })
+fn coulomb(coefficient: f64, regularisation_speed: f64) -> ToothFriction {
+    friction(ToothFrictionSpec { coefficient, regularisation_speed, ..ToothFrictionSpec::default() })
 }
 
-fn friction(pair: &Pair, spec: ToothFrictionSpec) -> ToothFriction {
-    ToothFriction { spec, modulus: 2.07e11 / (2.0 * (1.0 - 0.0625)), face_width: pair.outer_cone - pair.inner_cone }
+fn friction(spec: ToothFrictionSpec) -> ToothFriction {
+    ToothFriction { spec, modulus: 2.07e11 / (2.0 * (1.0 - 0.0625)) }
 }
 
 /// All that a load tells.
@@ -328,7 +329,7 @@ fn derivatives_equal_central_differences() {
             let mut random = Lcg(24);
             let (mut worst, mut compared, mut spots) = (0.0f64, 0, [0; 3]);
             for of in GEARS {
-                let friction = law.map(|law| friction(&gears(of), rough(law)));
+                let friction = law.map(|law| friction(rough(law)));
                 let both = Both::sliced(of, kind, damping, friction);
                 for _ in 0..STATES / 4 {
                     let state = random_state(&mut random, &both.pair, 3e-5);
@@ -459,7 +460,7 @@ fn friction_takes_the_power_of_sliding_flanks() {
         for of in GEARS {
             let plain = Both::new(of, kind, UNDAMPED);
             let rough = {
-                let friction = Some(coulomb(&plain.pair, MU, 1e-9));
+                let friction = Some(coulomb(MU, 1e-9));
                 let d = plain.detailed.clone();
                 Detailed::new(&plain.pair, d.spring, d.damping, d.slices, d.single, friction)
             };
@@ -516,7 +517,7 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_lever_arms
         let plain = Both::new(of, Kind::Line, UNDAMPED);
         let pair = &plain.pair;
         let d = plain.detailed.clone();
-        let rough = Detailed::new(pair, d.spring, d.damping, d.slices, false, Some(coulomb(pair, MU, 1e-9)));
+        let rough = Detailed::new(pair, d.spring, d.damping, d.slices, false, Some(coulomb(MU, 1e-9)));
         let (start, tangent, axes) = line_of_action(pair);
         let mut random = Lcg(26);
         let mut seen = 0;
@@ -524,7 +525,9 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_lever_arms
             let state = random_state(&mut random, pair, 0.0);
             let mut slices = Vec::new();
             let with = rough.load(plain.engagement(), None, NAMES, &state, |slice| {
-                slices.push((slice.s, slice.cone, slice.normal, slice.friction, slice.pair.spot, slice.pair.flank));
+                // told positive toward the planet's root
+                let tip_ward = -slice.friction;
+                slices.push((slice.s, slice.cone, slice.normal, tip_ward, slice.pair.spot, slice.pair.flank));
             });
             let [(s, r, normal, force, Spot::Path, flank)] = slices[..] else { continue };
             seen += 1;

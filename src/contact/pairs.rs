@@ -180,6 +180,8 @@ impl Engagement {
         let mut s = start + first * self.base_pitch;
         // a wild trial state may stand further off than can be counted
         let first = first as i64;
+        // flanks that only material in excess brings together have the side gear ahead of its path's end
+        let low = self.low + (approach - slack).min(0.0);
         for i in 0..window.candidates as i64 {
             let place = s;
             s += self.base_pitch;
@@ -200,7 +202,7 @@ impl Engagement {
                 let g = self.corner[1].at(past_side_tip);
                 let slope = [sign * (1.0 - g.d), -sign * g.d];
                 (Spot::SideTip, past_side_tip, approach - g.v, slope, [-g.dd, -g.dd])
-            } else if place >= self.low {
+            } else if place >= low {
                 (Spot::Path, place, approach, [sign, 0.0], [0.0; 2])
             } else {
                 continue;

@@ -13,7 +13,7 @@ pub struct Strength(());
 
 /// Loads of one mesh that nobody looks at.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct MeshLoad;
+pub struct MeshLoad(());
 
 #[allow(missing_docs)]
 impl MeshLoad {

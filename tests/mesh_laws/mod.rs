@@ -91,7 +91,8 @@ impl Built {
                 (Law::Lumped(Lumped { stiffness: k, damping }), AnySpring::Linear(k, centroid), centroid, 1.0)
             }
         };
-        Self { law, spring, whole: Slice { cone, weight }, cone }
+        let width = (pair.outer_cone - pair.inner_cone) * pair.mean_cone / cone;
+        Self { law, spring, whole: Slice { cone, weight, width }, cone }
     }
 }
 
