@@ -1,7 +1,8 @@
 //! Takes communication steps of a scene and prints the bits of what it reads: for comparing builds that leave effects
 //! out, and for counting instructions.
 //!
-//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects.").
+//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "unread" leaves the
+//! forces at the end unread, so that nothing but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{Effects, Inputs, Parameters, PlanetSpin, Simulation};
@@ -51,6 +52,7 @@ fn main() {
     for name in effects {
         match name.as_str() {
             "lock" => i.lock = 1.0,
+            "unread" => {}
             name => switch(&mut p, name),
         }
     }
@@ -62,6 +64,9 @@ fn main() {
         for value in m.side_speed.iter().chain(&m.side_angle).chain(&m.spin_angle).chain([&m.carrier_angle]) {
             hash = (hash ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3);
         }
+    }
+    if effects.iter().any(|e| e == "unread") {
+        return;
     }
     let (f, b) = (*simulation.forces(), simulation.books());
     for value in [f.carrier_torque, f.mesh[0][0].normal, f.side_thrust[1], b.energy_residual, b.steps] {

@@ -120,19 +120,20 @@ fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
 }
 
 fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
+    let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
+    ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
+    let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
     let mut counts = [0.0; 2];
-    let mut bits = String::new();
     for (count, steps) in counts.iter_mut().zip(STEPS) {
         let output = Command::new("valgrind")
             .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
             .arg(program)
-            .args([scene, &steps.to_string()])
+            .args([scene, &steps.to_string(), "unread"])
             .args(effects)
             .output()
             .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
         let told = String::from_utf8_lossy(&output.stderr);
         ensure!(output.status.success(), "{scene} {effects:?}: {told}");
-        bits = String::from_utf8_lossy(&output.stdout).trim().to_owned();
         *count = told
             .lines()
             .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
