@@ -8,6 +8,9 @@ use bevel_differential::strength::root_stress::{bevel_factor, contact_ratio_fact
 use bevel_differential::strength::*;
 use serde_json::Value;
 
+/// Tip radius of a sharp tool, in modules.
+const SHARP: f64 = 0.40 / 4.5;
+
 const TORQUE: f64 = 835.0;
 
 fn golden() -> Value {
@@ -35,7 +38,7 @@ fn rating(tool_radius: f64) -> Rating {
 #[test]
 fn pressure_at_the_pitch_point_is_that_of_the_mean_section() {
     let pair = default_pair();
-    let contact = rating(Profile::TOOL_RADIUS).contact;
+    let contact = rating(SHARP).contact;
     for (planets, force, expected) in [(4.0, 8072.2, 1686e6), (2.0, 16144.4, 2385e6)] {
         close(normal_force(&pair, TORQUE, planets), force, 1e-5);
         let p = contact.pressure(force, 0.0).unwrap();
@@ -55,7 +58,7 @@ fn pressure_at_the_pitch_point_is_that_of_the_mean_section() {
 
 #[test]
 fn pressure_grows_with_the_root_of_the_force_and_is_total() {
-    let contact = rating(Profile::TOOL_RADIUS).contact;
+    let contact = rating(SHARP).contact;
     for s in [-0.19, -0.05, 0.0, 0.1, 0.26] {
         let one = contact.pressure(1e3, s).unwrap();
         close(contact.pressure(4e3, s).unwrap(), 2.0 * one, 1e-14);
@@ -93,7 +96,7 @@ fn root_stress_of_the_default_gears_is_near_the_golden_one() {
     let pair = default_pair();
     let force = normal_force(&pair, TORQUE, 2.0);
     for (i, name) in ["planet", "side gear"].iter().enumerate() {
-        for tool in [Profile::TOOL_RADIUS, 0.25] {
+        for tool in [SHARP, 0.25] {
             let root = rating(tool).root[i];
             let (b1, single) = (root.stress(force) / 1e6, root.per_single_force * force / 1e6);
             println!(
@@ -268,7 +271,7 @@ fn damage_adds_up_and_scales_with_the_power_of_the_load() {
 
 #[test]
 fn a_gear_that_rolls_counts_each_mesh_once_per_revolution_and_one_that_rocks_nothing() {
-    let r = rating(Profile::TOOL_RADIUS);
+    let r = rating(SHARP);
     let curves = (&r.bending[0], &r.pitting);
     let mut planet = ToothDamage::default();
     let loads =

@@ -55,7 +55,7 @@ pub fn run(quick: bool, write: bool) -> Result<()> {
     };
     for (name, kept) in &left_out {
         progress.tell(&format!("building without {name}"));
-        let without = build(kept, "without")?;
+        let without = build(kept, "less")?;
         progress.tell(&format!("counting without {name}"));
         let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
         let same_bits = runs.iter().zip(&plain).all(|(a, b)| a.bits == b.bits);
@@ -113,7 +113,8 @@ fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
         .filter(|message| message["target"]["name"] == "steps")
         .find_map(|message| message["executable"].as_str().map(PathBuf::from))
         .context("cargo named no executable")?;
-    // the next build takes the place of this one
+    // the next build takes the place of this one; names are of one length, as they move the stack and with it what
+    // filling memory costs
     let copy = target.join(name);
     fs::copy(executable, &copy)?;
     Ok(copy)

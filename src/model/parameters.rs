@@ -30,9 +30,9 @@ pub struct InertiaSpec {
     pub side_gear: f64,
     /// One planet about its own axis, if not from geometry.
     pub planet: f64,
-    /// Wheel side of the left half-shaft, rigid on the side gear; 0 = none.
+    /// Wheel side of the left half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
     pub left_end: f64,
-    /// Wheel side of the right half-shaft, rigid on the side gear; 0 = none.
+    /// Wheel side of the right half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
     pub right_end: f64,
 }
 

@@ -74,9 +74,9 @@ pub struct Forces {
     pub power_loss: f64,
     /// Twists of the half-shafts, side gear ahead of the wheel [rad].
     pub twist: [f64; 2],
-    /// Signed torque bias ratio T_slow/T_fast over the last whole mesh cycle; 1 at zero torque.
+    /// Signed torque bias ratio T_slow/T_fast, over the last whole mesh cycle where shafts twist; 1 at zero torque.
     pub torque_bias_ratio: f64,
-    /// Locking value |ΔT|/|T_L + T_R| over the last whole mesh cycle; 0 at zero torque.
+    /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 at zero torque.
     pub locking_value: f64,
     /// Stresses, where strength is on.
     pub stresses: Stresses,
@@ -100,7 +100,7 @@ pub struct Books {
     pub heat: [f64; CAUSES],
     /// Damage sums of the worst planet and the worst side gear: by bending of roots, by pitting of flanks.
     pub damage: [[f64; 2]; 2],
-    /// Side gears held by dry friction, and planets [how many].
+    /// Side gears, and groups of planets, that dry friction holds [how many].
     pub held: [f64; 2],
     /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
     pub energy_residual: f64,

@@ -25,7 +25,7 @@ pub const PLANET: usize = 3;
 pub struct State {
     /// Time [s].
     pub time: f64,
-    /// Positions, wrapped into one tooth pitch (carrier: one turn) [rad].
+    /// Positions; angles of gears are wrapped into one tooth pitch, the carrier's into one turn [rad; seats m].
     pub q: [f64; MAX_DOF],
     /// Velocities [rad/s].
     pub v: [f64; MAX_DOF],

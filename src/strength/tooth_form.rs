@@ -40,9 +40,6 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Tool tip radius of the program's default gears: 0.40 mm at 4.5 mm, in modules.
-    pub const TOOL_RADIUS: f64 = 0.40 / 4.5;
-
     /// Gear `i` of `pair` (0 planet, 1 side gear), made with a tool of tip radius `tool_radius` modules; its teeth are
     /// thinned for backlash as the pair's are. All slices of a straight tooth are alike, so this serves any section.
     pub fn of(pair: &Pair, i: usize, tool_radius: f64) -> Self {

@@ -57,7 +57,7 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
             let _ = write!(text, "; did you mean {value} {} = {meant:.6} {unit}?", shown.name);
         }
     }
-    Err(Problem::new(row.name, text.replace("  ", " ")))
+    Err(Problem::new(row.name, text.replace("  ", " ").replace(" ;", ";").trim_end()))
 }
 
 /// Every parameter that is not finite or out of range.
