@@ -580,3 +580,51 @@ def test_a_state_with_stuck_clutches_and_a_broken_tooth_is_restored_to_the_bit(o
         walk(other, 0.2, begin=0.1)
         assert [other.get(name) for name in OUTPUTS] == first
         other.fmu.freeFMUstate(state)
+
+
+# ---- conduct -------------------------------------------------------------------------------------------------------
+
+def test_a_friction_law_outside_its_range_warns_once(open_fmu):
+    with open_fmu() as opened:
+        started(opened, **TURN, **{"effects.tooth_friction": True, "tooth_friction.law": "xu_kahraman"})
+        walk(opened, 0.02)
+        told = [line for line in opened.log if "tooth_friction.law" in line]
+        assert len(told) == 1 and "outside" in told[0], opened.log
+    with open_fmu() as opened:
+        started(opened, **TURN, **{"effects.tooth_friction": True})
+        walk(opened, 0.02)
+        assert not any("tooth_friction" in line for line in opened.log)
+
+
+@pytest.mark.parametrize("law", ["benedict_kelley", "iso_14179", "xu_kahraman"])
+def test_published_friction_laws_lose_what_their_coefficients_say(run, law):
+    record = run({**TURN, "effects.tooth_friction": True, "tooth_friction.law": law}, stop=0.36,
+                 output=["heat.tooth_friction", "solver.energy_residual"])
+    # mu H_v T |dw| of both sides, H_v = 0.267 on the path; all three lie between 0.02 and 0.2 here
+    per_mu = 0.267 * 2.0 * theory.LOAD * radians(200.0) * RATIO * 0.36
+    assert 0.02 < record["heat.tooth_friction"][-1] / per_mu < 0.2
+    assert abs(record["solver.energy_residual"][-1]) < 1e-3 * record["heat.tooth_friction"][-1]
+
+
+@pytest.mark.parametrize("contact", ["ideal", "lumped"])
+def test_a_clutch_that_slides_and_sticks_does_not_feel_the_communication_step(open_fmu, contact):
+    """Bodies turn by many tooth pitches within one step, slide, come to the carrier's speed, and are held there."""
+    ends = []
+    for step in (1e-3, 0.25):
+        with open_fmu() as opened:
+            started(opened, **{"scene.gear_contact": contact, "effects.limited_slip": True,
+                               "limited_slip.preload": 100.0, "limited_slip.torque_coefficient": 0.0,
+                               "inertia.left_end": 0.5, "inertia.right_end": 0.5})
+            for begin, difference in ((0.0, 150.0), (0.5, -30.0), (1.5, 60.0)):
+                opened.set("left.load_torque", 835.0 + difference)
+                opened.set("right.load_torque", 835.0 - difference)
+                walk(opened, begin + (0.5 if begin == 0.0 else 1.0), step=step, begin=begin)
+            assert opened.get("held.sides") == 2.0
+            assert abs(opened.get("left.speed") - opened.get("right.speed")) < 1e-3
+            ends.append([opened.get(name) for name in ("left.angle", "right.angle", "heat.clutch", "solver.steps")])
+            assert abs(opened.get("solver.energy_residual")) < 1e-3 * opened.get("heat.clutch")
+    fine, coarse = ends
+    assert coarse[:2] == pytest.approx(fine[:2], abs=1e-3)
+    assert coarse[2] == pytest.approx(fine[2], rel=1e-3)
+    # no chatter
+    assert coarse[3] < 5e3
