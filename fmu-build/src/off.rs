@@ -40,57 +40,54 @@ struct Run {
     instructions: f64,
 }
 
-/// Compares builds without each effect (`quick`: only one without all of them) and returns the table; fails if anything
-/// differs.
+/// Compares builds without each effect (`quick`: only one without all of them), prints the table, and with `write` puts it
+/// into docs/effects.md; fails if anything differs.
 pub fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("building with all effects");
     let full = build(&EFFECTS, "full")?;
-    let plain = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
+    let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
     let mut rows = String::new();
     let mut different = Vec::new();
-    let left_out: Vec<(&str, Vec<&str>)> = if quick {
-        vec![("all of them", Vec::new())]
-    } else {
-        EFFECTS.iter().map(|&out| (out, EFFECTS.into_iter().filter(|&e| e != out).collect())).collect()
-    };
-    for (name, kept) in &left_out {
-        progress.tell(&format!("building without {name}"));
+    let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
+        progress.tell(&format!("building without {what}"));
         let without = build(kept, "less")?;
-        progress.tell(&format!("counting without {name}"));
         let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
-        let same_bits = runs.iter().zip(&plain).all(|(a, b)| a.bits == b.bits);
-        let same_count = runs.iter().zip(&plain).all(|(a, b)| a.instructions == b.instructions);
-        if !same_bits || !same_count {
-            different.push(format!("{name}: {runs:?} against {plain:?}"));
+        if runs != off {
+            different.push(format!("{what}: {runs:?} left out, {off:?} off"));
         }
-        let on = if quick { None } else { Some(measure(&full, "turn", &[name])?) };
-        let cost = on.map_or(String::from("–"), |on| {
-            format!("{:.0} ({:.2} ×)", on.instructions, on.instructions / plain[1].instructions)
-        });
-        let yes = |same| if same { "equal" } else { "DIFFERENT" };
-        writeln!(
-            rows,
-            "| {name} | {} | {:.0} | {:.0} | {} | {cost} |",
-            yes(same_bits),
-            plain[1].instructions,
-            runs[1].instructions,
-            yes(same_count),
-        )?;
+        Ok(runs[1].instructions)
+    };
+    let without_any = if quick { Some(compare("all of them", &[])?) } else { None };
+    for effect in EFFECTS {
+        let left_out = match without_any {
+            Some(count) => count,
+            None => compare(effect, &EFFECTS.into_iter().filter(|&e| e != effect).collect::<Vec<_>>())?,
+        };
+        let on = measure(&full, "turn", &[effect])?.instructions;
+        let cost = on / off[1].instructions;
+        writeln!(rows, "| `{effect}` | {left_out:.0} | {:.0} | {on:.0} | {cost:.2} |", off[1].instructions)?;
     }
     progress.finish();
     let table = format!(
-        "| effect | bits, off against left out | instructions a step, off | left out | | on |\n|---|---|---:|---:|---|---:|\n{rows}"
+        "| effect | left out | off | on | on / off |\n|---|---:|---:|---:|---:|\n{rows}\n\
+         Instructions per communication step of 1 ms in the study's turn. {} \
+         Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
+        if quick {
+            "\"Left out\" is one build without any of these files; its results have the same bits."
+        } else {
+            "\"Left out\" is a build without the file of this effect; its results have the same bits."
+        }
     );
     println!("{table}");
+    if !different.is_empty() {
+        bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
+    }
     if write {
         let file = places::workspace().join("docs").join("effects.md");
         let text = fs::read_to_string(&file).with_context(|| places::shown(&file))?;
         let (before, rest) = text.split_once(MARKS[0]).context("docs/effects.md has no place for the table")?;
         let (_, after) = rest.split_once(MARKS[1]).context("docs/effects.md has no end of the table")?;
         fs::write(&file, format!("{before}{}\n{table}{}{after}", MARKS[0], MARKS[1]))?;
-    }
-    if !different.is_empty() {
-        bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
     }
     Ok(())
 }

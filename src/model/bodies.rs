@@ -1,8 +1,8 @@
 //! Moments of inertia of the bodies, assembled from parameters and solids.
 
+use super::layout::{CARRIER, MAX_DOF};
 use super::parameters::Parameters;
 use super::plan::Plan;
-use super::state::{CARRIER, MAX_DOF};
 use crate::geometry::Pair;
 use crate::geometry::mass::gear_mass;
 

@@ -1,8 +1,9 @@
 //! Commands that take effect at the begin of a step: imposed speeds jump, a tooth breaks.
 
 use super::constants::{Gears, Model};
+use super::layout::CARRIER;
 use super::parameters::Inputs;
-use super::state::{CARRIER, State};
+use super::state::State;
 
 /// Longest stretch integrated before positions are wrapped [s].
 const STRETCH: f64 = 1.0;

@@ -1,15 +1,17 @@
 //! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
 
+use std::sync::Arc;
+
+use super::beside::Full;
 use super::bodies::Inertias;
 use super::combinations;
 use super::effects::{Setting, body_effects, grips, lock_grip};
-use super::full::Full;
 use super::ideal::Ideal;
 use super::laws::Laws;
+use super::layout::{Layout, MAX_DOF};
 use super::parameters::{GearContact, Parameters};
-use super::plan::{Layout, Plan};
+use super::plan::Plan;
 use super::rigid::Rigid;
-use super::state::MAX_DOF;
 use super::strength::Strength;
 use super::teeth::Teeth;
 use super::tooth_effects::ToothEffects;
@@ -18,7 +20,6 @@ use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::Mesh;
 use crate::geometry::{Pair, checks};
 use crate::problem::Problem;
-use std::sync::Arc;
 
 /// How the gears are represented.
 #[derive(Clone, Debug)]

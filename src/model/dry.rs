@@ -7,7 +7,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::effects::{CAUSES, Grip, PlanetGrip, SideGrip};
+use super::causes::CAUSES;
+use super::grip::{Grip, PlanetGrip, SideGrip};
 
 /// Ways in which a body can be held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -267,7 +268,7 @@ impl Clamp {
             *hold = Hold::default();
         }
         hold.stiffness = self.stiffness;
-        let cause = self.parts().first().map_or(super::effects::Cause::Clutch as usize, |p| p.cause);
+        let cause = self.parts().first().map_or(super::causes::Cause::Clutch as usize, |p| p.cause);
         heat[cause] += count * (before - self.energy(hold, turn.position));
     }
 }

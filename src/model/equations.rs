@@ -11,11 +11,11 @@
 //! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
+use super::causes::CAUSES;
 use super::dry::{Clamp, Hold};
-use super::effects::CAUSES;
+use super::layout::{CARRIER, HOLDS, LEFT, MAX_GROUPS};
 use super::parameters::Inputs;
-use super::plan::MAX_GROUPS;
-use super::state::{CARRIER, HOLDS, LEFT, State};
+use super::state::State;
 use super::teeth::{SIGMA, Teeth};
 use crate::contact::mesh::{MeshForce, MeshState};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
@@ -38,6 +38,29 @@ pub struct Power {
     pub shaft: [f64; 2],
     /// Torque of the carrier's drive beyond its command [N·m].
     pub drive: f64,
+}
+
+/// Derivatives of forces and of the carrier's imposed acceleration.
+pub struct Jacobian<const N: usize> {
+    /// ∂force/∂position.
+    pub by_position: Matrix<N>,
+    /// ∂force/∂(rate of position).
+    pub by_rate: Matrix<N>,
+    /// ∂force/∂velocity.
+    pub by_velocity: Matrix<N>,
+    /// ∂(imposed acceleration of the carrier)/∂position and velocity.
+    pub of_imposed: [[f64; N]; 2],
+}
+
+impl<const N: usize> Default for Jacobian<N> {
+    fn default() -> Self {
+        Self {
+            by_position: [[0.0; N]; N],
+            by_rate: [[0.0; N]; N],
+            by_velocity: [[0.0; N]; N],
+            of_imposed: [[0.0; N]; 2],
+        }
+    }
 }
 
 /// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
@@ -313,9 +336,9 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     fn linearise_all(&self, at: &Point<N>) -> Linearisation<N, Power> {
         let mut power = Power::default();
         let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);
-        let mut slopes = super::full::Jacobian::default();
+        let mut slopes = Jacobian::default();
         self.act(at, &mut acceleration, &mut imposed, &mut power, Some(&mut slopes));
-        let super::full::Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed } = slopes;
+        let Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed } = slopes;
         let mut of_rates = by_rate;
         self.times_rates(&mut of_rates);
         for i in 0..N {

@@ -1,14 +1,12 @@
 //! Forces of a scene with effects: meshes in detail where an effect asks for it, effects on bodies, dry friction.
 
-use std::sync::Arc;
-
+use super::causes::Cause;
 use super::dry::{Clamp, Pressing, Turn};
-use super::effects::{Action, Bodies, BodyEffect, Cause, Grip, HalfShaftSpec, Slopes};
-use super::equations::{Equations, Power};
-use super::state::{CARRIER, State};
+use super::effects::{Action, Bodies, Slopes};
+use super::equations::{Equations, Jacobian, Power};
+use super::layout::CARRIER;
 use super::teeth::SIGMA;
-use crate::contact::any_spring::AnySpring;
-use crate::contact::detailed::{Detailed, DetailedLoad, DetailedState, SliceLoad};
+use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
 use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::MeshForce;
 use crate::integrate::{Matrix, Point, in_pairs};
@@ -16,70 +14,6 @@ use crate::numeric::{Dual, Scalar, sqrt};
 
 /// Variables of a mesh in detail: q, x, w and their rates.
 const LOCAL: usize = 6;
-
-/// What acts in a scene beside plain teeth.
-#[derive(Clone, Debug)]
-pub struct Full {
-    /// The mesh in detail.
-    pub detailed: Detailed<AnySpring>,
-    /// Whether an effect needs it.
-    pub in_detail: bool,
-    /// Gaps of the tooth pairs, while sound and once a tooth is broken.
-    pub gaps: [Option<Arc<FlankGaps>>; 2],
-    /// Teeth without errors, for their numbers.
-    pub sound: FlankGaps,
-    /// Effects on bodies.
-    pub bodies: Arc<Vec<Box<dyn BodyEffect>>>,
-    /// Dry friction that is always there.
-    pub grips: Vec<Grip>,
-    /// The lock at full command, if this build has one.
-    pub lock: Option<Grip>,
-    /// The half-shafts.
-    pub half_shaft: HalfShaftSpec,
-    /// Whether the scene has effects; without any, a lock may still be commanded.
-    pub always: bool,
-}
-
-impl Full {
-    /// Whether effects act: those of the scene, or a lock that is commanded or still holds.
-    pub fn acts(&self, state: &State) -> bool {
-        self.always || state.lock > 0.0 || state.holds.iter().any(|h| h.stiffness > 0.0)
-    }
-
-    /// Speed that an imposed carrier has instead of its command.
-    pub fn carrier_speed(&self, state: &State, command: f64) -> f64 {
-        self.bodies.iter().fold(command, |speed, effect| effect.carrier_speed(&state.q, speed))
-    }
-
-    /// What holds side gears and planets when the lock is at `command`.
-    pub fn clamps(&self, command: f64) -> [Clamp; 2] {
-        let lock = self.lock.filter(|_| command > 0.0).map(|g| g.scaled(command));
-        Clamp::of(self.grips.iter().chain(&lock))
-    }
-}
-
-/// Derivatives of forces and of the carrier's imposed acceleration.
-pub struct Jacobian<const N: usize> {
-    /// ∂force/∂position.
-    pub by_position: Matrix<N>,
-    /// ∂force/∂(rate of position).
-    pub by_rate: Matrix<N>,
-    /// ∂force/∂velocity.
-    pub by_velocity: Matrix<N>,
-    /// ∂(imposed acceleration of the carrier)/∂position and velocity.
-    pub of_imposed: [[f64; N]; 2],
-}
-
-impl<const N: usize> Default for Jacobian<N> {
-    fn default() -> Self {
-        Self {
-            by_position: [[0.0; N]; N],
-            by_rate: [[0.0; N]; N],
-            by_velocity: [[0.0; N]; N],
-            of_imposed: [[0.0; N]; 2],
-        }
-    }
-}
 
 /// Numbers, or numbers with derivatives by the variables of one mesh.
 pub trait Local: Scalar {
@@ -502,7 +436,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     }
 
     /// Switches holds that are due at `at` and books what their springs give up.
-    pub(super) fn settle(&mut self, at: &Point<N>, heat: &mut [f64; super::effects::CAUSES]) {
+    pub(super) fn settle(&mut self, at: &Point<N>, heat: &mut [f64; super::causes::CAUSES]) {
         let presses = self.presses(at);
         for i in 0..2 + G {
             let (clamp, count) = self.clamp(i);
@@ -519,7 +453,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     }
 
     /// Takes holds over from other stiffnesses: catches bodies that were free, lets go of others.
-    pub(super) fn take_over(&mut self, at: &Point<N>, heat: &mut [f64; super::effects::CAUSES]) {
+    pub(super) fn take_over(&mut self, at: &Point<N>, heat: &mut [f64; super::causes::CAUSES]) {
         for i in 0..2 + G {
             let (clamp, count) = self.clamp(i);
             let (clamp, turn) = (*clamp, self.turn(at, i));

@@ -5,9 +5,10 @@
 //! points, so speeds are linear and angles quadratic in time: the step is exact.
 
 use super::bodies::Inertias;
+use super::layout::{CARRIER, PLANET};
 use super::parameters::Inputs;
 use super::plan::Plan;
-use super::state::{CARRIER, PLANET, State};
+use super::state::State;
 
 /// Constants of the ideal differential.
 #[derive(Clone, Copy, Debug)]

@@ -1,15 +1,21 @@
 //! The differential as a mechanical system: parameters → plan → equations → readings.
 
+mod beside;
 mod bodies;
+mod causes;
 mod combinations;
 mod commands;
 mod constants;
 mod dry;
+mod effect_specs;
 mod effects;
 mod equations;
+mod failure;
 mod full;
+mod grip;
 mod ideal;
 mod laws;
+mod layout;
 mod loads;
 mod parameters;
 mod plan;
@@ -29,16 +35,19 @@ mod teeth;
 mod tooth_effects;
 
 pub use bodies::Inertias;
-pub use effects::{
-    BearingDragSpec, CAUSES, Cause, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec,
-    PinComplianceSpec, StrengthSpec, ThrustFrictionSpec,
+pub use causes::{CAUSES, Cause};
+pub use effect_specs::{
+    BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
+    StrengthSpec, ThrustFrictionSpec,
 };
+pub use failure::StepFailure;
+pub use layout::MAX_PLANETS;
 pub use loads::ToothLoad;
 pub use parameters::{
     CarrierDrive, Effects, GearContact, InertiaSpec, Inputs, Material, Method, Parameters, PlanetSpin, Scene,
     SideDrive, SolverSpec, Start,
 };
 pub use plan::{Group, Plan};
-pub use readings::{Books, Forces, MAX_PLANETS, MeshForces, Motion, Stresses, efficiency};
-pub use simulation::{CostClass, Simulation, StepFailure};
+pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};
+pub use simulation::{CostClass, Simulation};
 pub use state::State;

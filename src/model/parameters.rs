@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::effects::EffectSpecs;
+use super::effect_specs::EffectSpecs;
 use crate::contact::ContactSpec;
 use crate::contact::errors::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
 use crate::friction::ToothFrictionSpec;

@@ -3,14 +3,10 @@
 //! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
 //! as there are.
 
+use super::layout::{CARRIER, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS};
 use super::parameters::{CarrierDrive, GearContact, Parameters, PlanetSpin, SideDrive};
-use super::readings::MAX_PLANETS;
-use super::state::{CARRIER, MAX_DOF};
 use crate::geometry::{Pair, assembly};
 use crate::problem::Problem;
-
-/// Largest number of groups: every planet on its own.
-pub const MAX_GROUPS: usize = MAX_PLANETS;
 
 /// Planets that move alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -21,47 +17,6 @@ pub struct Group {
     pub members: f64,
     /// The first of them.
     pub planet: usize,
-}
-
-/// Where each degree of freedom stands: side gears, carrier, [axial seats of the side gears], planets, [their pins],
-/// [ends of the half-shafts].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layout {
-    /// Groups of planets (1, 2 or 4; the last of four may have no members).
-    pub groups: usize,
-    /// Members of each group.
-    pub members: [f64; MAX_GROUPS],
-    /// Whether pins and seats move.
-    pub pins: bool,
-    /// Whether half-shafts have ends.
-    pub ends: bool,
-}
-
-impl Layout {
-    /// Index of the carrier.
-    pub fn carrier(&self) -> usize {
-        CARRIER
-    }
-    /// Index of the axial seat of side gear `s`.
-    pub fn seat(&self, s: usize) -> usize {
-        CARRIER + 1 + s
-    }
-    /// Index of the planets of group `g`.
-    pub fn planet(&self, g: usize) -> usize {
-        CARRIER + 1 + if self.pins { 2 } else { 0 } + g
-    }
-    /// Index of the pin of group `g`.
-    pub fn pin(&self, g: usize) -> usize {
-        self.planet(self.groups + g)
-    }
-    /// Index of the end of the half-shaft of side `s`.
-    pub fn end(&self, s: usize) -> usize {
-        self.planet(self.groups * if self.pins { 2 } else { 1 } + s)
-    }
-    /// Degrees of freedom.
-    pub fn count(&self) -> usize {
-        self.end(if self.ends { 2 } else { 0 })
-    }
 }
 
 /// What a scene needs to simulate.

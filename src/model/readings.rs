@@ -1,9 +1,7 @@
 //! What can be read from a model at an instant, in three groups by what they cost.
 
-use super::effects::CAUSES;
-
-/// Largest number of planets.
-pub const MAX_PLANETS: usize = 4;
+use super::causes::CAUSES;
+use super::layout::MAX_PLANETS;
 
 /// Angles and speeds: read straight from the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,15 +1,16 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
 use super::constants::Model;
-use super::effects::HalfShaftSpec;
+use super::effect_specs::HalfShaftSpec;
 use super::equations::{Equations, Power};
 use super::ideal::Ideal;
+use super::layout::{CARRIER, MAX_GROUPS};
 use super::loads::ToothLoad;
 use super::parameters::Inputs;
-use super::plan::{MAX_GROUPS, Plan};
+use super::plan::Plan;
 use super::readings::{Forces, MeshForces, bias};
 use super::rigid::RigidEquations;
-use super::state::{CARRIER, State};
+use super::state::State;
 use super::strength::MeshLoad;
 use super::teeth::SIGMA;
 use crate::geometry::Pair;

@@ -7,15 +7,17 @@
 
 use std::sync::Arc;
 
+use super::causes::CAUSES;
 use super::dry::{Clamp, Hold, Pressing, Turn};
-use super::effects::{
-    Action, Bodies, BodyEffect, CAUSES, Grip, HalfShaftSpec, Setting, Slopes, body_effects, grips, lock_grip,
-};
+use super::effect_specs::HalfShaftSpec;
+use super::effects::{Action, Bodies, BodyEffect, Setting, Slopes, body_effects, grips, lock_grip};
 use super::equations::Power;
+use super::grip::Grip;
 use super::ideal::Ideal;
+use super::layout::{CARRIER, HOLDS, Layout, PLANET};
 use super::parameters::Inputs;
-use super::plan::{Layout, Plan};
-use super::state::{CARRIER, HOLDS, PLANET, State};
+use super::plan::Plan;
+use super::state::State;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 
 /// Degrees of freedom with ends of half-shafts.

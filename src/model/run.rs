@@ -1,10 +1,10 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
+use super::causes::CAUSES;
 use super::constants::Model;
-use super::effects::CAUSES;
 use super::equations::{Equations, Power};
+use super::failure::StepFailure;
 use super::rigid::RigidEquations;
-use super::simulation::StepFailure;
 use super::state::State;
 use super::strength::MeshLoad;
 use crate::integrate::{self, Effort, Failure, Flow, Step};

@@ -1,20 +1,21 @@
 //! A running simulation: parameters → geometry → plan → equations → state → readings.
 
-use std::fmt;
 use std::sync::Arc;
 
 use super::bodies::Inertias;
+use super::causes::{CAUSES, Cause};
 use super::constants::{Gears, Model};
 use super::dry::Mode;
-use super::effects::{CAUSES, Cause};
 use super::equations::Equations;
+use super::failure::StepFailure;
+use super::layout::{CARRIER, MAX_PLANETS};
 use super::loads::ToothLoad;
 use super::parameters::{Inputs, Parameters, Start};
 use super::plan::Plan;
-use super::readings::{Books, Forces, MAX_PLANETS, Motion};
+use super::readings::{Books, Forces, Motion};
 use super::rigid::RigidEquations;
 use super::run::{self, BUDGET};
-use super::state::{CARRIER, State};
+use super::state::State;
 use super::{commands, resultants, start};
 use crate::friction::FrictionLaw;
 use crate::geometry::Pair;
@@ -68,27 +69,6 @@ macro_rules! by_rigid_size {
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
 const FIRST_STEP: f64 = 1e-6;
-
-/// Why a step could not be completed; the simulation stands at the last good time.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StepFailure {
-    /// Last good time [s].
-    pub time: f64,
-    /// What happened, where, and what may help.
-    pub message: String,
-}
-
-impl StepFailure {
-    fn not_finite(time: f64) -> Self {
-        Self { time, message: "the step gave values that are not finite; look at the inputs".into() }
-    }
-}
-
-impl fmt::Display for StepFailure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at t = {} s: {}", self.time, self.message)
-    }
-}
 
 /// What a step costs, by what has to be evaluated, cheapest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -3,8 +3,9 @@
 use super::constants::Model;
 use super::equations::Equations;
 use super::ideal::Ideal;
+use super::layout::CARRIER;
 use super::parameters::{GearContact, Inputs, Start};
-use super::state::{CARRIER, State};
+use super::state::State;
 use super::teeth::{SIGMA, Teeth};
 use crate::integrate::{Matrix, Point};
 use crate::numeric::sqrt;

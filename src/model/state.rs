@@ -2,23 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::causes::CAUSES;
 use super::dry::Hold;
-use super::effects::CAUSES;
-use super::plan::{Layout, MAX_GROUPS};
+use super::layout::{CARRIER, HOLDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
-
-/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, ends.
-pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + 2;
-/// Bodies that dry friction can hold: side gears and groups of planets.
-pub const HOLDS: usize = 2 + MAX_GROUPS;
-
-/// Index of the left side gear; its position is the angle α_L relative to the carrier.
-pub const LEFT: usize = 0;
-/// Index of the carrier; its position is θ_c.
-pub const CARRIER: usize = 2;
-/// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
-pub const PLANET: usize = 3;
 
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,9 +1,9 @@
 //! Constants of the equations of motion of a differential with teeth.
 
+use super::beside::Full;
 use super::bodies::Inertias;
-use super::full::Full;
-use super::plan::{Layout, Plan};
-use super::state::{CARRIER, MAX_DOF};
+use super::layout::{CARRIER, Layout, MAX_DOF};
+use super::plan::Plan;
 use crate::contact::mesh::Mesh;
 use crate::geometry::Pair;
 

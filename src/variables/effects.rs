@@ -1,6 +1,6 @@
 //! Rows of the parameters of effects, each under the name of its effect.
 
-use super::parameters::{integer, real, switch};
+use super::declare::{integer, real, switch};
 use super::row::{Variability, Variable};
 use super::units::{self, DEG, DEG_PER_S, MM, MPA, MPA_S, N_PER_UM, UM};
 use crate::contact::errors::FaultyGear;

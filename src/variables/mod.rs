@@ -12,10 +12,11 @@ macro_rules! choice {
         fn set(p: &mut crate::model::Parameters, value: i32) {
             $(if value == $value as i32 { p.$group.$field = $value; })+
         }
-        super::parameters::row($name, super::row::Access::Enumeration(&TYPE, |p| p.$group.$field as i32, set), $description)
+        super::declare::row($name, super::row::Access::Enumeration(&TYPE, |p| p.$group.$field as i32, set), $description)
     }};
 }
 
+mod declare;
 mod effects;
 mod inputs;
 mod outputs;

@@ -1,48 +1,11 @@
 //! Rows of the parameters: all fixed but those that say tunable.
 
-use super::row::{Access, Causality, Range, RealParameter, Variability, Variable};
-use super::units::{self, DisplayUnit, Unit};
+use super::declare::{integer, real, switch};
+use super::row::{Variability, Variable};
+use super::units;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::AddendumSystem;
-use crate::model::{CarrierDrive, GearContact, Method, Parameters, PlanetSpin, SideDrive, Start};
-
-pub(super) fn row(name: &'static str, access: Access, description: &'static str) -> Variable {
-    Variable {
-        name,
-        description,
-        causality: Causality::Parameter,
-        variability: Variability::Fixed,
-        unit: None,
-        display: None,
-        range: None,
-        access,
-    }
-}
-
-pub(super) fn real(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    (min, max): (f64, f64),
-    at: RealParameter,
-    description: &'static str,
-) -> Variable {
-    Variable { unit: Some(unit), display, range: Some(Range { min, max }), ..row(name, Access::Real(at), description) }
-}
-
-pub(super) fn integer(
-    name: &'static str,
-    (min, max): (i32, i32),
-    at: fn(&mut Parameters) -> &mut i32,
-    description: &'static str,
-) -> Variable {
-    let range = Some(Range { min: f64::from(min), max: f64::from(max) });
-    Variable { range, ..row(name, Access::Integer(at), description) }
-}
-
-pub(super) fn switch(name: &'static str, at: fn(&mut Parameters) -> &mut bool, description: &'static str) -> Variable {
-    row(name, Access::Boolean(at), description)
-}
+use crate::model::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
 
 /// Rows of all parameters.
 pub fn rows() -> Vec<Variable> {

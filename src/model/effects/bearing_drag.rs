@@ -3,9 +3,10 @@
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
 //! with the square of the speed (ISO/TR 14179-1).
 
+use super::super::causes::Cause;
+use super::super::effect_specs::BearingDragSpec;
 use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Cause, Slopes};
-use super::spec::BearingDragSpec;
+use super::body::{Action, Bodies, BodyEffect, Slopes};
 
 /// Drag on carrier and side gears.
 #[derive(Clone, Copy, Debug)]

@@ -5,24 +5,9 @@
 
 use std::fmt::Debug;
 
+use super::super::causes::CAUSES;
+use super::super::layout::Layout;
 use super::super::parameters::Inputs;
-use super::super::plan::Layout;
-
-/// Causes of heat, in the order of the ledger.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[allow(missing_docs)]
-pub enum Cause {
-    Contact,
-    ToothFriction,
-    Thrust,
-    Clutch,
-    Drag,
-    Shaft,
-    Support,
-}
-
-/// Number of causes.
-pub const CAUSES: usize = 7;
 
 /// Positions and velocities of all degrees of freedom, where they stand, and what the host commands.
 pub struct Bodies<'a> {

@@ -46,7 +46,7 @@ impl BodyEffect for FinalDrive {
 
     fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
         if self.imposed {
-            command * (1.0 + self.amplitude * cos(self.teeth * q[super::super::state::CARRIER]))
+            command * (1.0 + self.amplitude * cos(self.teeth * q[super::super::layout::CARRIER]))
         } else {
             command
         }

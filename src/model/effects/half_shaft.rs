@@ -2,8 +2,10 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_p / L.
 
-use super::body::{Action, Bodies, BodyEffect, Cause, Slopes};
-use super::{Setting, spec::HalfShaftSpec};
+use super::super::causes::Cause;
+use super::super::effect_specs::HalfShaftSpec;
+use super::Setting;
+use super::body::{Action, Bodies, BodyEffect, Slopes};
 
 /// The half-shafts that have an end of their own.
 #[derive(Clone, Copy, Debug)]

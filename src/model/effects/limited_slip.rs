@@ -4,8 +4,9 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use super::spec::LimitedSlipSpec;
-use super::{Grip, PlanetGrip, SideGrip, body::Cause};
+use super::super::causes::Cause;
+use super::super::effect_specs::LimitedSlipSpec;
+use super::super::grip::{Grip, PlanetGrip, SideGrip};
 
 /// Hold of the clutch packs.
 pub fn grip(spec: &LimitedSlipSpec) -> Grip {

@@ -1,7 +1,8 @@
 //! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
 
-use super::spec::LockSpec;
-use super::{Grip, PlanetGrip, SideGrip, body::Cause};
+use super::super::causes::Cause;
+use super::super::effect_specs::LockSpec;
+use super::super::grip::{Grip, PlanetGrip, SideGrip};
 
 /// Hold of the lock at full command.
 pub fn grip(spec: &LockSpec) -> Grip {

@@ -3,15 +3,10 @@
 //! A scene holds a list of those that are on. What is off is not in the list; a scene with nothing on has no list.
 
 mod body;
-mod grip;
-mod spec;
 
-pub use body::{Action, Bodies, BodyEffect, CAUSES, Cause, Slopes};
-pub use grip::{Grip, PlanetGrip, SideGrip};
-pub use spec::{
-    BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
-    StrengthSpec, ThrustFrictionSpec,
-};
+use super::effect_specs::EffectSpecs;
+use super::grip::Grip;
+pub use body::{Action, Bodies, BodyEffect, Slopes};
 
 #[cfg(feature = "bearing_drag")]
 pub mod bearing_drag;

@@ -4,8 +4,9 @@
 //! its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w + τ ẇ). Linear springs
 //! with damping proportional to stiffness.
 
+use super::super::causes::Cause;
 use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Cause, Slopes};
+use super::body::{Action, Bodies, BodyEffect, Slopes};
 use crate::integrate::in_pairs;
 use crate::numeric::cos;
 

@@ -4,8 +4,9 @@
 //! planet and the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer
 //! 2011, section 10.2 on locking values).
 
-use super::spec::ThrustFrictionSpec;
-use super::{Grip, PlanetGrip, SideGrip, body::Cause};
+use super::super::causes::Cause;
+use super::super::effect_specs::ThrustFrictionSpec;
+use super::super::grip::{Grip, PlanetGrip, SideGrip};
 use crate::geometry::Pair;
 
 /// Hold of washers and pins.

@@ -1,6 +1,6 @@
 //! How strongly dry friction can hold a body, by what presses it.
 
-use super::body::Cause;
+use super::causes::Cause;
 
 /// Hold on a side gear against the carrier: a limit torque made of a constant and of what the meshes press.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
