@@ -75,7 +75,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const F
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
     /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
-    pub(super) wrapped: [i64; MAX_GROUPS],
+    wrapped: [i64; MAX_GROUPS],
 }
 
 impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'a, N, G, P, FULL> {
@@ -117,6 +117,12 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
             position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
             rate: [side * speed - travel_rate, travel_rate],
         }
+    }
+
+    /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
+    #[inline(always)]
+    pub(super) fn wrapped(&self, g: usize, s: usize) -> i64 {
+        if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
     }
 
     #[inline(always)]

@@ -55,6 +55,18 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         self.teeth.full.gaps[usize::from(self.fault)].as_deref()
     }
 
+    /// State of the mesh of group `g` with side `s` in detail.
+    fn detailed_state<T: Local>(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState<T> {
+        let state = self.mesh_state(at, g, s);
+        let seat = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
+        let of = |i: usize, [a, b]: [f64; 2], c: f64| [T::local(a, i), T::local(b, i + 1), T::local(c, i + 2)];
+        DetailedState {
+            position: of(0, state.position, seat[0]),
+            rate: of(3, state.rate, seat[1]),
+            wrapped: self.wrapped(g, s),
+        }
+    }
+
     /// Loads of the mesh of group `g` with side `s` in detail; each loaded slice is shown to `look`.
     pub(super) fn detail<T: Local>(
         &self,
@@ -63,14 +75,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         s: usize,
         look: impl FnMut(&SliceLoad),
     ) -> DetailedLoad<T> {
-        let state = self.mesh_state(at, g, s);
-        let seat = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
-        let of = |i: usize, [a, b]: [f64; 2], c: f64| [T::local(a, i), T::local(b, i + 1), T::local(c, i + 2)];
-        let state = DetailedState {
-            position: of(0, state.position, seat[0]),
-            rate: of(3, state.rate, seat[1]),
-            wrapped: if s == 0 { self.wrapped[g] } else { -self.wrapped[g] },
-        };
+        let state = self.detailed_state(at, g, s);
         let gaps = self.gaps().map(|g| g as _);
         let names = (self.teeth.plan.group(g).planet, s);
         self.teeth.full.detailed.load(&self.teeth.mesh.engagement, gaps, names, &state, look)
@@ -381,13 +386,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let mut energy = if full.in_detail {
             in_pairs(G, |g| {
                 let of = |s| {
-                    let state = self.mesh_state(at, g, s);
-                    let seat = if P > 0 { at.q[Self::SEAT + s] } else { 0.0 };
-                    let state = DetailedState {
-                        position: [state.position[0], state.position[1], seat],
-                        rate: [0.0; 3],
-                        wrapped: if s == 0 { self.wrapped[g] } else { -self.wrapped[g] },
-                    };
+                    let state = self.detailed_state(at, g, s);
                     let names = (self.teeth.plan.group(g).planet, s);
                     full.detailed.energy(&self.teeth.mesh.engagement, self.gaps().map(|g| g as _), names, &state)
                 };

@@ -99,7 +99,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
-        let wrapped = if s == 0 { self.wrapped[g] } else { -self.wrapped[g] };
+        let wrapped = self.wrapped(g, s);
         let teeth = |flank: Flank, number: i64| {
             let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
             self.teeth.full.sound.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })

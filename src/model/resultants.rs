@@ -83,12 +83,9 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
 ) -> Forces {
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
-    let (a, power) = equations.evaluate(point);
-    let tooth = equations.gear_torques(point);
+    let Instant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
-    let drives = equations.drives(point);
-    out.carrier_torque = drives.0;
-    out.spin_torque = drives.1;
+    (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
     out.twist = twists(model, inputs, state);
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
@@ -96,7 +93,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
         } else {
             inputs.load_torque[s] + teeth.rigid_end[s] * a[s]
         };
-        out.side_tangential[s] = tooth[s] / (0.5 * pair.outer_pitch_diameter(1));
+        out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
@@ -124,35 +121,51 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
     out
 }
 
+/// Accelerations and torques at an instant, of one evaluation.
+struct Instant<const N: usize> {
+    acceleration: [f64; N],
+    /// Torques of the meshes on the side gears, alone [N·m].
+    gears: [f64; 2],
+    /// Torque of the carrier's drive [N·m].
+    carrier_torque: f64,
+    /// Torque of what imposes the spin, all planets together [N·m].
+    spin_torque: f64,
+    power: Power,
+}
+
 impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
-    /// Torques of the meshes on side gears, alone.
+    fn instant(&self, at: &Point<N>) -> Instant<N> {
+        let plan = &self.teeth.plan;
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+        let gears;
+        if FULL {
+            self.act(at, &mut sum, &mut imposed, &mut power, None);
+            gears = self.gear_torques(at);
+        } else {
+            (sum, power.heat[0]) = self.tooth_torques(at);
+            gears = [sum[0], sum[1]];
+        }
+        let carrier_torque = if plan.carrier_imposed {
+            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        } else {
+            self.inputs.carrier_torque + power.drive
+        };
+        let spin_torque =
+            if plan.spin_imposed { -in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g]) } else { 0.0 };
+        self.finish(at, &mut sum, &imposed, &mut power);
+        Instant { acceleration: sum, gears, carrier_torque, spin_torque, power }
+    }
+
+    /// Torques of the meshes on side gears, where other torques act on them too.
     fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
         let side = self.teeth.lever[1];
-        if FULL && self.teeth.full.in_detail {
+        if self.teeth.full.in_detail {
             let torque =
                 |s: usize| in_pairs(G, |g| self.members(g) * side * self.detail::<f64>(at, g, s, |_| {}).force[0]);
             return [torque(0), torque(1)];
         }
         let sum = self.tooth_torques(at).0;
         [sum[0], sum[1]]
-    }
-
-    /// Torque of the carrier's drive and of what imposes the spin, all planets together [N·m].
-    fn drives(&self, at: &Point<N>) -> (f64, f64) {
-        let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
-        if FULL {
-            self.act(at, &mut sum, &mut imposed, &mut power, None);
-        } else {
-            sum = self.tooth_torques(at).0;
-        }
-        let carrier = if plan.carrier_imposed {
-            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
-        } else {
-            self.inputs.carrier_torque + power.drive
-        };
-        let spin = if plan.spin_imposed { -in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g]) } else { 0.0 };
-        (carrier, spin)
     }
 }
 
