@@ -1,7 +1,9 @@
 //! A mass hits a wall under F = F_el (1 + λ ḋ) and returns with the exact relation's speed, whatever the elastic law.
 
 use bevel_differential::contact::damping::{Damping, restitution};
-use bevel_differential::integrate::{Control, Effort, Flow, Linearisation, Point, SecondOrder, Statistics, advance};
+use bevel_differential::integrate::{
+    Control, Effort, Flow, Linearisation, Point, Rodas5P, SecondOrder, Statistics, advance,
+};
 
 /// A mass flying into a wall of elastic force K d^n; position is the penetration.
 struct Wall {
@@ -52,7 +54,8 @@ fn rebound(exponent: f64, dimensionless: f64) -> (f64, Statistics) {
         (0.0, Control::new(1e-8), Statistics::default(), 1_000_000);
     let effort = Effort { tolerance: 1e-10, control: &mut control, statistics: &mut statistics, budget: &mut budget };
     // an undamped impact lasts about three times depth/speed, the slowest return here not three times that
-    advance(&wall, &mut point, &mut time, 12.0 * depth / speed, effort, |_| Ok::<_, ()>(Flow::Continue)).unwrap();
+    advance(&Rodas5P, &wall, &mut point, &mut time, 12.0 * depth / speed, effort, |_| Ok::<_, ()>(Flow::Continue))
+        .unwrap();
     assert!(point.q[0] < 0.0, "still in contact");
     (-point.v[0] / speed, statistics)
 }

@@ -2,7 +2,8 @@
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::integrate::{
-    Control, Effort, Failure, Flow, Linearisation, Point, RODAS5P, SecondOrder, Statistics, advance, in_pairs, step,
+    Control, Effort, Failure, Flow, Linearisation, Point, RODAS5P, Rodas5P, SecondOrder, Statistics, advance, in_pairs,
+    step,
 };
 
 /// A system given by its acceleration and that acceleration's derivatives.
@@ -113,7 +114,7 @@ fn run<const N: usize, S: SecondOrder<N>>(
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
     let mut budget = 1_000_000;
     let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-    advance(s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
+    advance(&Rodas5P, s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
     Ok(statistics)
 }
 
@@ -220,7 +221,7 @@ fn stretch<const N: usize, S: SecondOrder<N>>(
 ) {
     let mut budget = 100_000;
     let effort = Effort { tolerance: 1e-10, control, statistics, budget: &mut budget };
-    advance(s, point, time, until, effort, |step| Ok::<_, ()>(observe(step.end, step.time))).unwrap();
+    advance(&Rodas5P, s, point, time, until, effort, |step| Ok::<_, ()>(observe(step.end, step.time))).unwrap();
 }
 
 #[test]
@@ -366,7 +367,7 @@ fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
     let (mut time, mut control, mut statistics, mut budget) = (0.0, Control::new(1e-4), Statistics::default(), 100_000);
     let effort = Effort { tolerance: 1e-7, control: &mut control, statistics: &mut statistics, budget: &mut budget };
     let mut bits = Vec::new();
-    advance(&s, &mut point, &mut time, 4.0, effort, |step| {
+    advance(&Rodas5P, &s, &mut point, &mut time, 4.0, effort, |step| {
         let Point { q, v } = step.end;
         assert!((1..N).all(|j| (q[j], v[j]) == (q[1], v[1])), "twins stay twins");
         bits.push([q[0], q[1], v[0], v[1], step.power[0], step.power[1], step.power[2]].map(f64::to_bits));

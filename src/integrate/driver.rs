@@ -5,8 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::rodas5p::RODAS5P;
-use super::rosenbrock::{self, Trial};
+use super::method::{Aim, Method, Trial};
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// What the step-size controller remembers from one call to the next.
@@ -81,8 +80,6 @@ pub enum Failure<E> {
     Refused(E),
 }
 
-/// Right-hand sides of a step besides the linearisation at its start.
-const EVALUATIONS: u64 = RODAS5P.c.len() as u64;
 const SAFETY: f64 = 0.9;
 /// How much longer than predicted a step may be to end on time: its error stays within what SAFETY leaves.
 const LONGEST_FIT: f64 = 1.1;
@@ -106,9 +103,10 @@ pub struct Effort<'a> {
     pub budget: &'a mut u64,
 }
 
-/// Integrates from `time` to `until`, calling `observe` after each accepted step, which may end the integration early.
-/// Every attempt at a step is taken from the budget, so that the caller bounds the work.
-pub fn advance<const N: usize, S: SecondOrder<N>, E>(
+/// Integrates from `time` to `until` by `method`, calling `observe` after each accepted step, which may end the
+/// integration early. Every attempt at a step is taken from the budget, so that the caller bounds the work.
+pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
+    method: &M,
     system: &S,
     point: &mut Point<N>,
     time: &mut f64,
@@ -129,9 +127,9 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
         if h > switch_at {
             (h, cut) = (switch_at, true);
         }
-        let trial = rosenbrock::step(&RODAS5P, system, point, &lin, h);
-        statistics.evaluations += EVALUATIONS;
-        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(system, point, t, tolerance));
+        let aim = Aim { weights: system.weights(point), tolerance };
+        let trial = method.step(system, point, &lin, h, &aim, statistics);
+        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &aim));
         match trial {
             Some(trial) if error <= 1.0 => {
                 if let Some(fraction) = system.crossing(point, &trial.end).filter(|_| h > resolution) {
@@ -140,7 +138,7 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
                     continue;
                 }
                 switch_at = f64::INFINITY;
-                control.accept(h, cut, error, just_rejected);
+                control.accept::<M>(h, cut, error, just_rejected);
                 just_rejected = false;
                 statistics.accepted += 1;
                 let begin = lin.power;
@@ -168,7 +166,7 @@ pub fn advance<const N: usize, S: SecondOrder<N>, E>(
                 switch_at = f64::INFINITY;
                 control.next = h / if error.is_finite() {
                     statistics.rejected_error += 1;
-                    (fifth_root(error) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
+                    (M::root(error) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
                 } else {
                     statistics.rejected_invalid += 1;
                     LARGEST_SHRINK
@@ -209,10 +207,10 @@ fn linearise<const N: usize, S: SecondOrder<N>>(
 impl Control {
     /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
     #[inline(never)]
-    fn accept(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
-        let mut factor = fifth_root(error) / SAFETY;
+    fn accept<M: Method>(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
+        let mut factor = M::root(error) / SAFETY;
         if self.last > 0.0 {
-            let predictive = (self.last / h) * fifth_root(error * error / self.last_error) / SAFETY;
+            let predictive = (self.last / h) * M::root(error * error / self.last_error) / SAFETY;
             factor = factor.max(predictive);
         }
         let mut next = h / factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);
@@ -225,29 +223,10 @@ impl Control {
     }
 }
 
-/// x^(1/(p+1)) for the order p = 4 of the error estimate, to a per mille: all that a step size needs.
-#[inline(never)]
-fn fifth_root(x: f64) -> f64 {
-    // a fifth of the exponent is near; Newton's method on y⁵ = x does the rest
-    const BIAS: u64 = 1023 << 52;
-    let x = x.clamp(1e-30, 1e30);
-    let mut y = f64::from_bits(x.to_bits() / 5 + BIAS / 5 * 4);
-    for _ in 0..2 {
-        let y2 = y * y;
-        y = 0.8 * y + 0.2 * x / (y2 * y2);
-    }
-    y
-}
-
 /// Largest component of the error over what is allowed; NaN if anything is not finite.
 #[inline(always)]
-fn error_norm<const N: usize, S: SecondOrder<N>>(
-    system: &S,
-    start: &Point<N>,
-    trial: &Trial<N>,
-    tolerance: f64,
-) -> f64 {
-    let weight = system.weights(start);
+fn error_norm<const N: usize>(trial: &Trial<N>, aim: &Aim<N>) -> f64 {
+    let weight = &aim.weights;
     let (mut largest, mut sum) = (0.0f64, 0.0);
     for i in 0..N {
         let q = (trial.error.q[i] * weight.q[i]).abs();
@@ -256,16 +235,5 @@ fn error_norm<const N: usize, S: SecondOrder<N>>(
         // max() passes over NaN, a sum does not, nor does a product with zero
         sum += q + v + 0.0 * (trial.end.q[i] + trial.end.v[i]);
     }
-    if sum.is_finite() { largest / tolerance } else { f64::NAN }
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn fifth_root_is_good_to_a_per_mille() {
-        for k in -200..200 {
-            let x = 10f64.powf(f64::from(k) * 0.1);
-            assert!((super::fifth_root(x) / x.powf(0.2) - 1.0).abs() < 1e-3, "{x:e}: {}", super::fifth_root(x));
-        }
-    }
+    if sum.is_finite() { largest / aim.tolerance } else { f64::NAN }
 }

@@ -2,11 +2,13 @@
 
 mod driver;
 mod linear;
+mod method;
 mod rodas5p;
 mod rosenbrock;
 mod system;
 
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
-pub use rodas5p::RODAS5P;
-pub use rosenbrock::{Tableau, Trial, step};
+pub use method::{Aim, Method, Trial};
+pub use rodas5p::{RODAS5P, Rodas5P};
+pub use rosenbrock::{Tableau, step};
 pub use system::{Linearisation, Matrix, Point, SecondOrder, in_pairs};

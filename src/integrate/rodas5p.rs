@@ -4,7 +4,31 @@
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
 //! smooth forcing (Prothero–Robinson), which is what a damped mesh rolling through its tooth cycle is.
 
-use super::rosenbrock::Tableau;
+use super::driver::Statistics;
+use super::method::{Aim, Method, Trial};
+use super::rosenbrock::{self, Tableau};
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// The method.
+pub struct Rodas5P;
+
+impl Method for Rodas5P {
+    const ESTIMATE: u32 = 4;
+
+    #[inline(always)]
+    fn step<const N: usize, S: SecondOrder<N>>(
+        &self,
+        system: &S,
+        start: &Point<N>,
+        lin: &Linearisation<N, S::Power>,
+        h: f64,
+        _: &Aim<N>,
+        counts: &mut Statistics,
+    ) -> Option<Trial<N>> {
+        counts.evaluations += RODAS5P.c.len() as u64;
+        rosenbrock::step(&RODAS5P, system, start, lin, h)
+    }
+}
 
 /// Coefficients of Rodas5P.
 pub const RODAS5P: Tableau<8> = Tableau {

@@ -14,6 +14,7 @@
 //! Every system here is autonomous (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
 
 use super::linear::Factors;
+use super::method::Trial;
 use super::system::{Linearisation, Point, SecondOrder, sum};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
@@ -29,17 +30,6 @@ pub struct Tableau<const S: usize> {
     pub c: &'static [&'static [f64]],
     /// Weights of the stages in the solution at the middle of the step, beside (y₀ + y₁)/2.
     pub middle: [f64; S],
-}
-
-/// Result of a step that may still be rejected.
-#[derive(Clone, Copy, Debug)]
-pub struct Trial<const N: usize> {
-    /// Solution at the end of the step.
-    pub end: Point<N>,
-    /// Continuous extension at the middle of the step.
-    pub middle: Point<N>,
-    /// Error estimate: difference to the embedded solution, scaled to the solution that is kept.
-    pub error: Point<N>,
 }
 
 /// One step of size `h` from `start`, where `lin` was taken. `None` if the matrix is singular.

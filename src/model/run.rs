@@ -7,7 +7,7 @@ use super::failure::StepFailure;
 use super::rigid::RigidEquations;
 use super::state::State;
 use super::strength::MeshLoad;
-use crate::integrate::{self, Effort, Failure, Flow, Step};
+use crate::integrate::{self, Effort, Failure, Flow, Rodas5P, Step};
 
 /// Attempts at steps granted to one call: bounds the time that a host can be kept waiting to some seconds.
 pub const BUDGET: u64 = 2_000_000;
@@ -56,6 +56,7 @@ pub fn teeth_stretch<const N: usize, const G: usize, const P: usize, const FULL:
         switched = false;
         let State { control, statistics, work, heat, bias, fatigue, .. } = state;
         outcome = integrate::advance(
+            &Rodas5P,
             &equations,
             &mut point,
             &mut time,
@@ -134,6 +135,7 @@ pub fn rigid_stretch<const N: usize>(
         switched = false;
         let State { control, statistics, work, heat, .. } = state;
         outcome = integrate::advance(
+            &Rodas5P,
             &equations,
             &mut point,
             &mut time,

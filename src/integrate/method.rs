@@ -1,0 +1,77 @@
+//! What a one-step method does, whatever its kind: the driver, the step-size control and the tests know no more of it.
+
+use super::driver::Statistics;
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// Result of a step that may still be rejected.
+#[derive(Clone, Copy, Debug)]
+pub struct Trial<const N: usize> {
+    /// Solution at the end of the step.
+    pub end: Point<N>,
+    /// Continuous extension at the middle of the step.
+    pub middle: Point<N>,
+    /// Estimate of the local error of `end`.
+    pub error: Point<N>,
+}
+
+/// How accurate a step has to be: what iterations within it are stopped by.
+#[derive(Clone, Copy, Debug)]
+pub struct Aim<const N: usize> {
+    /// Reciprocals of the natural magnitudes of positions and velocities.
+    pub weights: Point<N>,
+    /// Relative tolerance: an error, weighted, must not exceed it.
+    pub tolerance: f64,
+}
+
+/// A one-step method with an error estimate. It remembers nothing from step to step, so that a snapshot need not know it.
+pub trait Method {
+    /// Order p of the error estimate, which falls as h^(p+1).
+    const ESTIMATE: u32;
+
+    /// One step of size `h` from `start`, where `lin` was taken; `None` if it cannot be made (a singular matrix, an
+    /// iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
+    fn step<const N: usize, S: SecondOrder<N>>(
+        &self,
+        system: &S,
+        start: &Point<N>,
+        lin: &Linearisation<N, S::Power>,
+        h: f64,
+        aim: &Aim<N>,
+        counts: &mut Statistics,
+    ) -> Option<Trial<N>>;
+
+    /// x^(1/(p+1)), to a per mille: all that a step size needs.
+    #[inline(always)]
+    fn root(x: f64) -> f64 {
+        match Self::ESTIMATE {
+            3 => libm::sqrt(libm::sqrt(x)),
+            4 => fifth_root(x),
+            p => libm::pow(x, 1.0 / f64::from(p + 1)),
+        }
+    }
+}
+
+/// x^(1/5) to a per mille.
+#[inline(never)]
+fn fifth_root(x: f64) -> f64 {
+    // a fifth of the exponent is near; Newton's method on y⁵ = x does the rest
+    const BIAS: u64 = 1023 << 52;
+    let x = x.clamp(1e-30, 1e30);
+    let mut y = f64::from_bits(x.to_bits() / 5 + BIAS / 5 * 4);
+    for _ in 0..2 {
+        let y2 = y * y;
+        y = 0.8 * y + 0.2 * x / (y2 * y2);
+    }
+    y
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn fifth_root_is_good_to_a_per_mille() {
+        for k in -200..200 {
+            let x = 10f64.powf(f64::from(k) * 0.1);
+            assert!((super::fifth_root(x) / x.powf(0.2) - 1.0).abs() < 1e-3, "{x:e}: {}", super::fifth_root(x));
+        }
+    }
+}
