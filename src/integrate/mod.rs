@@ -3,12 +3,14 @@
 mod driver;
 mod linear;
 mod method;
+mod rodas4;
 mod rodas5p;
 mod rosenbrock;
 mod system;
 
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
 pub use method::{Aim, Method, Trial};
+pub use rodas4::{RODAS4, Rodas4};
 pub use rodas5p::{RODAS5P, Rodas5P};
 pub use rosenbrock::{Tableau, step};
 pub use system::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
