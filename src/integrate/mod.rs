@@ -1,5 +1,6 @@
 //! Integration of second-order systems M v̇ = f(q, v), q̇ = B v: stiff, small, without heap allocation.
 
+mod dormand_prince;
 mod driver;
 mod linear;
 mod method;
@@ -8,6 +9,7 @@ mod rodas5p;
 mod rosenbrock;
 mod system;
 
+pub use dormand_prince::DormandPrince;
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
 pub use method::{Aim, Method, Trial};
 pub use rodas4::{RODAS4, Rodas4};

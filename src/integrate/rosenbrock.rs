@@ -14,7 +14,7 @@
 //! Every system here is autonomous (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
 
 use super::linear::Factors;
-use super::method::Trial;
+use super::method::{Trial, combine};
 use super::system::{Linearisation, Point, SecondOrder, sum};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
@@ -91,16 +91,4 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     combine(&mut middle, &tableau.middle, 1.0, &u);
     let kept = |x: f64| x * tableau.kept_error;
     Some(Trial { end, middle, error: Point { q: error.q.map(kept), v: error.v.map(kept) } })
-}
-
-/// y += scale Σ weight_j U_j over the first stages.
-#[inline(always)]
-fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    for (weight, u) in weights.iter().zip(u) {
-        let weight = weight * scale;
-        for i in 0..N {
-            y.q[i] += weight * u.q[i];
-            y.v[i] += weight * u.v[i];
-        }
-    }
 }
