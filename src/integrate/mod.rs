@@ -1,9 +1,12 @@
 //! Integration of second-order systems M v̇ = f(q, v), q̇ = B v: stiff, small, without heap allocation.
 
+mod block;
+mod complex;
 mod dormand_prince;
 mod driver;
 mod linear;
 mod method;
+mod radau;
 mod rodas4;
 mod rodas5p;
 mod rosenbrock;
@@ -12,6 +15,7 @@ mod system;
 pub use dormand_prince::DormandPrince;
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
 pub use method::{Aim, Method, Trial};
+pub use radau::Radau;
 pub use rodas4::{RODAS4, Rodas4};
 pub use rodas5p::{RODAS5P, Rodas5P};
 pub use rosenbrock::{Tableau, step};
