@@ -31,7 +31,7 @@ impl Method for Rodas4 {
 }
 
 /// Coefficients of RODAS.
-pub const RODAS4: Tableau<6> = Tableau {
+const RODAS4: Tableau<6> = Tableau {
     gamma: 0.25,
     // as the authors have it: the estimate, of lower order, stands for the error
     kept_error: 1.0,
