@@ -121,7 +121,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
     let mut just_rejected = false;
     let mut switch_at = f64::INFINITY;
-    let mut lin = linearise(system, point, statistics);
+    let mut lin = linearise::<N, M, S>(system, point, statistics);
     loop {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let remaining = until - *time;
@@ -156,7 +156,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                     statistics.evaluations += 1;
                     system.evaluate(point).1
                 } else {
-                    lin = linearise(system, point, statistics);
+                    lin = linearise::<N, M, S>(system, point, statistics);
                     lin.power
                 };
                 let step = Step { h, time: *time, start: &start, end: point, power: [begin, middle, end] };
@@ -198,12 +198,16 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 }
 
 #[inline(never)]
-fn linearise<const N: usize, S: SecondOrder<N>>(
+fn linearise<const N: usize, M: Method, S: SecondOrder<N>>(
     system: &S,
     point: &Point<N>,
     statistics: &mut Statistics,
 ) -> Linearisation<N, S::Power> {
     statistics.evaluations += 1;
+    if !M::IMPLICIT {
+        let (acceleration, power) = system.evaluate(point);
+        return Linearisation { acceleration, by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power };
+    }
     statistics.jacobians += 1;
     system.linearise(point)
 }

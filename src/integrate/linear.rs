@@ -7,7 +7,7 @@
 use super::system::{Matrix, SecondOrder, sum};
 
 /// Least pivot over the largest element of its row.
-const LEAST_PIVOT: f64 = 1e-10;
+pub const LEAST_PIVOT: f64 = 1e-10;
 
 /// Factors of a matrix of order `N`.
 pub struct Factors<const N: usize> {

@@ -23,10 +23,24 @@ pub struct Aim<const N: usize> {
     pub tolerance: f64,
 }
 
+impl<const N: usize> Aim<N> {
+    /// Largest component of `of` over what is allowed; passes over NaN.
+    #[inline(always)]
+    pub fn size(&self, of: &Point<N>) -> f64 {
+        let mut largest = 0.0f64;
+        for i in 0..N {
+            largest = largest.max((of.q[i] * self.weights.q[i]).abs()).max((of.v[i] * self.weights.v[i]).abs());
+        }
+        largest / self.tolerance
+    }
+}
+
 /// A one-step method with an error estimate. It remembers nothing from step to step, so that a snapshot need not know it.
 pub trait Method {
     /// Order p of the error estimate, which falls as h^(p+1).
     const ESTIMATE: u32;
+    /// Whether steps use derivatives of the accelerations. If not, they are not asked for: `lin` holds zeros for them.
+    const IMPLICIT: bool = true;
 
     /// One step of size `h` from `start`, where `lin` was taken; `None` if it cannot be made (a singular matrix, an
     /// iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
@@ -47,6 +61,18 @@ pub trait Method {
             3 => libm::sqrt(libm::sqrt(x)),
             4 => fifth_root(x),
             p => libm::pow(x, 1.0 / f64::from(p + 1)),
+        }
+    }
+}
+
+/// y += scale Σ weight_j u_j over the first stages.
+#[inline(always)]
+pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    for (weight, u) in weights.iter().zip(u) {
+        let weight = weight * scale;
+        for i in 0..N {
+            y.q[i] += weight * u.q[i];
+            y.v[i] += weight * u.v[i];
         }
     }
 }

@@ -1,18 +1,25 @@
 //! Integration of second-order systems M v̇ = f(q, v), q̇ = B v: stiff, small, without heap allocation.
 
+mod block;
+mod complex;
+mod dormand_prince;
 mod driver;
 mod erased;
 mod fixed;
 mod linear;
 mod method;
+mod radau;
+mod rodas4;
 mod rodas5p;
 mod rosenbrock;
 mod system;
 
+pub use dormand_prince::DormandPrince;
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
 pub use erased::{Erased, Object};
 pub use fixed::advance_fixed;
 pub use method::{Aim, Method, Trial};
-pub use rodas5p::{RODAS5P, Rodas5P};
-pub use rosenbrock::{Tableau, step};
+pub use radau::Radau;
+pub use rodas4::Rodas4;
+pub use rodas5p::Rodas5P;
 pub use system::{Linearisation, Matrix, Point, SecondOrder, in_pairs};

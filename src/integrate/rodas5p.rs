@@ -31,7 +31,7 @@ impl Method for Rodas5P {
 }
 
 /// Coefficients of Rodas5P.
-pub const RODAS5P: Tableau<8> = Tableau {
+const RODAS5P: Tableau<8> = Tableau {
     gamma: 0.211_937_563_194_290_14,
     a: &[
         &[3.0],

@@ -5,17 +5,12 @@
 //!
 //!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
 //!
-//! for stiffly accurate methods, whose last stage starts from the embedded solution. With y = (q, v), q̇ = B v,
-//! K = ∂v̇/∂q and D = ∂v̇/∂v the q-rows are solved by hand, so that the matrix to factorise has the order of the
-//! velocities alone:
-//!
-//!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v),   s = hγ.
-//!
-//! Every system here is autonomous (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
+//! for stiffly accurate methods, whose last stage starts from the embedded solution. Every system here is autonomous
+//! (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
 
-use super::linear::Factors;
-use super::method::Trial;
-use super::system::{Linearisation, Point, SecondOrder, sum};
+use super::block::Block;
+use super::method::{Trial, combine};
+use super::system::{Linearisation, Point, SecondOrder};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
 pub struct Tableau<const S: usize> {
@@ -39,17 +34,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     lin: &Linearisation<N, E::Power>,
     h: f64,
 ) -> Option<Trial<N>> {
-    let s = h * tableau.gamma;
-    let mut matrix = lin.by_position;
-    system.times_rates(&mut matrix);
-    for i in 0..N {
-        for j in 0..N {
-            matrix[i][j] = -lin.by_velocity[i][j] - s * matrix[i][j];
-        }
-        matrix[i][i] += 1.0 / s;
-    }
-    let factors = Factors::new::<E>(matrix)?;
-
+    let block = Block::new(system, lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
     let mut u = [Point::ZERO; S];
     let mut y = *start;
@@ -68,14 +53,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
         if let Some(row) = stage.checked_sub(1) {
             combine(&mut r, tableau.c[row], per_h, &u);
         }
-        for i in 0..N {
-            r.v[i] += s * sum::<N, E>(0, N, |j| lin.by_position[i][j] * r.q[j]);
-        }
-        factors.solve::<E>(&mut r.v);
-        let rate = system.rates(&r.v);
-        for i in 0..N {
-            r.q[i] = s * (r.q[i] + rate[i]);
-        }
+        block.solve(system, &lin.by_position, &mut r);
         u[stage] = r;
     }
     let error = u[S - 1];
@@ -88,16 +66,4 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     }
     combine(&mut middle, &tableau.middle, 1.0, &u);
     Some(Trial { end, middle, error })
-}
-
-/// y += scale Σ weight_j U_j over the first stages.
-#[inline(always)]
-fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    for (weight, u) in weights.iter().zip(u) {
-        let weight = weight * scale;
-        for i in 0..N {
-            y.q[i] += weight * u.q[i];
-            y.v[i] += weight * u.v[i];
-        }
-    }
 }

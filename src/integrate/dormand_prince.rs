@@ -1,0 +1,80 @@
+//! Dormand–Prince 5(4): explicit, order 5 with embedded order 4, seven stages of which the last is the next step's first.
+//!
+//! J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, Journal of Computational and Applied
+//! Mathematics 6:19 (1980); continuous extension of order 4 as in E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed., Springer 1993, section II.6. The error estimate is the difference to the embedded
+//! solution.
+//!
+//! Stable only while h |λ| < 3.3 on the negative real axis and h ω < 1 on the imaginary one, to which a mesh of stiff
+//! teeth ties its steps: it is here to be compared with.
+//!
+//! The first stage is the evaluation that the driver makes at the start of a step for the ledger, so that the last stage
+//! need not be handed on from step to step.
+
+use super::driver::Statistics;
+use super::method::{Aim, Method, Trial, combine};
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// The method.
+pub struct DormandPrince;
+
+/// a_ij from the second stage on; the last row is the solution of order 5.
+const A: [&[f64]; 6] = [
+    &[1.0 / 5.0],
+    &[3.0 / 40.0, 9.0 / 40.0],
+    &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
+    &[19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0],
+    &[9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0],
+    &[35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0],
+];
+
+/// Weights of the solution of order 5 less those of the embedded one.
+const ERROR: [f64; 7] =
+    [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
+
+/// Weights of the stages in the term Θ²(1−Θ)² of the continuous extension, beside the cubic through both ends.
+const QUARTIC: [f64; 7] = [
+    -12_715_105_075.0 / 11_282_082_432.0,
+    0.0,
+    87_487_479_700.0 / 32_700_410_799.0,
+    -10_690_763_975.0 / 1_880_347_072.0,
+    701_980_252_875.0 / 199_316_789_632.0,
+    -1_453_857_185.0 / 822_651_844.0,
+    69_997_945.0 / 29_380_423.0,
+];
+
+impl Method for DormandPrince {
+    const ESTIMATE: u32 = 4;
+    const IMPLICIT: bool = false;
+
+    #[inline(always)]
+    fn step<const N: usize, S: SecondOrder<N>>(
+        &self,
+        system: &S,
+        start: &Point<N>,
+        lin: &Linearisation<N, S::Power>,
+        h: f64,
+        _: &Aim<N>,
+        counts: &mut Statistics,
+    ) -> Option<Trial<N>> {
+        let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
+        let mut end = *start;
+        for (row, weights) in A.iter().enumerate() {
+            end = *start;
+            combine(&mut end, weights, h, &k);
+            k[row + 1] = Point { q: system.rates(&end.v), v: system.evaluate(&end).0 };
+        }
+        counts.evaluations += A.len() as u64;
+
+        let mut error = Point::ZERO;
+        combine(&mut error, &ERROR, h, &k);
+        // Θ = 1/2: the cubic through both ends and their slopes, and the quartic term
+        let mut middle = Point::ZERO;
+        for i in 0..N {
+            middle.q[i] = 0.5 * (start.q[i] + end.q[i]) + 0.125 * h * (k[0].q[i] - k[6].q[i]);
+            middle.v[i] = 0.5 * (start.v[i] + end.v[i]) + 0.125 * h * (k[0].v[i] - k[6].v[i]);
+        }
+        combine(&mut middle, &QUARTIC, h / 16.0, &k);
+        Some(Trial { end, middle, error })
+    }
+}

@@ -1,0 +1,192 @@
+//! Radau IIA: implicit, order 5, three stages, L-stable and stiffly accurate, its stages of order 3.
+//!
+//! E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.8: stages by
+//! simplified Newton iterations in transformed variables, where they fall apart into a real and a complex system. With
+//! Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, of the blocks γ and (α, −β; β, α), an iteration is
+//!
+//!   (Λ/h − J) ΔW = T⁻¹ F(y₀ + T W) − Λ W/h.
+//!
+//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. It does not fall with the
+//! stiffness of a motion that is to be damped at once; where it is too large it is taken again with f(y₀ + e) for f(y₀),
+//! which mends that. The middle is that of the collocation polynomial, of order 3.
+//!
+//! Other than the code RADAU5 of the same authors, no step hands anything on to the next: the Jacobian is the one at the
+//! start, and stages start from the motion linearised there, which is what the first iteration from Z = 0 gives, at no
+//! evaluation, for f(y₀) is known.
+
+use super::block::Block;
+use super::complex::{Complex, ComplexBlock};
+use super::driver::Statistics;
+use super::method::{Aim, Method, Trial, combine};
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// The method.
+pub struct Radau;
+
+/// √6.
+const ROOT: f64 = 2.449_489_742_783_178;
+/// Where the stages lie in the step.
+const C: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.0];
+/// Real eigenvalue γ of A⁻¹.
+const GAMMA: f64 = 3.637_834_252_744_496;
+/// Complex eigenvalues α ± iβ of A⁻¹.
+const LAMBDA: Complex = Complex { re: 2.681_082_873_627_752_3, im: 3.050_430_199_247_410_5 };
+/// T, whose columns are the eigenvectors.
+const T: [[f64; 3]; 3] = [
+    [9.123_239_487_089_295e-2, -0.141_255_295_020_954_2, -3.002_919_410_514_742_4e-2],
+    [0.241_717_932_707_107_02, 0.204_129_352_293_799_93, 0.382_942_112_757_261_94],
+    [0.966_048_182_615_092_9, 1.0, 0.0],
+];
+/// T⁻¹.
+const INVERSE: [[f64; 3]; 3] = [
+    [4.325_579_890_063_155, 0.339_199_251_815_809_87, 0.541_770_539_935_874_9],
+    [-4.178_718_591_551_905, -0.327_682_820_761_062_4, 0.476_623_554_500_550_45],
+    [-0.502_872_634_945_786_9, 2.571_926_949_855_605_4, -0.596_039_204_828_224_9],
+];
+/// e_i of the error estimate.
+const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * ROOT) / 3.0, (-13.0 + 7.0 * ROOT) / 3.0, -1.0 / 3.0];
+
+/// Iterations granted; where more are needed, a shorter step is cheaper.
+const ITERATIONS: i32 = 10;
+/// Part of the tolerance that the iterations may leave over, small beside what the error estimate says.
+const LEFT_OVER: f64 = 0.01;
+/// Part of a stage's magnitude that rounding may leave over, in units of the last place.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+impl Method for Radau {
+    const ESTIMATE: u32 = 3;
+
+    #[inline(always)]
+    fn step<const N: usize, S: SecondOrder<N>>(
+        &self,
+        system: &S,
+        start: &Point<N>,
+        lin: &Linearisation<N, S::Power>,
+        h: f64,
+        aim: &Aim<N>,
+        counts: &mut Statistics,
+    ) -> Option<Trial<N>> {
+        let per_h = 1.0 / h;
+        let real = Block::new(system, lin, h / GAMMA)?;
+        let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
+        let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
+
+        // stages
+        let (mut z, mut w, mut f) = ([Point::ZERO; 3], [Point::ZERO; 3], [slope; 3]);
+        let (mut last, mut left) = (f64::INFINITY, ITERATIONS);
+        let enough = LEFT_OVER.max(ROUNDING * aim.size(start));
+        loop {
+            let mut change = [Point::ZERO; 3];
+            for i in 0..3 {
+                combine(&mut change[i], &INVERSE[i], 1.0, &f);
+            }
+            combine(&mut change[0], &[-GAMMA], per_h, &w);
+            combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
+            combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
+            let [first, re, im] = &mut change;
+            real.solve(system, &lin.by_position, first);
+            complex.solve(system, &lin.by_position, re, im);
+            for i in 0..3 {
+                combine(&mut w[i], &[1.0], 1.0, &change[i..]);
+            }
+            for i in 0..3 {
+                z[i] = Point::ZERO;
+                combine(&mut z[i], &T[i], 1.0, &w);
+            }
+
+            // changes shrink by about the same factor each time: what is to come is a geometric series
+            let size = aim.size(&change[0]).max(aim.size(&change[1])).max(aim.size(&change[2]));
+            let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
+            if !sum.is_finite() {
+                return None;
+            }
+            left -= 1;
+            let shrink = size / last;
+            let to_come = size * shrink / (1.0 - shrink);
+            if size <= ROUNDING * aim.size(start) || (shrink < 1.0 && to_come <= enough && left < ITERATIONS - 1) {
+                break;
+            }
+            if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(left)) > enough {
+                return None;
+            }
+            last = size;
+            for i in 0..3 {
+                let at = shifted(start, &z[i]);
+                f[i] = Point { q: system.rates(&at.v), v: system.evaluate(&at).0 };
+            }
+            counts.evaluations += 3;
+        }
+
+        let mut defect = Point::ZERO;
+        combine(&mut defect, &ESTIMATE, per_h, &z);
+        let mut error = shifted(&slope, &defect);
+        real.solve(system, &lin.by_position, &mut error);
+        if aim.size(&error) > 1.0 {
+            let at = shifted(start, &error);
+            error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate(&at).0 }, &defect);
+            real.solve(system, &lin.by_position, &mut error);
+            counts.evaluations += 1;
+        }
+        let mut middle = *start;
+        combine(&mut middle, &MIDDLE, 1.0, &z);
+        Some(Trial { end: shifted(start, &z[2]), middle, error })
+    }
+}
+
+#[inline(always)]
+fn shifted<const N: usize>(from: &Point<N>, by: &Point<N>) -> Point<N> {
+    let mut to = *from;
+    combine(&mut to, &[1.0], 1.0, std::slice::from_ref(by));
+    to
+}
+
+/// Values at 1/2 of the polynomials that are 1 at one of the stages and 0 at the others and at the start.
+const MIDDLE: [f64; 3] = middle();
+
+const fn middle() -> [f64; 3] {
+    let mut weights = [0.0; 3];
+    let mut i = 0;
+    while i < 3 {
+        let (a, b) = (C[(i + 1) % 3], C[(i + 2) % 3]);
+        weights[i] = 0.5 * (0.5 - a) * (0.5 - b) / (C[i] * (C[i] - a) * (C[i] - b));
+        i += 1;
+    }
+    weights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+    }
+
+    #[test]
+    fn transformation_diagonalises_the_method_and_collocates_powers_exactly() {
+        let Complex { re, im } = LAMBDA;
+        let lambda = [[GAMMA, 0.0, 0.0], [0.0, re, -im], [0.0, im, re]];
+        let (one, inverse) = (product(&T, &INVERSE), product(&product(&T, &lambda), &INVERSE));
+        for i in 0..3 {
+            for j in 0..3 {
+                assert!((one[i][j] - f64::from(u8::from(i == j))).abs() < 1e-14);
+            }
+            // A c^(n−1) = c^n / n for n = 1, 2, 3 defines A
+            for n in 1..=3 {
+                let back: f64 = (0..3).map(|j| inverse[i][j] * C[j].powi(n)).sum();
+                assert!((back - f64::from(n) * C[i].powi(n - 1)).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn error_estimate_and_middle_are_exact_for_what_they_should_be() {
+        for n in 1..=3 {
+            let sum = |weights: &[f64; 3]| -> f64 { (0..3).map(|i| weights[i] * C[i].powi(n)).sum() };
+            assert!((sum(&MIDDLE) - 0.5f64.powi(n)).abs() < 1e-14);
+            // h f(y₀) + Σ e_i Z_i is h⁴ for y = t, t², t³
+            let slope = if n == 1 { 1.0 } else { 0.0 };
+            assert!((slope + sum(&ESTIMATE)).abs() < 1e-13, "{n}");
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! Bodies that are alike may be simulated once and counted: the default method gives the same bits.
+
+use bevel_differential::integrate::{
+    Control, Effort, Flow, Linearisation, Point, Rodas5P, SecondOrder, Statistics, advance, in_pairs,
+};
+
+/// One body with four alike ones around it, `N` − 1 of them simulated, each counted as often as makes four.
+struct Alike<const N: usize>;
+
+impl<const N: usize> Alike<N> {
+    const MEMBERS: f64 = 4.0 / (N - 1) as f64;
+
+    /// Force on body `j` with its derivatives by its distance and relative speed: hardening, with nonlinear damping.
+    fn force(at: &Point<N>, j: usize) -> [f64; 3] {
+        let (d, v) = (at.q[j] - at.q[0], at.v[j] - at.v[0]);
+        [
+            -30.0 * d - 200.0 * d * d * d - 0.3 * v - 0.1 * d * d * v,
+            -30.0 - 600.0 * d * d - 0.2 * d * v,
+            -0.3 - 0.1 * d * d,
+        ]
+    }
+}
+
+impl<const N: usize> SecondOrder<N> for Alike<N> {
+    /// Power at the first body.
+    type Power = f64;
+    const ALIKE: (usize, usize) = (1, N - 1);
+
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], f64) {
+        let lin = self.linearise(at);
+        (lin.acceleration, lin.power)
+    }
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, f64> {
+        let (mut by_position, mut by_velocity, mut acceleration) = ([[0.0; N]; N], [[0.0; N]; N], [0.0; N]);
+        let own = [-2.0 * at.q[0].sin(), -2.0 * at.q[0].cos()];
+        let total = |i: usize| in_pairs(N - 1, |j| Self::MEMBERS * Self::force(at, 1 + j)[i]);
+        acceleration[0] = (own[0] - total(0)) / 3.0;
+        by_position[0][0] = (own[1] + total(1)) / 3.0;
+        by_velocity[0][0] = total(2) / 3.0;
+        for j in 1..N {
+            let [f, by_d, by_v] = Self::force(at, j);
+            acceleration[j] = f / 0.7;
+            (by_position[j][j], by_position[j][0]) = (by_d / 0.7, -by_d / 0.7);
+            (by_velocity[j][j], by_velocity[j][0]) = (by_v / 0.7, -by_v / 0.7);
+            by_position[0][j] = -Self::MEMBERS * by_d / 3.0;
+            by_velocity[0][j] = -Self::MEMBERS * by_v / 3.0;
+        }
+        Linearisation { acceleration, by_position, by_velocity, power: acceleration[0] * at.v[0] }
+    }
+    fn weights(&self, _: &Point<N>) -> Point<N> {
+        Point { q: [1.0; N], v: [0.5; N] }
+    }
+}
+
+/// Bits of the first body and of one of the others, of the ledger, and counts.
+fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
+    let s = Alike::<N>;
+    let mut point = Point { q: [0.2; N], v: [-1.3; N] };
+    (point.q[0], point.v[0]) = (0.5, 3.0);
+    let (mut time, mut control, mut statistics, mut budget) = (0.0, Control::new(1e-4), Statistics::default(), 100_000);
+    let effort = Effort { tolerance: 1e-7, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    let mut bits = Vec::new();
+    advance(&Rodas5P, &s, &mut point, &mut time, 4.0, effort, |step| {
+        let Point { q, v } = step.end;
+        assert!((1..N).all(|j| (q[j], v[j]) == (q[1], v[1])), "twins stay twins");
+        bits.push([q[0], q[1], v[0], v[1], step.power[0], step.power[1], step.power[2]].map(f64::to_bits));
+        Ok::<_, ()>(Flow::Continue)
+    })
+    .unwrap();
+    (bits, statistics)
+}
+
+#[test]
+fn alike_bodies_simulated_together_or_once_and_counted_give_the_same_bits() {
+    let (one, two, four) = (alike::<2>(), alike::<3>(), alike::<5>());
+    assert!(one.0.len() > 50, "{:?}", one.1);
+    assert_eq!(one, two);
+    assert_eq!(one, four);
+}

@@ -1,0 +1,11 @@
+//! The integrator on problems whose solutions are known: one suite, run with every method.
+
+mod accuracy;
+mod alike;
+mod continuation;
+mod impact;
+mod methods;
+mod order;
+mod problems;
+mod stability;
+mod switches;

@@ -1,0 +1,121 @@
+//! Every method with what theory says of it, and how the tests run it.
+
+use bevel_differential::integrate::{
+    Aim, Control, DormandPrince, Effort, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
+    SecondOrder, Statistics, Trial, advance,
+};
+
+/// What theory says of a method.
+pub trait Known: Method {
+    const METHOD: Self;
+    /// Order of the solution.
+    const ORDER: u32;
+    /// Order of the continuous extension.
+    const MIDDLE: u32;
+    /// Order k of the error h^k/λ under smooth forcing much stiffer than the step; `None` if there is no stable step.
+    const FORCED: Option<u32>;
+}
+
+impl Known for Rodas5P {
+    const METHOD: Self = Rodas5P;
+    const ORDER: u32 = 5;
+    const MIDDLE: u32 = 4;
+    const FORCED: Option<u32> = Some(3);
+}
+
+impl Known for Rodas4 {
+    const METHOD: Self = Rodas4;
+    const ORDER: u32 = 4;
+    const MIDDLE: u32 = 3;
+    // the order is lost: its inner stages are of order 1 only
+    const FORCED: Option<u32> = Some(1);
+}
+
+impl Known for Radau {
+    const METHOD: Self = Radau;
+    const ORDER: u32 = 5;
+    const MIDDLE: u32 = 3;
+    const FORCED: Option<u32> = Some(3);
+}
+
+impl Known for DormandPrince {
+    const METHOD: Self = DormandPrince;
+    const ORDER: u32 = 5;
+    const MIDDLE: u32 = 4;
+    const FORCED: Option<u32> = None;
+}
+
+/// Runs generic tests with each of the methods given.
+macro_rules! with_methods {
+    ($methods:tt: $($test:ident)*) => {
+        $($crate::methods::with_methods!(@ $test $methods);)*
+    };
+    (@ $test:ident [$($method:ident)*]) => {
+        mod $test {
+            $(#[test]
+            #[allow(non_snake_case)]
+            fn $method() {
+                super::$test::<bevel_differential::integrate::$method>();
+            })*
+        }
+    };
+}
+pub(crate) use with_methods;
+
+/// Runs generic tests with every method that damps what is infinitely stiff.
+macro_rules! with_stiff_methods {
+    ($($test:ident)*) => {
+        $crate::methods::with_methods!([Rodas5P Rodas4 Radau]: $($test)*);
+    };
+}
+pub(crate) use with_stiff_methods;
+
+/// Runs generic tests with every method.
+macro_rules! with_every_method {
+    ($($test:ident)*) => {
+        $crate::methods::with_methods!([Rodas5P Rodas4 Radau DormandPrince]: $($test)*);
+    };
+}
+pub(crate) use with_every_method;
+
+/// So accurate that iterations within a step add nothing to its error.
+const ITERATE: f64 = 1e-11;
+
+/// One step of size `h`. A method that needs no derivatives is given none that could be used.
+pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
+    let lin = if M::IMPLICIT {
+        s.linearise(at)
+    } else {
+        let (acceleration, power) = s.evaluate(at);
+        Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
+    };
+    let aim = Aim { weights: s.weights(at), tolerance: ITERATE };
+    M::METHOD.step(s, at, &lin, h, &aim, &mut Statistics::default()).unwrap()
+}
+
+/// `count` equal steps over `length`.
+pub fn fixed<M: Known, const N: usize, S: SecondOrder<N>>(
+    s: &S,
+    mut at: Point<N>,
+    length: f64,
+    count: u32,
+) -> Point<N> {
+    for _ in 0..count {
+        at = step::<M, N, S>(s, &at, length / f64::from(count)).end;
+    }
+    at
+}
+
+/// Adaptive steps up to `until`.
+pub fn run<M: Known, const N: usize, S: SecondOrder<N>>(
+    s: &S,
+    point: &mut Point<N>,
+    until: f64,
+    tolerance: f64,
+) -> Result<Statistics, Failure<()>> {
+    let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
+    let mut budget = 1_000_000;
+    let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    advance(&M::METHOD, s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
+    Ok(statistics)
+}

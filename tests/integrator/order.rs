@@ -1,0 +1,56 @@
+//! Orders of solution, error estimate and continuous extension, without and with stiffness.
+
+use bevel_differential::integrate::Point;
+
+use super::methods::{Known, fixed, step, with_every_method, with_stiff_methods};
+use super::problems::{Logarithmic, distance, forced, forced_exact};
+
+with_every_method!(
+    solution_is_of_its_order
+    error_estimate_is_of_its_order
+    middle_is_of_its_order
+);
+with_stiff_methods!(order_under_stiff_smooth_forcing_is_what_theory_says);
+
+/// An order measured by halving steps is nearer to the order expected than to its neighbours.
+fn assert_order(what: &str, expected: u32, coarse: f64, fine: f64) {
+    let order = (coarse / fine).log2();
+    println!("{what}: {coarse:e} {fine:e}: order {order:.2}, expected {expected}");
+    assert!((order - f64::from(expected)).abs() < 0.5, "{what}: order {order} instead of {expected}");
+}
+
+fn solution_is_of_its_order<M: Known>() {
+    let error = |count| {
+        let end = fixed::<M, 2, _>(&Logarithmic, Logarithmic::exact(0.0), 2.0, count);
+        distance(&end, &Logarithmic::exact(2.0))
+    };
+    assert_order("solution", M::ORDER, error(32), error(64));
+}
+
+// in one step: local orders are one higher
+const STEP: f64 = 0.0125;
+
+fn error_estimate_is_of_its_order<M: Known>() {
+    let estimate = |h| distance(&step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).error, &Point::ZERO);
+    assert_order("estimate", M::ESTIMATE + 1, estimate(STEP), estimate(STEP / 2.0));
+}
+
+fn middle_is_of_its_order<M: Known>() {
+    let error = |h| {
+        let middle = step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).middle;
+        distance(&middle, &Logarithmic::exact(h / 2.0))
+    };
+    assert_order("middle", M::MIDDLE + 1, error(STEP), error(STEP / 2.0));
+}
+
+fn order_under_stiff_smooth_forcing_is_what_theory_says<M: Known>() {
+    // where λh ≫ 1. Radau IIA of s stages: h^s/λ (Hairer & Wanner II, section IV.15)
+    let error = |lambda, count| {
+        let end = fixed::<M, 2, _>(&forced(lambda), forced_exact(0.0), 1.0, count);
+        (end.v[0] - forced_exact(1.0).v[0]).abs()
+    };
+    let order = M::FORCED.unwrap();
+    assert_order("forced", order, error(1e5, 20), error(1e5, 40));
+    let stiffer = error(1e5, 20) / error(1e6, 20);
+    assert!((stiffer / 10.0 - 1.0).abs() < 0.05, "ten times as stiff, {stiffer} times as accurate");
+}

@@ -1,0 +1,73 @@
+//! What is stiff is damped, or ties an explicit method's steps.
+
+use bevel_differential::integrate::{DormandPrince, Point};
+
+use super::methods::{Known, run, step, with_stiff_methods};
+use super::problems::{distance, forced, forced_exact, system};
+
+with_stiff_methods!(
+    infinitely_stiff_motion_is_damped_in_one_step
+    no_oscillation_grows_however_long_the_step
+    smooth_stiff_forcing_costs_no_more_the_stiffer_it_is
+);
+
+/// One step of size 1 of v̇ = −λv from v = 1: R(−λ).
+fn decay<M: Known>(lambda: f64) -> f64 {
+    let s = system(move |p: &Point<1>| ([-lambda * p.v[0]], [[0.0]], [[-lambda]]));
+    step::<M, 1, _>(&s, &Point { q: [0.0], v: [1.0] }, 1.0).end.v[0].abs()
+}
+
+/// Amplitude after one step of size `h` of q̈ = −q from amplitude 1: |R(ih)|.
+fn amplitude<M: Known>(h: f64) -> f64 {
+    let s = system(|p: &Point<1>| ([-p.q[0]], [[-1.0]], [[0.0]]));
+    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, h).end;
+    end.q[0].hypot(end.v[0])
+}
+
+fn infinitely_stiff_motion_is_damped_in_one_step<M: Known>() {
+    for rate in [1e6, 1e10, 1e14] {
+        // R(z) falls as 1/z
+        assert!(decay::<M>(rate) < 100.0 / rate, "rate {rate}: {}", decay::<M>(rate));
+    }
+    // and an oscillation far faster than the step as well
+    let s = system(|p: &Point<1>| ([-1e16 * p.q[0]], [[-1e16]], [[0.0]]));
+    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, 1.0).end;
+    assert!(end.q[0].abs() < 1e-6, "{}", end.q[0]);
+}
+
+fn no_oscillation_grows_however_long_the_step<M: Known>() {
+    for k in -20..80 {
+        let h = 10f64.powf(0.1 * f64::from(k));
+        assert!(amplitude::<M>(h) <= 1.0 + 1e-14, "h ω = {h}: {}", amplitude::<M>(h));
+        assert!(decay::<M>(h) < 1.0, "h λ = {h}: {}", decay::<M>(h));
+    }
+}
+
+/// Accepted steps under forcing of stiffness `lambda`, with the error at the end.
+fn steps<M: Known>(lambda: f64) -> (u64, f64) {
+    let mut point = forced_exact(0.0);
+    let statistics = run::<M, 2, _>(&forced(lambda), &mut point, 1.0, 1e-6).unwrap();
+    println!("λ = {lambda:e}: {statistics:?}");
+    (statistics.accepted, distance(&point, &forced_exact(1.0)))
+}
+
+fn smooth_stiff_forcing_costs_no_more_the_stiffer_it_is<M: Known>() {
+    // λ = 1e3 is where methods that lose order take most steps
+    let (worst, _) = steps::<M>(1e3);
+    for lambda in [1e4, 1e5, 1e8] {
+        let (count, error) = steps::<M>(lambda);
+        assert!(count <= worst && error < 1e-6, "λ = {lambda:e}: {count} steps, {worst} before; error {error:e}");
+    }
+}
+
+#[test]
+fn explicit_steps_are_tied_by_stability_alone() {
+    let (decays, swings) = (decay::<DormandPrince>, amplitude::<DormandPrince>);
+    assert!(decays(3.3) < 1.0 && decays(3.32) > 1.0 && decays(1e6) > 1e30);
+    assert!(swings(0.99) < 1.0 && swings(1.1) > 1.0 && swings(1e6) > 1e30);
+    // however accurate longer steps would be, all together reach no further than 3.31 per step over λ
+    for lambda in [1e4, 1e5] {
+        let (count, error) = steps::<DormandPrince>(lambda);
+        assert!(count as f64 > 0.9 * lambda / 3.31 && error < 1e-6, "λ = {lambda:e}: {count} steps, error {error:e}");
+    }
+}

@@ -1,0 +1,69 @@
+//! Steps end where the equations switch.
+
+use bevel_differential::integrate::{Control, Flow, Linearisation, Point, SecondOrder, Statistics};
+
+use super::continuation::State;
+use super::methods::{Known, with_every_method};
+
+with_every_method!(steps_land_on_switches_in_a_few_attempts);
+
+/// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. Which of both is chosen from outside.
+struct Kinked {
+    side: f64,
+}
+
+/// How closely a step must end on the switch.
+const LANDING: f64 = 1e-11;
+
+impl SecondOrder<1> for Kinked {
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
+        ([if self.side > 0.0 { -at.q[0] } else { -4.0 * at.q[0] }], ())
+    }
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
+        let slope = if self.side > 0.0 { -1.0 } else { -4.0 };
+        Linearisation { acceleration: self.evaluate(at).0, by_position: [[slope]], by_velocity: [[0.0]], power: () }
+    }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0], v: [1.0] }
+    }
+    fn crossing(&self, start: &Point<1>, end: &Point<1>) -> Option<f64> {
+        let (from, to) = (start.q[0] * self.side, end.q[0] * self.side);
+        // to the middle of what counts as landed
+        (to < -LANDING).then(|| (from + 0.5 * LANDING) / (from - to))
+    }
+}
+
+fn steps_land_on_switches_in_a_few_attempts<M: Known>() {
+    let mut s = Kinked { side: 1.0 };
+    let mut state = State { point: Point { q: [1.0], v: [0.0] }, time: 0.0, control: Control::new(1e-3) };
+    let mut statistics = Statistics::default();
+    let period = 1.5 * std::f64::consts::PI;
+    let mut switches = Vec::new();
+    while state.time < 10.0 * period {
+        let (side, mut landed) = (s.side, false);
+        state.stretch::<M, _>(&s, 10.0 * period, &mut statistics, |end, _| {
+            assert!(end.q[0] * side >= -LANDING, "no step goes on beyond the switch: {}", end.q[0]);
+            landed = end.q[0] * side < 0.0;
+            if landed { Flow::Stop } else { Flow::Continue }
+        });
+        if landed {
+            switches.push(state.time);
+            s.side = -s.side;
+        }
+    }
+    let point = state.point;
+    println!("{} switches, {statistics:?}", switches.len());
+    assert_eq!(switches.len(), 20);
+    // half a period of π above and of π/2 below, the first quarter above
+    for (k, at) in switches.iter().enumerate() {
+        let expected = std::f64::consts::FRAC_PI_2
+            + f64::from(k as u32 / 2) * period
+            + if k % 2 == 1 { std::f64::consts::FRAC_PI_2 } else { 0.0 };
+        assert!((at - expected).abs() < 1e-8, "switch {k} at {at} instead of {expected}");
+    }
+    assert!((point.q[0] - 1.0).abs() < 1e-8 && point.v[0].abs() < 1e-7, "{point:?}");
+    assert!(statistics.rejected_switch <= 20 * 4, "{statistics:?}");
+    assert_eq!(statistics.rejected_invalid, 0);
+}
