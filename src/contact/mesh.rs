@@ -134,6 +134,13 @@ impl Mesh {
         self.engagement.approach(q)
     }
 
+    /// The fraction of the motion of `h` [s] from `state` on after which the first kink of the force lies; a mesh that
+    /// knows no tooth pairs has one where flanks touch or part.
+    #[inline(always)]
+    pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
+        self.engagement.kink(state.position, state.rate.map(|rate| h * rate))
+    }
+
     /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh that knows no tooth pairs has one, at s = 0.
     #[inline(always)]
     fn visit<const SINGLE: bool>(&self, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {

@@ -7,6 +7,7 @@ pub mod errors;
 pub mod gaps;
 pub mod hertz;
 pub mod impact;
+mod kinks;
 pub mod law;
 pub mod mesh;
 pub mod pairs;

@@ -83,7 +83,7 @@ pub struct Engagement {
     centred: f64,
     low: f64,
     high: f64,
-    corner_contact: bool,
+    pub(super) corner_contact: bool,
     /// Where tooth pairs can touch at working loads, and up to the largest approach.
     windows: [Window; 2],
 }
@@ -166,6 +166,23 @@ impl Engagement {
                 visit(pair);
             }
         });
+    }
+
+    /// First number, and the one after the last, of the pairs of `flank` that may touch.
+    #[inline(always)]
+    pub(super) fn numbers(&self, flank: Flank, x: f64, approach: f64) -> (i64, i64) {
+        let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
+        let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
+        let first = ceil((window.low - (self.centred - sign * x)) * self.per_base_pitch - ROUNDING) as i64;
+        (first, first.saturating_add(window.candidates as i64))
+    }
+
+    /// How far pair `number` of `flank` is past the planet's and the side gear's end of the path [rad].
+    #[inline(always)]
+    pub(super) fn past_ends(&self, flank: Flank, x: f64, approach: f64, number: i64) -> [f64; 2] {
+        let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
+        let place = self.centred - sign * x + number as f64 * self.base_pitch;
+        [place - self.high, if self.corner_contact { self.low - place + approach } else { self.low - place }]
     }
 
     /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach, the

@@ -76,6 +76,8 @@ pub enum Failure<E> {
     },
     /// The attempts granted were not enough.
     TooManySteps,
+    /// A step of fixed size could not be solved.
+    Diverged,
     /// The observer of accepted steps refused one.
     Refused(E),
 }
@@ -126,6 +128,8 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
         let (mut h, mut cut) = fit(control.next.max(resolution), remaining);
         if h > switch_at {
             (h, cut) = (switch_at, true);
+        } else if let Some(fraction) = system.kink(point, h) {
+            (h, cut) = (h * fraction, true);
         }
         let aim = Aim { weights: system.weights(point), tolerance };
         let trial = method.step(system, point, &lin, h, &aim, statistics);

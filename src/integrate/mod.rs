@@ -4,6 +4,8 @@ mod block;
 mod complex;
 mod dormand_prince;
 mod driver;
+mod erased;
+mod fixed;
 mod linear;
 mod method;
 mod radau;
@@ -14,6 +16,8 @@ mod system;
 
 pub use dormand_prince::DormandPrince;
 pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
+pub use erased::{Erased, Object};
+pub use fixed::advance_fixed;
 pub use method::{Aim, Method, Trial};
 pub use radau::Radau;
 pub use rodas4::Rodas4;

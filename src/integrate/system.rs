@@ -60,6 +60,20 @@ pub trait SecondOrder<const N: usize> {
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 
+    /// The part of an iteration from `from` to `to` to take, so that it does not leap deep into a contact whose force it
+    /// has not seen yet.
+    #[inline(always)]
+    fn reach(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
+        1.0
+    }
+
+    /// Where the first kink of the accelerations lies on the way that a step of size `h` from `at` will take, as the
+    /// fraction of the step to take instead, as far as that can be seen from `at`.
+    #[inline(always)]
+    fn kink(&self, _at: &Point<N>, _h: f64) -> Option<f64> {
+        None
+    }
+
     /// Where a switch of the system's equations falls within the step from `start` to `end`, as the fraction of the step
     /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to.
     #[inline(always)]

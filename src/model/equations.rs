@@ -22,6 +22,9 @@ use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;
+/// Approach of teeth that an iteration may come to from within the lash [rad], and by which factor it may deepen one.
+const FIRST_APPROACH: f64 = 5e-4;
+const APPROACH_GROWTH: f64 = 4.0;
 /// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
 const SPEED_FLOOR: f64 = 1.0;
 /// Twist below which that of a half-shaft is resolved absolutely [rad].
@@ -453,6 +456,36 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
             }
         }
         Point { q, v }
+    }
+
+    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        let mut part = 1.0f64;
+        for g in 0..G {
+            for s in 0..2 {
+                let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[0]);
+                let most = self.teeth.mesh.half_backlash()
+                    + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.mesh.approach(from));
+                if to.abs() > most {
+                    part = part.min((most.copysign(to) - from) / (to - from));
+                }
+            }
+        }
+        part
+    }
+
+    #[inline(always)]
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        for g in 0..G {
+            for s in 0..2 {
+                let found = self.teeth.mesh.kink(&self.mesh_state(at, g, s), h);
+                first = match (first, found) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
+            }
+        }
+        first
     }
 
     #[inline(always)]

@@ -423,7 +423,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     }
 
     /// Whether a hold is due to switch at `at`.
-    pub(super) fn is_due(&self, at: &Point<N>) -> bool {
+    pub(super) fn hold_is_due(&self, at: &Point<N>) -> bool {
         if !self.clamps.iter().any(Clamp::is_on) {
             return false;
         }
@@ -435,7 +435,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     }
 
     /// Switches holds that are due at `at` and books what their springs give up.
-    pub(super) fn settle(&mut self, at: &Point<N>, heat: &mut [f64; super::causes::CAUSES]) {
+    pub(super) fn settle_holds(&mut self, at: &Point<N>, heat: &mut [f64; super::causes::CAUSES]) {
         let presses = self.presses(at);
         for i in 0..2 + G {
             let (clamp, count) = self.clamp(i);

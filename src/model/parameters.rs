@@ -178,6 +178,8 @@ impl Effects {
 pub enum Method {
     /// Adaptive L-stable Rosenbrock method of order 5.
     Adaptive = 1,
+    /// Implicit steps of fixed size and bounded work, for real time.
+    FixedStep = 2,
 }
 
 /// Accuracy and method of integration.
@@ -187,6 +189,8 @@ pub struct SolverSpec {
     pub method: Method,
     /// Relative tolerance of the local error per step.
     pub relative_tolerance: f64,
+    /// Longest step of the method with fixed steps [s].
+    pub fixed_step: f64,
     /// Planets that are identical and in phase are simulated once and counted; off simulates each.
     pub merge_planets: bool,
 }
@@ -249,7 +253,12 @@ impl Default for Parameters {
             },
             tooth_friction: ToothFrictionSpec::default(),
             specs: EffectSpecs::default(),
-            solver: SolverSpec { method: Method::Adaptive, relative_tolerance: 1e-6, merge_planets: true },
+            solver: SolverSpec {
+                method: Method::Adaptive,
+                relative_tolerance: 1e-6,
+                fixed_step: 1e-4,
+                merge_planets: true,
+            },
         }
     }
 }

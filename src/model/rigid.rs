@@ -243,13 +243,13 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     }
 
     /// Whether a hold is due to switch.
-    pub fn is_due(&self, at: &Point<N>) -> bool {
+    pub fn hold_is_due(&self, at: &Point<N>) -> bool {
         let due = |s: usize| self.clamp.is_due(&self.holds[s], &self.turn(at, s), &Pressing::default());
         self.clamp.is_on() && (due(0) || due(1))
     }
 
     /// Switches holds that are due and books what their springs give up.
-    pub fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
+    pub fn settle_holds(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
         for s in (0..2).filter(|_| self.clamp.is_on()) {
             let turn = self.turn(at, s);
             self.clamp.settle(&mut self.holds[s], &turn, &Pressing::default(), 1.0, heat);

@@ -2,21 +2,45 @@
 
 use super::causes::CAUSES;
 use super::constants::Model;
+use super::dry::Hold;
 use super::equations::{Equations, Power};
 use super::failure::StepFailure;
+use super::layout::HOLDS;
+use super::parameters::{Method, SolverSpec};
 use super::rigid::RigidEquations;
-use super::state::State;
+use super::state::{Bias, Fatigue, State};
 use super::strength::MeshLoad;
-use crate::integrate::{self, Effort, Failure, Flow, Rodas5P, Step};
+use crate::integrate::{self, Effort, Erased, Failure, Flow, Object, Point, Rodas5P, SecondOrder, Step};
 
 /// Attempts at steps granted to one call: bounds the time that a host can be kept waiting to some seconds.
 pub const BUDGET: u64 = 2_000_000;
 
 /// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
-struct Jump {
+pub struct Jump {
     deflection: f64,
+    limit: f64,
     planet: usize,
     side: usize,
+}
+
+/// What is counted along with the motion.
+pub struct Records<'a> {
+    bias: &'a mut Bias,
+    fatigue: &'a mut Fatigue,
+}
+
+/// Equations whose motion can be played over a stretch of time.
+pub trait Scene<const N: usize>: SecondOrder<N, Power = Power> {
+    /// Whether heat has causes beside contact.
+    const ALL_CAUSES: bool;
+    /// How dry friction holds bodies.
+    fn holds(&self) -> &[Hold; HOLDS];
+    /// Whether a hold is due to switch.
+    fn is_due(&self, at: &Point<N>) -> bool;
+    /// Switches holds that are due and books what their springs give up.
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]);
+    /// Refuses an accepted step that teeth cannot follow, and records what is counted.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump>;
 }
 
 /// Simpson's rule on begin, middle and end of a step.
@@ -35,64 +59,128 @@ fn book<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; 
     }
 }
 
-/// Integrates a differential with teeth to `until`.
-pub fn teeth_stretch<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    mut equations: Equations<N, G, P, FULL>,
+/// Integrates to `until` [s].
+pub fn stretch<const N: usize, E: Scene<N>>(
+    mut equations: E,
     model: &Model,
     state: &mut State,
     until: f64,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let teeth = equations.teeth;
-    let tolerance = model.parameters.solver.relative_tolerance;
+    let solver = &model.parameters.solver;
     // the equations do not know the time: counted from here it is resolved as finely as steps can get
     let (mut point, mut time) = (state.point(), 0.0);
     let end = until - state.time;
     let mut good = (point, time);
     let mut outcome = Ok(());
     let mut switched = true;
-    let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
     while switched && time < end && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, fatigue, .. } = state;
-        outcome = integrate::advance(
-            &Rodas5P,
-            &equations,
-            &mut point,
-            &mut time,
-            end,
-            Effort { tolerance, control, statistics, budget },
-            |step| {
-                let (approach, g, side) = equations.deepest(step.end);
-                if approach > teeth.jump {
-                    let planet = teeth.plan.group(g).planet;
-                    return Err(Jump { deflection: approach * teeth.mesh.cone, planet, side });
-                }
-                book(&step, work, heat, FULL);
-                if FULL && Equations::<N, G, P, FULL>::ENDS {
-                    let i = Equations::<N, G, P, FULL>::PLANET;
-                    let torque = [0, 1].map(|s| simpson(&step, |p| p.shaft[s]));
-                    cycle.add(bias, [step.start.q[i], step.end.q[i]], step.h, torque);
-                }
-                if let (true, Some(strength)) = (FULL, &model.strength) {
-                    count_fatigue(&equations, model, strength, &step, fatigue);
-                }
-                good = (*step.end, step.time);
-                if FULL && equations.is_due(step.end) {
-                    switched = true;
-                    return Ok(Flow::Stop);
-                }
-                Ok(Flow::Continue)
-            },
-        );
+        let mut records = Records { bias, fatigue };
+        let mut observe = |step: Step<N, Power>| {
+            equations.record(model, &step, &mut records)?;
+            book(&step, work, heat, E::ALL_CAUSES);
+            good = (*step.end, step.time);
+            if equations.is_due(step.end) {
+                switched = true;
+                return Ok(Flow::Stop);
+            }
+            Ok(Flow::Continue)
+        };
+        let effort = Effort { tolerance: solver.relative_tolerance, control, statistics, budget };
+        outcome = if solver.method == Method::Adaptive {
+            integrate::advance(&Rodas5P, &equations, &mut point, &mut time, end, effort, observe)
+        } else {
+            otherwise(solver, &equations, &mut point, &mut time, end, effort, &mut observe)
+        };
         if switched {
             equations.settle(&point, heat);
         }
     }
-    state.holds = equations.holds;
+    state.holds = *equations.holds();
     state.set_point(&good.0);
     state.time += good.1;
-    outcome.map_err(|failure| explain(failure, state.time, tolerance, teeth.jump * teeth.mesh.cone))
+    outcome.map_err(|failure| explain(failure, state.time, solver))
+}
+
+/// Integrates by another method than the default.
+#[inline(never)]
+fn otherwise<const N: usize>(
+    solver: &SolverSpec,
+    system: &dyn Object<N, Power>,
+    point: &mut Point<N>,
+    time: &mut f64,
+    until: f64,
+    effort: Effort,
+    observe: &mut dyn FnMut(Step<N, Power>) -> Result<Flow, Jump>,
+) -> Result<(), Failure<Jump>> {
+    let system = &Erased(system);
+    match solver.method {
+        Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, effort, observe),
+        Method::FixedStep => {
+            let counts = (effort.statistics, effort.budget);
+            integrate::advance_fixed(system, point, time, until, solver.fixed_step, counts, observe)
+        }
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Scene<N> for Equations<'_, N, G, P, FULL> {
+    const ALL_CAUSES: bool = FULL;
+
+    fn holds(&self) -> &[Hold; HOLDS] {
+        &self.holds
+    }
+
+    #[inline(always)]
+    fn is_due(&self, at: &Point<N>) -> bool {
+        FULL && self.hold_is_due(at)
+    }
+
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
+        self.settle_holds(at, heat);
+    }
+
+    #[inline(always)]
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+        let teeth = self.teeth;
+        let (approach, g, side) = self.deepest(step.end);
+        if approach > teeth.jump {
+            let planet = teeth.plan.group(g).planet;
+            let [deflection, limit] = [approach, teeth.jump].map(|arc| arc * teeth.mesh.cone);
+            return Err(Jump { deflection, limit, planet, side });
+        }
+        if FULL && Self::ENDS {
+            let i = Self::PLANET;
+            let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
+            let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
+            cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
+        }
+        if let (true, Some(strength)) = (FULL, &model.strength) {
+            count_fatigue(self, model, strength, step, records.fatigue);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Scene<N> for RigidEquations<'_, N> {
+    const ALL_CAUSES: bool = true;
+
+    fn holds(&self) -> &[Hold; HOLDS] {
+        &self.holds
+    }
+
+    fn is_due(&self, at: &Point<N>) -> bool {
+        self.hold_is_due(at)
+    }
+
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
+        self.settle_holds(at, heat);
+    }
+
+    fn record(&self, _: &Model, _: &Step<N, Power>, _: &mut Records) -> Result<(), Jump> {
+        Ok(())
+    }
 }
 
 /// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
@@ -117,53 +205,10 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: boo
     strength.count(fatigue, &spin, roll, &loads, &members);
 }
 
-/// Integrates an ideal differential with effects to `until`; as [`teeth_stretch`].
-pub fn rigid_stretch<const N: usize>(
-    mut equations: RigidEquations<N>,
-    model: &Model,
-    state: &mut State,
-    until: f64,
-    budget: &mut u64,
-) -> Result<(), StepFailure> {
-    let tolerance = model.parameters.solver.relative_tolerance;
-    let (mut point, mut time) = (state.point(), 0.0);
-    let end = until - state.time;
-    let mut outcome: Result<(), Failure<Jump>> = Ok(());
-    let mut good = (point, time);
-    let mut switched = true;
-    while switched && time < end && outcome.is_ok() {
-        switched = false;
-        let State { control, statistics, work, heat, .. } = state;
-        outcome = integrate::advance(
-            &Rodas5P,
-            &equations,
-            &mut point,
-            &mut time,
-            end,
-            Effort { tolerance, control, statistics, budget },
-            |step| {
-                book(&step, work, heat, true);
-                good = (*step.end, step.time);
-                if equations.is_due(step.end) {
-                    switched = true;
-                    return Ok(Flow::Stop);
-                }
-                Ok(Flow::Continue)
-            },
-        );
-        if switched {
-            equations.settle(&point, heat);
-        }
-    }
-    state.holds = equations.holds;
-    state.set_point(&good.0);
-    state.time += good.1;
-    outcome.map_err(|failure| explain(failure, state.time, tolerance, f64::INFINITY))
-}
-
-fn explain(failure: Failure<Jump>, time: f64, tolerance: f64, limit: f64) -> StepFailure {
+fn explain(failure: Failure<Jump>, time: f64, solver: &SolverSpec) -> StepFailure {
+    let tolerance = solver.relative_tolerance;
     let message = match failure {
-        Failure::Refused(Jump { deflection, planet, side }) => format!(
+        Failure::Refused(Jump { deflection, limit, planet, side }) => format!(
             "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action exceeds the limit {:.3} mm; \
              reduce the load or raise contact.stiffness",
             planet + 1,
@@ -174,6 +219,10 @@ fn explain(failure: Failure<Jump>, time: f64, tolerance: f64, limit: f64) -> Ste
         Failure::StepTooSmall { size } => format!(
             "the step size fell to {size:.3e} s, below what time can resolve; look at the inputs, \
              or loosen solver.relative_tolerance = {tolerance:e}"
+        ),
+        Failure::Diverged => format!(
+            "a step of solver.fixed_step = {:e} s could not be solved; make it shorter, or take solver.method = adaptive",
+            solver.fixed_step
         ),
         Failure::TooManySteps => format!(
             "{BUDGET} attempts at steps were not enough for one communication step; shorten it, \

@@ -343,17 +343,12 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
     while state.time < until {
         let stretch = commands::end_of_stretch(model, state, until);
         let outcome = match &model.gears {
-            Gears::Rigid(rigid) => by_rigid_size!(
-                model,
-                run::rigid_stretch(E::new(rigid, inputs, state), model, state, stretch, &mut budget)
-            ),
+            Gears::Rigid(rigid) => {
+                by_rigid_size!(model, run::stretch(E::new(rigid, inputs, state), model, state, stretch, &mut budget))
+            }
             Gears::Teeth(teeth) => {
                 let full = teeth.full.acts(state);
-                by_size!(
-                    teeth,
-                    full,
-                    run::teeth_stretch(E::new(teeth, inputs, state), model, state, stretch, &mut budget)
-                )
+                by_size!(teeth, full, run::stretch(E::new(teeth, inputs, state), model, state, stretch, &mut budget))
             }
         };
         state.wrap(&model.periods, &model.layout);

@@ -307,7 +307,8 @@ pub fn rows() -> Vec<Variable> {
         switch("effects.final_drive", |p| &mut p.effects.final_drive, "Excitation by the final drive's ring gear"),
         switch("effects.strength", |p| &mut p.effects.strength, "Stress and fatigue of the teeth"),
         choice!("solver.method", "SolverMethod", solver.method, "Integration method",
-            Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5"),
+            Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5",
+            Method::FixedStep => "fixed_step" "implicit steps of fixed size and bounded work, for real time"),
         real(
             "solver.relative_tolerance",
             units::ONE,
@@ -315,6 +316,14 @@ pub fn rows() -> Vec<Variable> {
             (1e-11, 1e-1),
             |p| &mut p.solver.relative_tolerance,
             "Relative tolerance of the local error per step",
+        ),
+        real(
+            "solver.fixed_step",
+            units::SECOND,
+            None,
+            (1e-7, 1e-2),
+            |p| &mut p.solver.fixed_step,
+            "Longest step of the method with fixed steps; a communication step is divided into equal ones",
         ),
         switch(
             "solver.merge_planets",

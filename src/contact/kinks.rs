@@ -1,0 +1,72 @@
+//! Where the force of a mesh has a kink: flanks touch or part, a pair comes or goes at a tip corner, or passes from the
+//! corner to the path.
+//!
+//! A one-step method loses its order over a kink, and its error estimate does not tell. Positions, unlike forces, run
+//! smoothly on, so that a kink can be seen ahead from the present rates and a step be made to end on it.
+
+use super::pairs::{Engagement, Flank, Spot};
+
+/// Parts of a step within which a kink is worth to end on: one that lies at either end already does no harm.
+const WORTHWHILE: (f64, f64) = (0.01, 0.99);
+/// Halvings of the step by which a kink is found: to a thousandth of it.
+const HALVINGS: u32 = 10;
+
+impl Engagement {
+    /// The fraction of the motion from `position` to `position + change` (both (q, x)) after which the first kink lies,
+    /// taken as straight; `None` if there is none.
+    #[inline(always)]
+    pub fn kink(&self, position: [f64; 2], change: [f64; 2]) -> Option<f64> {
+        let at = |t: f64| [position[0] + t * change[0], position[1] + t * change[1]];
+        let approach = [self.approach(position[0]), self.approach(position[0] + change[0])];
+        if approach[0].max(approach[1]) <= 0.0 {
+            return None;
+        }
+        if approach[0].min(approach[1]) <= 0.0 || position[0] * at(1.0)[0] < 0.0 {
+            let touching = approach[0] > 0.0;
+            return first_change(|t| (self.approach(at(t)[0]) > 0.0) != touching);
+        }
+        let flank = if position[0] < 0.0 { Flank::Drive } else { Flank::Coast };
+        let numbers = [self.numbers(flank, position[1], approach[0]), self.numbers(flank, at(1.0)[1], approach[1])];
+        let mut first: Option<f64> = None;
+        for k in numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1) {
+            let spot = |[q, x]: [f64; 2]| self.spot(flank, x, self.approach(q), k);
+            let start = spot(position);
+            if spot(at(1.0)) != start
+                && let Some(t) = first_change(|t| spot(at(t)) != start)
+            {
+                first = Some(first.map_or(t, |found| found.min(t)));
+            }
+        }
+        first
+    }
+
+    /// Where pair `k` of `flank` touches, if it does.
+    #[inline(always)]
+    fn spot(&self, flank: Flank, x: f64, approach: f64, k: i64) -> Option<Spot> {
+        let [past_planet_tip, past_side_tip] = self.past_ends(flank, x, approach, k);
+        let touches = |i: usize, delta: f64| {
+            delta * delta < approach * self.corner[i].spread && self.corner[i].at(delta).v < approach
+        };
+        if past_planet_tip > 0.0 {
+            (self.corner_contact && touches(0, past_planet_tip)).then_some(Spot::PlanetTip)
+        } else if past_side_tip > 0.0 {
+            (self.corner_contact && touches(1, past_side_tip)).then_some(Spot::SideTip)
+        } else {
+            Some(Spot::Path)
+        }
+    }
+}
+
+/// The fraction at which `changed` turns true, just past it, where that is worth knowing.
+#[inline(never)]
+fn first_change(changed: impl Fn(f64) -> bool) -> Option<f64> {
+    if changed(WORTHWHILE.0) || !changed(WORTHWHILE.1) {
+        return None;
+    }
+    let (mut before, mut after) = WORTHWHILE;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (before + after);
+        if changed(middle) { after = middle } else { before = middle }
+    }
+    Some(after)
+}

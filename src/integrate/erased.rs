@@ -1,0 +1,83 @@
+//! A system behind a table of functions: methods beside the default one are compiled once per size, not once per kind of
+//! equations. A call through the table costs some nanoseconds, a hundredth of what it calls.
+
+use super::system::{Linearisation, Matrix, Point, SecondOrder};
+
+/// The functions of a [`SecondOrder`] system that can stand in a table.
+pub trait Object<const N: usize, P> {
+    /// See [`SecondOrder::rates`].
+    fn rates(&self, v: &[f64; N]) -> [f64; N];
+    /// See [`SecondOrder::times_rates`].
+    fn times_rates(&self, m: &mut Matrix<N>);
+    /// See [`SecondOrder::evaluate`].
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], P);
+    /// See [`SecondOrder::linearise`].
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, P>;
+    /// See [`SecondOrder::weights`].
+    fn weights(&self, at: &Point<N>) -> Point<N>;
+    /// See [`SecondOrder::reach`].
+    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64;
+    /// See [`SecondOrder::kink`].
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64>;
+    /// See [`SecondOrder::crossing`].
+    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64>;
+}
+
+impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+        SecondOrder::rates(self, v)
+    }
+    fn times_rates(&self, m: &mut Matrix<N>) {
+        SecondOrder::times_rates(self, m);
+    }
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], S::Power) {
+        SecondOrder::evaluate(self, at)
+    }
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, S::Power> {
+        SecondOrder::linearise(self, at)
+    }
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        SecondOrder::weights(self, at)
+    }
+    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        SecondOrder::reach(self, from, to)
+    }
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        SecondOrder::kink(self, at, h)
+    }
+    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64> {
+        SecondOrder::crossing(self, start, end)
+    }
+}
+
+/// A system whose kind is not known at compile time.
+pub struct Erased<'a, const N: usize, P>(pub &'a dyn Object<N, P>);
+
+impl<const N: usize, P: Copy> SecondOrder<N> for Erased<'_, N, P> {
+    type Power = P;
+
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+        self.0.rates(v)
+    }
+    fn times_rates(&self, m: &mut Matrix<N>) {
+        self.0.times_rates(m);
+    }
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], P) {
+        self.0.evaluate(at)
+    }
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, P> {
+        self.0.linearise(at)
+    }
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        self.0.weights(at)
+    }
+    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        self.0.reach(from, to)
+    }
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        self.0.kink(at, h)
+    }
+    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64> {
+        self.0.crossing(start, end)
+    }
+}

@@ -1,0 +1,130 @@
+//! Steps of fixed size and bounded work, for hosts that run in real time.
+//!
+//! R. Alexander's two-stage SDIRK method of order 2 (SIAM J. Numer. Anal. 14:1006, 1977): L-stable, stiffly accurate,
+//! γ = 1 − 1/√2. With s = γh each stage solves
+//!
+//!   v = v₀ + s a(q, v),   q = q₀ + s B v
+//!
+//! from a base (q₀, v₀) by a fixed number of Newton iterations with the exact Jacobian at each,
+//!
+//!   (I − s D − s² K B) δ = v₀ + s a(q, v) − v,   v += θ δ,   q = q₀ + s B v,
+//!
+//! on the second-order block: one factorisation of the order of the velocities an iteration. Rosenbrock methods do with a
+//! single linearisation, but a step that is longer than a contact lasts starts on one side of a kink and ends on the
+//! other, and has to be linearised where it ends. The system shortens an iteration (θ < 1) that would leap deep into a
+//! contact which the linearisation does not know of yet.
+
+use super::driver::{Failure, Flow, Statistics, Step};
+use super::linear::Factors;
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// γ = 1 − 1/√2.
+const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+/// Newton iterations a stage. A blow between teeth takes three to be found and one to be met.
+const ITERATIONS: u32 = 4;
+/// Steps longer than asked for by less than this part are not cut in two: communication points are rounded.
+const ROUNDING: f64 = 1e-6;
+
+/// Integrates from `time` to `until` in equal steps of at most `step` [s], calling `observe` after each, which may end
+/// the integration early. Every step is taken from the budget.
+pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
+    system: &S,
+    point: &mut Point<N>,
+    time: &mut f64,
+    until: f64,
+    step: f64,
+    (statistics, budget): (&mut Statistics, &mut u64),
+    mut observe: impl FnMut(Step<N, S::Power>) -> Result<Flow, E>,
+) -> Result<(), Failure<E>> {
+    let begin = *time;
+    let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
+    let h = (until - begin) / steps;
+    let mut power = system.evaluate(point).1;
+    statistics.evaluations += 1;
+    let mut done = 0.0;
+    while done < steps {
+        *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
+        let end = sdirk(system, point, h, statistics).ok_or(Failure::Diverged)?;
+        let middle = Point {
+            q: std::array::from_fn(|i| 0.5 * (point.q[i] + end.q[i])),
+            v: std::array::from_fn(|i| 0.5 * (point.v[i] + end.v[i])),
+        };
+        let powers = [power, system.evaluate(&middle).1, system.evaluate(&end).1];
+        statistics.evaluations += 2;
+        statistics.accepted += 1;
+        power = powers[2];
+        done += 1.0;
+        let start = *point;
+        *point = end;
+        *time = if done < steps { begin + done * h } else { until };
+        let flow =
+            observe(Step { h, time: *time, start: &start, end: point, power: powers }).map_err(Failure::Refused)?;
+        if flow == Flow::Stop {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// One step; `None` if a matrix is singular or a value not finite.
+fn sdirk<const N: usize, S: SecondOrder<N>>(
+    system: &S,
+    start: &Point<N>,
+    h: f64,
+    counts: &mut Statistics,
+) -> Option<Point<N>> {
+    let s = GAMMA * h;
+    let first = stage(system, start, start, s, counts)?;
+    // what the first stage found, carried on: y₀ + (1 − γ) h f₁ with s f₁ = y₁ − y₀
+    let carry = (1.0 - GAMMA) / GAMMA;
+    let base = Point {
+        q: std::array::from_fn(|i| start.q[i] + carry * (first.q[i] - start.q[i])),
+        v: std::array::from_fn(|i| start.v[i] + carry * (first.v[i] - start.v[i])),
+    };
+    stage(system, &base, &first, s, counts)
+}
+
+/// Solves a stage from `base`, iterating from the velocities of `near`.
+fn stage<const N: usize, S: SecondOrder<N>>(
+    system: &S,
+    base: &Point<N>,
+    near: &Point<N>,
+    s: f64,
+    counts: &mut Statistics,
+) -> Option<Point<N>> {
+    let at = |v: [f64; N]| {
+        let rate = system.rates(&v);
+        Point { q: std::array::from_fn(|i| base.q[i] + s * rate[i]), v }
+    };
+    // the way from `near` is itself an iteration that may leap
+    let mut y = at(near.v);
+    for _ in 0..ITERATIONS {
+        let lin = system.linearise(&y);
+        counts.evaluations += 1;
+        counts.jacobians += 1;
+        let mut change: [f64; N] = std::array::from_fn(|i| base.v[i] + s * lin.acceleration[i] - y.v[i]);
+        factors::<N, S>(system, &lin, s)?.solve::<S>(&mut change);
+        let full = at(std::array::from_fn(|i| y.v[i] + change[i]));
+        let part = system.reach(&y, &full);
+        y = if part < 1.0 { at(std::array::from_fn(|i| y.v[i] + part * change[i])) } else { full };
+    }
+    let finite = y.q.iter().chain(&y.v).sum::<f64>().is_finite();
+    finite.then_some(y)
+}
+
+/// Factors of I − s D − s² K B.
+fn factors<const N: usize, S: SecondOrder<N>>(
+    system: &S,
+    lin: &Linearisation<N, S::Power>,
+    s: f64,
+) -> Option<Factors<N>> {
+    let mut matrix = lin.by_position;
+    system.times_rates(&mut matrix);
+    for i in 0..N {
+        for j in 0..N {
+            matrix[i][j] = -s * (lin.by_velocity[i][j] + s * matrix[i][j]);
+        }
+        matrix[i][i] += 1.0;
+    }
+    Factors::new::<S>(matrix)
+}
