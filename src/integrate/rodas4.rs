@@ -34,7 +34,6 @@ impl Method for Rodas4 {
 const RODAS4: Tableau<6> = Tableau {
     gamma: 0.25,
     // as the authors have it: the estimate, of lower order, stands for the error
-    kept_error: 1.0,
     a: &[
         &[1.544],
         &[0.946_678_528_081_582_6, 0.255_701_169_898_328_4],
