@@ -180,6 +180,12 @@ pub enum Method {
     Adaptive = 1,
     /// Implicit steps of fixed size and bounded work, for real time.
     FixedStep = 2,
+    /// Radau IIA of order 5, adaptive, for comparison.
+    Radau = 3,
+    /// RODAS of order 4(3), adaptive, for comparison.
+    Rodas4 = 4,
+    /// Dormand and Prince's explicit method of order 5(4), adaptive, for comparison.
+    DormandPrince = 5,
 }
 
 /// Accuracy and method of integration.

@@ -10,7 +10,9 @@ use super::parameters::{Method, SolverSpec};
 use super::rigid::RigidEquations;
 use super::state::{Bias, Fatigue, State};
 use super::strength::MeshLoad;
-use crate::integrate::{self, Effort, Erased, Failure, Flow, Object, Point, Rodas5P, SecondOrder, Step};
+use crate::integrate::{
+    self, DormandPrince, Effort, Erased, Failure, Flow, Object, Point, Radau, Rodas4, Rodas5P, SecondOrder, Step,
+};
 
 /// Attempts at steps granted to one call: bounds the time that a host can be kept waiting to some seconds.
 pub const BUDGET: u64 = 2_000_000;
@@ -118,6 +120,9 @@ fn otherwise<const N: usize>(
     let system = &Erased(system);
     match solver.method {
         Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, effort, observe),
+        Method::Radau => integrate::advance(&Radau, system, point, time, until, effort, observe),
+        Method::Rodas4 => integrate::advance(&Rodas4, system, point, time, until, effort, observe),
+        Method::DormandPrince => integrate::advance(&DormandPrince, system, point, time, until, effort, observe),
         Method::FixedStep => {
             let counts = (effort.statistics, effort.budget);
             integrate::advance_fixed(system, point, time, until, solver.fixed_step, counts, observe)

@@ -19,6 +19,7 @@ use super::state::State;
 use super::{commands, resultants, start};
 use crate::friction::FrictionLaw;
 use crate::geometry::Pair;
+use crate::integrate::{Point, SecondOrder};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::ToothDamage;
@@ -63,6 +64,31 @@ macro_rules! by_rigid_size {
         } else {
             type E<'a> = RigidEquations<'a, 4>;
             $body
+        }
+    };
+}
+
+/// Evaluates an expression with the equations of any model bound to `$equations`, `N` their degrees of freedom.
+macro_rules! with_equations {
+    ($model:expr, $state:expr, $inputs:expr, |$equations:ident| $body:expr) => {
+        match &$model.gears {
+            Gears::Rigid(rigid) if $model.ideal.plan.ends => {
+                const N: usize = 6;
+                let $equations = RigidEquations::<N>::new(rigid, $inputs, $state);
+                $body
+            }
+            Gears::Rigid(rigid) => {
+                const N: usize = 4;
+                let $equations = RigidEquations::<N>::new(rigid, $inputs, $state);
+                $body
+            }
+            Gears::Teeth(teeth) => {
+                let full = teeth.full.acts($state);
+                by_size!(teeth, full, {
+                    let $equations = E::new(teeth, $inputs, $state);
+                    $body
+                })
+            }
         }
     };
 }
@@ -252,6 +278,33 @@ impl Simulation {
         found.map(|what| Problem::new("tooth_friction.law", format!("{what} at t = {} s; told once", state.time)))
     }
 
+    /// Number n of degrees of freedom.
+    pub fn freedoms(&self) -> usize {
+        self.model.ideal.plan.layout().count()
+    }
+
+    /// The equations of motion by themselves, for solvers of others: rates of positions and accelerations [rad/s,
+    /// rad/s², m/s²] at the first n of positions `q` and velocities `v`, under the present inputs.
+    pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
+        let (inputs, state) = (&self.inputs, &self.state);
+        with_equations!(self.model, state, inputs, |equations| {
+            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
+            let (acceleration, _) = equations.evaluate(&at);
+            dq[..N].copy_from_slice(&equations.rates(&at.v));
+            dv[..N].copy_from_slice(&acceleration);
+        });
+    }
+
+    /// The same simulation moved to positions `q` and velocities `v`, for its outputs there; the ledger stays behind.
+    pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
+        let mut moved = self.clone();
+        let n = self.freedoms();
+        moved.state.q[..n].copy_from_slice(&q[..n]);
+        moved.state.v[..n].copy_from_slice(&v[..n]);
+        moved.forces = None;
+        moved
+    }
+
     /// Ledger and solver statistics.
     pub fn books(&self) -> Books {
         let (s, f) = (&self.state.statistics, &self.state.fatigue);
@@ -342,15 +395,9 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
     let mut budget = BUDGET;
     while state.time < until {
         let stretch = commands::end_of_stretch(model, state, until);
-        let outcome = match &model.gears {
-            Gears::Rigid(rigid) => {
-                by_rigid_size!(model, run::stretch(E::new(rigid, inputs, state), model, state, stretch, &mut budget))
-            }
-            Gears::Teeth(teeth) => {
-                let full = teeth.full.acts(state);
-                by_size!(teeth, full, run::stretch(E::new(teeth, inputs, state), model, state, stretch, &mut budget))
-            }
-        };
+        let outcome = with_equations!(model, state, inputs, |equations| {
+            run::stretch::<N, _>(equations, model, state, stretch, &mut budget)
+        });
         state.wrap(&model.periods, &model.layout);
         if let Gears::Rigid(rigid) = &model.gears {
             rigid.constrain(state);
@@ -369,13 +416,7 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
 
 /// Kinetic and stored energy [J].
 fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
-    match &model.gears {
-        Gears::Rigid(rigid) => by_rigid_size!(model, E::new(rigid, inputs, state).energy(&state.point())),
-        Gears::Teeth(teeth) => {
-            let full = teeth.full.acts(state);
-            by_size!(teeth, full, E::new(teeth, inputs, state).energy(&state.point()))
-        }
-    }
+    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()))
 }
 
 /// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.

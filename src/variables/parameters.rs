@@ -308,7 +308,10 @@ pub fn rows() -> Vec<Variable> {
         switch("effects.strength", |p| &mut p.effects.strength, "Stress and fatigue of the teeth"),
         choice!("solver.method", "SolverMethod", solver.method, "Integration method",
             Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5",
-            Method::FixedStep => "fixed_step" "implicit steps of fixed size and bounded work, for real time"),
+            Method::FixedStep => "fixed_step" "implicit steps of fixed size and bounded work, for real time",
+            Method::Radau => "radau" "Radau IIA of order 5, adaptive, for comparison",
+            Method::Rodas4 => "rodas4" "RODAS of order 4(3), adaptive, for comparison",
+            Method::DormandPrince => "dormand_prince" "explicit method of order 5(4), adaptive, for comparison"),
         real(
             "solver.relative_tolerance",
             units::ONE,
