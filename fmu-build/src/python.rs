@@ -55,7 +55,7 @@ impl Environment {
             python.command().args(["-m", "venv", "--clear"]).arg(&self.folder),
             "the Python environment cannot be made",
         )?;
-        tell("installing fmpy, numpy, matplotlib, pytest");
+        tell("installing fmpy, numpy, scipy, matplotlib, pytest");
         run(
             self.command()
                 .args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"])
