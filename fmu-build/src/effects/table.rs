@@ -1,0 +1,240 @@
+//! Findings as tables for the terminal.
+
+use std::fmt::Write as _;
+
+use super::bench::{Bench, FULL, Ratio};
+use super::change::Change;
+use super::sentences::sentences;
+use super::switches::{Standing, Switch};
+use super::verdict::Verdict;
+use super::{Finding, Findings, Trial};
+use crate::scene::units;
+
+/// Width of the sentences.
+const WIDTH: usize = 118;
+/// Changes of this many times the scale and more are told as such.
+const MANY: f64 = 10.0;
+
+/// A fraction in percent with two significant digits.
+pub fn percent(fraction: f64) -> String {
+    let percent = fraction * 100.0;
+    if percent == 0.0 {
+        return "0 %".into();
+    }
+    if !percent.is_finite() {
+        return "no number".into();
+    }
+    if fraction >= MANY {
+        return format!("{fraction:.0} x");
+    }
+    let decimals = (1.0 - percent.abs().log10().floor()).max(0.0) as usize;
+    if decimals > 5 { format!("{percent:.0e} %") } else { format!("{percent:.decimals$} %") }
+}
+
+/// All of it.
+pub fn text(found: &Findings) -> String {
+    let mut out = format!("{}: {}\n\n", found.scene.name, found.scene.description);
+    out.push_str(&effects(found));
+    for (names, why) in reasons(found) {
+        out.push_str(&wrapped(&format!("{}: {why}", names.join(", "))));
+    }
+    out.push('\n');
+    out.push_str(&wrapped(&format!(
+        "alone: the other way round in the scene as written. Among all: the same in {}. Most in: output and statistic of the \
+         largest change among all. By points: effective value of the difference point by point. Cost, evaluations of the \
+         tooth forces: with over without, or a level over the plainer one.",
+        if found.as_written { "the scene as written too" } else { "the fullest scene, with all on that the scene allows" }
+    )));
+    out.push('\n');
+    out.push_str(&outputs(found));
+    out.push('\n');
+    for sentence in sentences(found) {
+        out.push_str(&wrapped(&sentence));
+    }
+    out
+}
+
+/// A row for each effect and level.
+fn effects(found: &Findings) -> String {
+    let bench = &found.bench;
+    let head = ["", "effect", "scene", "alone", "among all", "most in", "by points", "cost", "evaluations", "verdict"];
+    let mut rows = vec![head.map(str::to_owned)];
+    for (i, row) in found.rows.iter().enumerate() {
+        let change = row.among.change(bench);
+        let size = |change: Option<&Change>| change.map_or_else(|| "–".into(), |change| percent(change.largest()));
+        rows.push([
+            (i + 1).to_string(),
+            name(row),
+            scene(row.standing, &row.switch).into(),
+            size(row.alone.change(bench)),
+            size(change),
+            change.map_or_else(String::new, |change| most(found, change)),
+            change.map_or_else(|| "–".into(), |change| percent(change.pointwise())),
+            costs(row, bench).map_or_else(|| "–".into(), cost),
+            costs_in_evaluations(row, bench).map_or_else(|| "–".into(), |ratio| format!("{ratio:.2}")),
+            row.verdict.text(row.standing),
+        ]);
+    }
+    aligned(&rows, &[1, 2, 5, 9])
+}
+
+/// Why effects are refused, or scenes without them fail; effects of one reason together.
+fn reasons(found: &Findings) -> Vec<(Vec<&'static str>, String)> {
+    let mut reasons: Vec<(Vec<&'static str>, String)> = Vec::new();
+    for row in &found.rows {
+        let (Verdict::Refused(why) | Verdict::Fails(why)) = &row.verdict else { continue };
+        // who it is about stands in front anyway
+        let why = match row.switch {
+            Switch::Effect(variable) => why.strip_prefix(&format!("{}: ", variable.name)).unwrap_or(why),
+            Switch::Level(_) => why,
+        };
+        match reasons.iter_mut().find(|(_, known)| known == why) {
+            Some((names, _)) => names.push(row.switch.name()),
+            None => reasons.push((vec![row.switch.name()], why.to_owned())),
+        }
+    }
+    reasons
+}
+
+/// A row for each output, a column for each effect that changes one.
+fn outputs(found: &Findings) -> String {
+    let bench = &found.bench;
+    let columns: Vec<(usize, &Change)> = found
+        .rows
+        .iter()
+        .enumerate()
+        .filter_map(|(i, row)| Some((i + 1, row.among.change(bench)?)))
+        .filter(|(_, change)| !change.is_none())
+        .collect();
+    let mut head: Vec<String> = ["output, among all", "100 %", "strays"].map(str::to_owned).to_vec();
+    head.extend(columns.iter().map(|(number, _)| format!("[{number}]")));
+    let mut rows = vec![head];
+    for (i, output) in found.scene.outputs.iter().enumerate() {
+        let scale = units::shown(output, found.scales[i].magnitude);
+        let mut row = vec![
+            output.name.to_owned(),
+            format!("{} {}", three(scale), units::name(output)).trim_end().to_owned(),
+            percent(found.strays[i]),
+        ];
+        row.extend(columns.iter().map(|(_, change)| percent(change.outputs[i].by).replace(" %", "")));
+        rows.push(row);
+    }
+    aligned(&rows, &[0])
+}
+
+/// The output and statistic of the largest change.
+pub fn most(found: &Findings, change: &Change) -> String {
+    match change.worst() {
+        Some((i, worst)) if worst.by > 0.0 => {
+            let at = worst.at.map_or_else(String::new, |at| format!(" at {} s", units::digits(at)));
+            format!("{} {}{at}", found.scene.outputs[i].name, worst.of)
+        }
+        _ => String::new(),
+    }
+}
+
+/// Name of a row; levels say so.
+pub(super) fn name(row: &Finding) -> String {
+    match row.switch {
+        Switch::Effect(_) => row.switch.name().to_owned(),
+        Switch::Level(_) => format!("level {}", row.switch.name()),
+    }
+}
+
+pub(super) fn scene(standing: Standing, switch: &Switch) -> &'static str {
+    match (switch, standing) {
+        (Switch::Level(_), _) => "",
+        (_, Standing::On) => "on",
+        (_, Standing::Off | Standing::NotThere) => "off",
+        (_, Standing::SetOff) => "set off",
+    }
+}
+
+/// Runs with and without, of the comparison in the fullest scene.
+pub(super) fn pair(row: &Finding, trial: &Trial) -> Option<[usize; 2]> {
+    let run = trial.run.clone().ok()?;
+    let on = match trial.reference {
+        FULL => row.in_full,
+        _ => row.standing == Standing::On,
+    };
+    // what is compared with is dearer for a level, and has the effect or lacks it
+    let reference_has = on || matches!(row.switch, Switch::Level(_));
+    Some(if reference_has { [trial.reference, run] } else { [run, trial.reference] })
+}
+
+fn costs(row: &Finding, bench: &Bench) -> Option<Ratio> {
+    let [with, without] = pair(row, &row.among)?;
+    bench.ratio(with, without)
+}
+
+fn costs_in_evaluations(row: &Finding, bench: &Bench) -> Option<f64> {
+    let [with, without] = pair(row, &row.among)?;
+    bench.evaluations(with, without)
+}
+
+fn cost(ratio: Ratio) -> String {
+    format!("{} ± {}", three(ratio.median), three(ratio.spread))
+}
+
+/// A number with about three digits.
+pub(super) fn three(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
+    let decimals = if value.abs() < 1.0 { 2.0 } else { (2.0 - value.abs().log10().floor()).max(0.0) };
+    let text = format!("{value:.*}", decimals as usize);
+    if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
+}
+
+/// Columns in line, those of `left` to the left; a line under the head.
+fn aligned<R: AsRef<[String]>>(rows: &[R], left: &[usize]) -> String {
+    let columns = rows.first().map_or(0, |row| row.as_ref().len());
+    let width = |i: usize| rows.iter().map(|row| row.as_ref()[i].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns).map(width).collect();
+    let mut out = String::new();
+    for (k, row) in rows.iter().enumerate() {
+        let cells = row.as_ref().iter().zip(&widths).enumerate();
+        let cells =
+            cells.map(|(i, (cell, &w))| if left.contains(&i) { format!("{cell:<w$}") } else { format!("{cell:>w$}") });
+        let line = cells.collect::<Vec<_>>().join("  ");
+        let _ = writeln!(out, "{}", line.trim_end());
+        if k == 0 {
+            // the verdicts are as long as they are
+            let shown = widths.iter().take(columns - 1).sum::<usize>() + 2 * (columns - 1);
+            let last = row.as_ref().last().map_or(0, |cell| cell.chars().count());
+            let _ = writeln!(
+                out,
+                "{}",
+                "-".repeat(shown + last.max(if left.contains(&(columns - 1)) { 24 } else { widths[columns - 1] }))
+            );
+        }
+    }
+    out
+}
+
+fn wrapped(text: &str) -> String {
+    let (mut out, mut line) = (String::new(), String::new());
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
+            let _ = writeln!(out, "{line}");
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    let _ = writeln!(out, "{line}");
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percents_have_two_digits_and_ratios_three() {
+        assert_eq!([0.0, 0.012_34, 1.5, 3e-9].map(percent), ["0 %", "1.2 %", "150 %", "3e-7 %"]);
+        assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
+    }
+}
