@@ -48,6 +48,14 @@ def load(time):
     return LOAD * s * s * (3.0 - 2.0 * s)
 
 
+def counts(step):
+    """Communication steps of a run, and steps within one."""
+    within = round(STEP / step)
+    if within < 1 or abs(within * step / STEP - 1.0) > 1e-9:
+        raise SystemExit(f"a step of {step} s does not divide the communication step of {STEP} s; choose STEP / n")
+    return round(LENGTH / STEP), within
+
+
 def measures(case, time, speeds, angles, forces, cpu):
     """What is compared.
 

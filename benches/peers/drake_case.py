@@ -53,7 +53,7 @@ class Differential:
 
     def __init__(self, case, wanted):
         builder = DiagramBuilder()
-        self.plant, _ = AddMultibodyPlantSceneGraph(builder, wanted["step"])
+        self.plant, self.scene_graph = AddMultibodyPlantSceneGraph(builder, wanted["step"])
         hydroelastic = wanted["contact"] == "hydroelastic"
         self.plant.set_contact_model(ContactModel.kHydroelastic if hydroelastic else ContactModel.kPoint)
         self.plant.set_discrete_contact_approximation(DiscreteContactApproximation.kLagged)
@@ -80,8 +80,9 @@ class Differential:
     def add_body(self, name, parent, frame, axis, inertia, imposed):
         unit = UnitInertia(inertia / MASS, inertia / MASS, inertia / MASS)
         body = self.plant.AddRigidBody(name, SpatialInertia(MASS, [0.0, 0.0, 0.0], unit))
-        mount = FixedOffsetFrame(f"{name}_mount", parent.body_frame(), RigidTransform(RotationMatrix(frame), [0.0] * 3))
-        self.plant.AddFrame(mount)
+        offset = RigidTransform(RotationMatrix(frame), [0.0] * 3)
+        # the frame that comes back, as the plant takes the one that goes in away
+        mount = self.plant.AddFrame(FixedOffsetFrame(f"{name}_mount", parent.body_frame(), offset))
         self.joints[name] = self.plant.AddJoint(RevoluteJoint(name, mount, body.body_frame(), axis))
         self.actuators[name] = self.plant.AddJointActuator(f"{name}_drive", self.joints[name])
         if imposed:
@@ -120,7 +121,7 @@ def run(wanted):
     for side, speed in zip(sides, case.sides):
         model.set(side, None, speed)
     actuation, drives = np.zeros(model.plant.num_actuators()), [model.actuators[side].input_start() for side in sides]
-    count, within = round(cases.LENGTH / cases.STEP), round(cases.STEP / wanted["step"])
+    count, within = cases.counts(wanted["step"])
     speeds, forces, cpu = np.zeros((count * within, 2)), np.full((count, 2), np.nan), 0.0
     for k in range(count):
         begin, time = clock.process_time(), k * cases.STEP

@@ -3,8 +3,8 @@
 MuJoCo's contact is a linear spring and damper, which it solves for implicitly. In its terms (time constant t, damping
 ratio 1, impedance d, A = inverse inertia that a contact feels) the spring is K = 1 / (t² A d (1 − d)) and the damper
 2 d t K. K is the study's force over its penetration, at the mean force of a mesh. With t = 0.4 ms the damper is three
-times the study's; ripple does not depend on it. A time constant that does not follow the step keeps the law the same
-when the step shrinks; but MuJoCo wants two steps at least.
+times the study's. t stays the same when the step shrinks, or the law would change with it; but MuJoCo wants t to be two
+steps at least, so that above 0.2 ms it grows.
 """
 
 import time as clock
@@ -110,7 +110,7 @@ def run(wanted):
                                for names in (["left", "right"], ["planet1", "planet2"], ["carrier"]))
     bodies = [model.body(name).id for name in ("left", "right")]
     data.qvel[sides] = case.sides
-    count, within = round(cases.LENGTH / cases.STEP), round(cases.STEP / wanted["step"])
+    count, within = cases.counts(wanted["step"])
     speeds, forces, cpu = np.zeros((count * within, 2)), np.full((count, 2), np.nan), 0.0
     for k in range(count):
         begin, time = clock.process_time(), k * cases.STEP
