@@ -6,6 +6,7 @@ pub mod comparison;
 pub mod describe;
 pub mod documentation;
 pub mod evaluation;
+pub mod foreign;
 pub mod marked;
 pub mod off;
 pub mod package;

@@ -2,9 +2,7 @@
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::integrate::{Control, Statistics};
-use bevel_differential::model::{
-    CarrierDrive, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start,
-};
+use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
 
 /// First step tried by this program's methods, as after any start [s].
 const FIRST_STEP: f64 = 1e-6;
@@ -74,8 +72,7 @@ fn clunk(mut p: Parameters) -> Result<Case, String> {
     (p.inertia.carrier, p.inertia.side_gear, p.inertia.planet) = (0.05, 1e-5, 1e-6);
     (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
     p.contact.damping = 0.0;
-    let mut i =
-        Inputs { carrier_speed: 0.0, carrier_torque: -0.002, load_torque: [-0.001; 2], ..Inputs::default() };
+    let mut i = Inputs { carrier_speed: 0.0, carrier_torque: -0.002, load_torque: [-0.001; 2], ..Inputs::default() };
     let mut before = started(&Parameters { solver: closely(&p), ..p }, &i)?;
     before.advance(BLOW).map_err(|failure| failure.message)?;
     (i.carrier_torque, i.load_torque) = (100.0, [0.0; 2]);

@@ -281,7 +281,11 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
             let run = &mut *user.cast::<Run>();
             let (size, Some(entries), Some(data)) = (run.size(), run.entries, run.data) else { return -1 };
             let (u, matrix) = (entries(u), data(matrix));
-            run.jacobian(std::slice::from_raw_parts(u, size), true, std::slice::from_raw_parts_mut(matrix, size * size));
+            run.jacobian(
+                std::slice::from_raw_parts(u, size),
+                true,
+                std::slice::from_raw_parts_mut(matrix, size * size),
+            );
         }
         0
     })
