@@ -3,7 +3,7 @@
 usage: study.py FMU FOLDER
 
 FOLDER/order.json says what to simulate and what theory expects (written by `fmu-build study`). A line
-"progress FRACTION WHAT" on standard output tells how far it is.
+"progress FRACTION WHAT" on standard error tells how far it is.
 """
 
 import json
@@ -63,7 +63,7 @@ def main():
 
 
 def progress(fraction, what):
-    print(f"progress {fraction:.4f} {what}", flush=True)
+    print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
 
 
 def simulate(unpacked, description, order, case, duration, interval, tell=None):

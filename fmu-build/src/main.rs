@@ -7,7 +7,7 @@ use anyhow::{Result, bail};
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
-use fmu_build::{describe, off, package, places, study};
+use fmu_build::{describe, off, package, peers, places, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -26,6 +26,8 @@ usage: cargo run --release [-- COMMAND]
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
   off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
+  peers [--quick] [--write]  run MuJoCo and Drake beside this program on the study's cases, in an environment of their
+                         own (a few minutes); --quick: a few rows, once; --write: also renew docs/compare.md
   help                   show this";
 
 enum Job {
@@ -36,6 +38,7 @@ enum Job {
     Loads(scene_job::Loads),
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
+    Peers { quick: bool, write: bool },
     Help,
 }
 
@@ -65,8 +68,8 @@ fn parse() -> Result<Job> {
             (Value(name), None) => job = Some(command(&name.string()?, &mut arguments)?),
             (Long("readme"), None) => job = Some(Job::Study { readme: true }),
             (Long("readme"), Some(Job::Study { readme })) => *readme = true,
-            (Long("quick"), Some(Job::Off { quick, .. })) => *quick = true,
-            (Long("write"), Some(Job::Off { write, .. })) => *write = true,
+            (Long("quick"), Some(Job::Off { quick, .. } | Job::Peers { quick, .. })) => *quick = true,
+            (Long("write"), Some(Job::Off { write, .. } | Job::Peers { write, .. })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -89,6 +92,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "loads" => Job::Loads(scene_job::Loads::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
+        "peers" => Job::Peers { quick: false, write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
     })
@@ -98,6 +102,7 @@ fn run(job: Job) -> Result<()> {
     match job {
         Job::Help => println!("{USAGE}"),
         Job::Off { quick, write } => off::run(quick, write)?,
+        Job::Peers { quick, write } => peers::run(quick, write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package => {
             let progress = Progress::start("packaging the FMU");

@@ -8,8 +8,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 
-use crate::places;
 use crate::progress::Progress;
+use crate::{marked, places};
 
 /// Every effect with a file of its own, by the name of its cargo feature.
 pub const EFFECTS: [&str; 11] = [
@@ -83,11 +83,7 @@ pub fn run(quick: bool, write: bool) -> Result<()> {
         bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
     }
     if write {
-        let file = places::workspace().join("docs").join("effects.md");
-        let text = fs::read_to_string(&file).with_context(|| places::shown(&file))?;
-        let (before, rest) = text.split_once(MARKS[0]).context("docs/effects.md has no place for the table")?;
-        let (_, after) = rest.split_once(MARKS[1]).context("docs/effects.md has no end of the table")?;
-        fs::write(&file, format!("{before}{}\n{table}{}{after}", MARKS[0], MARKS[1]))?;
+        marked::renew("docs/effects.md", MARKS, &table)?;
     }
     Ok(())
 }

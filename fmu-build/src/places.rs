@@ -30,6 +30,11 @@ pub fn study() -> PathBuf {
     target().join("study")
 }
 
+/// The comparison with other programs.
+pub fn peers() -> PathBuf {
+    workspace().join("benches").join("peers")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

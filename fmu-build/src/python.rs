@@ -1,4 +1,5 @@
-//! The Python environment that fmpy, matplotlib and pytest run in: made once, from pinned versions.
+//! The Python environments, each made once, from pinned versions: one for fmpy, matplotlib and pytest, and one for the
+//! comparison with other programs, which nothing else needs.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -18,25 +19,39 @@ const NEWEST: u32 = 15;
 /// A Python environment with all requirements.
 pub struct Environment {
     folder: PathBuf,
+    requirements: PathBuf,
+    /// The packages in a few words.
+    holds: &'static str,
 }
 
 impl Environment {
-    /// The environment, made if it does not exist yet; `tell` hears what takes time.
+    /// The environment of all commands but one, made if it does not exist yet; `tell` hears what takes time.
     pub fn ready(tell: impl Fn(&str)) -> Result<Self> {
-        let environment = Self { folder: places::target().join("python") };
         let requirements = places::workspace().join("fmu-build").join("python").join("requirements.txt");
-        let wanted =
-            fs::read_to_string(&requirements).with_context(|| format!("{} cannot be read", requirements.display()))?;
+        Self { folder: places::target().join("python"), requirements, holds: "fmpy, numpy, matplotlib, pytest" }.made(tell)
+    }
+
+    /// The environment with the programs to compare with; it lies where the comparison's results are.
+    pub fn for_peers(tell: impl Fn(&str)) -> Result<Self> {
+        let requirements = places::peers().join("requirements.txt");
+        let folder = places::target().join("peers").join("venv");
+        Self { folder, requirements, holds: "MuJoCo, Drake, fmpy" }.made(tell)
+    }
+
+    /// Itself, made if it does not exist yet or has other requirements.
+    fn made(self, tell: impl Fn(&str)) -> Result<Self> {
+        let wanted = fs::read_to_string(&self.requirements)
+            .with_context(|| format!("{} cannot be read", self.requirements.display()))?;
         let stamp = format!("{:016x}\n", variables::fnv1a(wanted.bytes()));
-        fs::create_dir_all(places::target())?;
+        fs::create_dir_all(self.folder.parent().unwrap_or(&self.folder))?;
         // released when the file is closed, be it by a crash
-        let lock = File::create(places::target().join("python.lock")).context("the environment cannot be locked")?;
+        let lock = File::create(self.folder.with_extension("lock")).context("the environment cannot be locked")?;
         lock.lock().context("the environment cannot be locked")?;
-        if !environment.is_stamped(&stamp) {
-            environment.make(&requirements, tell)?;
-            fs::write(environment.stamp(), stamp)?;
+        if !self.is_stamped(&stamp) {
+            self.make(tell)?;
+            fs::write(self.stamp(), stamp)?;
         }
-        Ok(environment)
+        Ok(self)
     }
 
     fn stamp(&self) -> PathBuf {
@@ -48,18 +63,18 @@ impl Environment {
         fs::read_to_string(self.stamp()).is_ok_and(|found| found == stamp) && version_of(&self.interpreter()).is_some()
     }
 
-    fn make(&self, requirements: &Path, tell: impl Fn(&str)) -> Result<()> {
+    fn make(&self, tell: impl Fn(&str)) -> Result<()> {
         let python = find_python()?;
         tell("making the Python environment");
         run(
             python.command().args(["-m", "venv", "--clear"]).arg(&self.folder),
             "the Python environment cannot be made",
         )?;
-        tell("installing fmpy, numpy, matplotlib, pytest");
+        tell(&format!("installing {}", self.holds));
         run(
             self.command()
                 .args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"])
-                .arg(requirements),
+                .arg(&self.requirements),
             "the Python packages cannot be installed (is the network there?)",
         )
     }

@@ -1,0 +1,88 @@
+"""The study's two cases as every tool runs them, and what is measured on a run. SI units."""
+
+import json
+import sys
+from dataclasses import dataclass
+
+import numpy as np
+
+import gears
+
+LOAD = 835.0
+LENGTH = 0.5
+# who drives a tool talks to it at these intervals, as often as the study writes its output
+STEP = 1e-3
+# the peers' load rises over this time: all at once it would throw a side gear over several teeth within one of their steps
+RISE = 0.1
+# forces are summed at every so many communication points, as asking for them costs some tools a step
+FORCES_EVERY = 10
+
+
+@dataclass(frozen=True)
+class Case:
+    name: str
+    carrier: float
+    spin: float | None
+    """Imposed spin of the planets; None: they are free."""
+    settled: float
+    """Time from which a run is measured."""
+
+    @property
+    def sides(self):
+        """Speeds of left and right by the gear law."""
+        difference = (self.spin or 0.0) * gears.PLANET_TEETH / gears.SIDE_TEETH
+        return np.array([self.carrier + difference, self.carrier - difference])
+
+
+CASES = {
+    # late enough for most of what the start has set swinging to die away
+    "straight": Case("straight", np.radians(2861.0), None, 0.3),
+    # two whole cycles of a tooth, 2 · 0.18 s
+    "turn": Case("turn", np.radians(954.0), np.radians(200.0), 0.14),
+}
+
+
+def load(time):
+    """The peers' load: a cubic rise, then constant."""
+    s = np.clip(time / RISE, 0.0, 1.0)
+    return LOAD * s * s * (3.0 - 2.0 * s)
+
+
+def counts(step):
+    """Communication steps of a run, and steps within one."""
+    within = round(STEP / step)
+    if within < 1 or abs(within * step / STEP - 1.0) > 1e-9:
+        raise SystemExit(f"a step of {step} s does not divide the communication step of {STEP} s; choose STEP / n")
+    return round(LENGTH / STEP), within
+
+
+def measures(case, time, speeds, angles, forces, cpu):
+    """What is compared.
+
+    time: ends of the steps taken; speeds: of left and right at these times; angles: of left, right, carrier and first
+    planet at the end; forces: sums of the normal forces on left and right by communication step, NaN where not asked for;
+    cpu: spent on all steps.
+    """
+    deviation = 100.0 * (speeds[time > case.settled + 1e-9] / case.sides - 1.0)
+    left, right, carrier, planet = angles
+    rolled = planet * gears.PLANET_TEETH / gears.SIDE_TEETH
+    return {
+        "cost": cpu / LENGTH,
+        "speed_error": np.mean(deviation, axis=0).tolist(),
+        "ripple": np.ptp(deviation, axis=0).tolist(),
+        "ripple_rms": np.std(deviation, axis=0).tolist(),
+        "slip": np.degrees([left - carrier - rolled, right - carrier + rolled]).tolist(),
+        "force": np.nanmean(forces[round(case.settled / STEP):], axis=0).tolist(),
+    }
+
+
+def settings():
+    """What run.py asks for: a JSON object as the only argument."""
+    if len(sys.argv) != 2:
+        raise SystemExit("this is started by run.py with its settings as JSON; use: cargo run --release -- peers")
+    return json.loads(sys.argv[1])
+
+
+def tell(result):
+    """Hands the result back to run.py."""
+    print(json.dumps(result))

@@ -1,0 +1,116 @@
+"""The study's gears for programs that want solids: straight teeth with spherical-involute flanks, in facets. SI units.
+
+All axes meet in the apex, which is the origin. A gear's axis is z, from the apex to the heel; a point is given by its
+cone distance R, its polar angle about the axis and its azimuth. The teeth are those of this program's default geometry:
+Gleason's long and short addenda, a backlash of 0.1 mm at the outer pitch circle.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+PLANET_TEETH, SIDE_TEETH, PLANETS = 10, 16, 2
+MODULE, PRESSURE_ANGLE, FACE_WIDTH, BACKLASH = 4.5e-3, np.radians(20.0), 20e-3, 0.1e-3
+DENSITY = 7800.0
+OUTER_CONE = 0.5 * MODULE * np.hypot(PLANET_TEETH, SIDE_TEETH)
+INNER_CONE = OUTER_CONE - FACE_WIDTH
+MEAN_CONE = OUTER_CONE - 0.5 * FACE_WIDTH
+
+# Gleason: the larger gear's addendum from the ratio of virtual teeth, which is u² on crossed axes at 90°
+RATIO = SIDE_TEETH / PLANET_TEETH
+SIDE_ADDENDUM = (0.540 + 0.460 / RATIO**2) * MODULE
+PLANET_ADDENDUM = 2.0 * MODULE - SIDE_ADDENDUM
+WHOLE_DEPTH = 2.188 * MODULE + 0.05e-3
+# half of what the long addendum differs by from the module: it moves tooth thickness from the side gear to the planet
+SHIFT = (PLANET_ADDENDUM - SIDE_ADDENDUM) / (2.0 * MODULE)
+
+
+def arc(base, polar):
+    """Arc along the line of action from its tangent point at the base circle to a flank point: cos φ = cos δ_b cos ψ."""
+    return np.arccos(np.clip(np.cos(polar) / np.cos(base), -1.0, 1.0))
+
+
+def involute(base, polar):
+    """Azimuth by which the flank has bent away from its foot on the base circle."""
+    psi = arc(base, np.maximum(polar, base))
+    return psi / np.sin(base) - np.arctan2(np.tan(psi), np.sin(base))
+
+
+def direction(polar, azimuth):
+    """Unit vectors."""
+    return np.stack([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)], axis=-1)
+
+
+@dataclass(frozen=True)
+class Gear:
+    """A gear on the unit sphere, a tooth in the middle of azimuth 0."""
+
+    teeth: int
+    pitch: float
+    base: float
+    tip: float
+    root: float
+    half_pitch: float
+    """Half the angle of a tooth at the pitch circle."""
+
+    def half_angle(self, polar):
+        """Half the angle of a tooth; below the base circle the flank is a meridian."""
+        return self.half_pitch + involute(self.base, self.pitch) - involute(self.base, polar)
+
+    def flank(self, facets):
+        """Polar angle and azimuth of the right flank, root to tip: `facets` chords of the involute, of nearly one error."""
+        foot = max(self.base, self.root)
+        steps = np.linspace(arc(self.base, foot), arc(self.base, self.tip), facets + 1)
+        polar = np.arccos(np.cos(self.base) * np.cos(steps))
+        azimuth = self.half_angle(polar)
+        if self.root < self.base:
+            polar, azimuth = np.append(self.root, polar), np.append(azimuth[0], azimuth)
+        return polar, azimuth
+
+    def teeth_points(self, facets, gap_first):
+        """Corners of each tooth, the solid between its two ends being their convex hull; with `gap_first` a gap and not
+        a tooth lies at azimuth 0."""
+        polar, azimuth = self.flank(facets)
+        offset = np.pi / self.teeth if gap_first else 0.0
+        centres = offset + 2.0 * np.pi * np.arange(self.teeth) / self.teeth
+        outline = [np.concatenate([direction(polar, c - azimuth), direction(polar, c + azimuth)]) for c in centres]
+        return [np.concatenate([INNER_CONE * rays, OUTER_CONE * rays]) for rays in outline]
+
+    def inertia(self):
+        """Moment of inertia about the axis of the gear without bore, which has flat ends: ρ/20 ∮ r⁴ dθ cos δ_f, r = sin φ,
+        between the cubes' fifth powers of both cone distances; the same solid that this program takes."""
+        polar, half = self.flank(4000)
+        middle = 0.5 * (polar[1:] + polar[:-1])
+        along_flank = np.sum(np.sin(middle) ** 4 * (half[:-1] - half[1:]))
+        land = np.pi / self.teeth - half[0]
+        ring = 2.0 * self.teeth * (along_flank + half[-1] * np.sin(self.tip) ** 4 + land * np.sin(self.root) ** 4)
+        return DENSITY * np.cos(self.root) / 20.0 * ring * (OUTER_CONE**5 - INNER_CONE**5)
+
+
+def _gear(teeth, mate, addendum, shift):
+    pitch = np.arctan2(teeth, mate)
+    return Gear(
+        teeth=teeth,
+        pitch=pitch,
+        base=np.arcsin(np.sin(pitch) * np.cos(PRESSURE_ANGLE)),
+        tip=pitch + np.arctan2(addendum, OUTER_CONE),
+        root=pitch - np.arctan2(WHOLE_DEPTH - addendum, OUTER_CONE),
+        half_pitch=(0.5 * np.pi + 2.0 * shift * np.tan(PRESSURE_ANGLE) - 0.5 * BACKLASH / MODULE) / teeth)
+
+
+PLANET = _gear(PLANET_TEETH, SIDE_TEETH, PLANET_ADDENDUM, SHIFT)
+SIDE = _gear(SIDE_TEETH, PLANET_TEETH, SIDE_ADDENDUM, -SHIFT)
+
+
+def frame(axis, first):
+    """Rotation matrix of a gear whose axis is `axis` and whose azimuth 0 lies along `first`, in the assembly's frame."""
+    axis, first = np.array(axis, float), np.array(first, float)
+    return np.column_stack([first, np.cross(axis, first), axis])
+
+
+# the carrier turns about x; a planet's tooth points along x into a gap of either side gear
+SIDE_FRAMES = {"left": frame([1, 0, 0], [0, 1, 0]), "right": frame([-1, 0, 0], [0, 1, 0])}
+PLANET_FRAMES = [frame([0, 1, 0], [1, 0, 0]), frame([0, -1, 0], [1, 0, 0])]
+# sense about a gear's own axis in which angles are counted: both sides about +x, planets so that they speed the left up
+SIDE_SENSE = {"left": 1.0, "right": -1.0}
+PLANET_SENSE = -1.0

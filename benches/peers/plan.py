@@ -1,0 +1,58 @@
+"""Which settings run: each tool's own, and enough of them to see whether the ripple settles as steps or tolerances shrink."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Row:
+    """A line of the table: one tool with one setting, run on both cases."""
+
+    group: str
+    """Rows of a group differ in one number; the last one is the finest and the measure of the others."""
+    label: str
+    script: str
+    needs: str | None
+    """Python package without which the row is left out."""
+    settings: dict
+    quick: bool = False
+    """Whether it is in the short form."""
+    repeats: int = 3
+
+
+def mujoco(step, quick=False, many_points=False, facets=16):
+    contact = "several points per pair" if many_points else "one point per pair"
+    finer = "" if facets == 16 else f", {facets} facets"
+    return Row(f"MuJoCo, {contact}{finer}", f"step {1e3 * step:g} ms", "mujoco_case.py", "mujoco",
+               {"step": step, "facets": facets, "many_points": many_points}, quick)
+
+
+def drake(contact, step, facets, quick=False, repeats=3):
+    return Row(f"Drake, {contact}, {facets} facets", f"step {1e3 * step:g} ms", "drake_case.py", "pydrake",
+               {"step": step, "facets": facets, "contact": contact}, quick, repeats)
+
+
+def tooth(law, tolerance, quick=False):
+    exponent = f"{tolerance:.0e}".replace("e-0", "e-")
+    return Row(f"this program, `tooth`, `{law}`", f"tolerance {exponent}", "this_program.py", None,
+               {"contact": "tooth", "law": law, "tolerance": tolerance}, quick)
+
+
+def simpler(contact):
+    return Row(f"this program, `{contact}`", "tolerance 1e-6", "this_program.py", None,
+               {"contact": contact, "tolerance": 1e-6}, True)
+
+
+ROWS = [
+    *(tooth("impact", tolerance, tolerance == 1e-6) for tolerance in (1e-4, 1e-6, 1e-8)),
+    *(tooth("line", tolerance, tolerance == 1e-6) for tolerance in (1e-4, 1e-6, 1e-8)),
+    simpler("lumped"),
+    simpler("ideal"),
+    *(mujoco(step, quick=step == 2e-4) for step in (1e-3, 5e-4, 2e-4, 1e-4)),
+    mujoco(2e-4, facets=64),
+    *(mujoco(step, many_points=True) for step in (5e-4, 2e-4, 1e-4)),
+    drake("hydroelastic", 1e-3, 8, quick=True),
+    # these two tell whether the row above has converged; their own cost is of less interest, and they take long
+    drake("hydroelastic", 5e-4, 8, repeats=1),
+    drake("hydroelastic", 1e-3, 24, repeats=1),
+    *(drake("point", step, 16) for step in (2e-4, 1e-4)),
+]

@@ -1,0 +1,40 @@
+//! This program beside MuJoCo and Drake on the study's two cases: their own Python environment, one run, one table.
+
+use std::ffi::OsString;
+use std::fs;
+
+use anyhow::{Context, Result};
+
+use crate::progress::Progress;
+use crate::python::Environment;
+use crate::{marked, package, places, script};
+
+/// The document with the table, the table's place, and the picture beside it.
+const DOCUMENT: &str = "docs/compare.md";
+const MARKS: [&str; 2] = ["<!-- peers:begin -->", "<!-- peers:end -->"];
+const PICTURE: &str = "peers.png";
+
+/// Runs benches/peers/run.py and prints its table; `quick`: a few rows, once; `write`: also renews the document.
+pub fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::for_peers(|what| progress.tell(what))?;
+    progress.tell("packaging the FMU");
+    let fmu = package::package()?;
+    let folder = places::target().join("peers");
+    let mut arguments: Vec<OsString> = vec![fmu.into(), folder.clone().into()];
+    if quick {
+        arguments.push("--quick".into());
+    }
+    progress.begin_bar("comparing");
+    let table = script::run(&environment, &places::peers().join("run.py"), &arguments, &progress)?;
+    progress.finish();
+    print!("{table}");
+    println!("\nresults: {}", places::shown(&folder));
+    if write {
+        marked::renew(DOCUMENT, MARKS, &table)?;
+        let images = places::workspace().join("docs").join("images");
+        fs::copy(folder.join(PICTURE), images.join(PICTURE)).context("the picture cannot be copied to docs/images")?;
+        println!("renewed: {DOCUMENT}, docs/images/{PICTURE}");
+    }
+    Ok(())
+}
