@@ -5,6 +5,7 @@
 pub mod comparison;
 pub mod describe;
 pub mod documentation;
+pub mod effects;
 pub mod evaluation;
 pub mod marked;
 pub mod off;

@@ -1,9 +1,11 @@
 //! Command line: `cargo run --release` does the study.
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
+use fmu_build::effects::job::Effects;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
@@ -23,6 +25,10 @@ usage: cargo run --release [-- COMMAND]
   loads --scene FILE|NAME --out OUT.csv [--every TIME]
                          record the force of each loaded tooth pair, with its place on both gears, for FEA; every
                          communication step, or every TIME such as 0.1ms
+  effects --scene FILE|NAME --accuracy 1% [--from TIME] [--csv OUT.csv] [--write [FILE]]
+                         run a scene with each effect on and off: what each changes and costs, and which the scene calls
+                         for; --from: count outputs from TIME on; --csv: all changes by effect and output; --write: save
+                         the scene with these effects alone, to reduced/NAME.toml beside it or to FILE
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
   off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
@@ -36,6 +42,7 @@ enum Job {
     Describe { check: bool },
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
+    Effects(Effects),
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
@@ -77,10 +84,30 @@ fn parse() -> Result<Job> {
             (Long("scene"), Some(Job::Loads(loads))) => loads.scene = Some(arguments.value()?.string()?),
             (Long("out"), Some(Job::Loads(loads))) => loads.out = Some(arguments.value()?.into()),
             (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
+            (Long("scene"), Some(Job::Effects(effects))) => effects.scene = Some(arguments.value()?.string()?),
+            (Long("accuracy"), Some(Job::Effects(effects))) => effects.accuracy = Some(arguments.value()?.string()?),
+            (Long("from"), Some(Job::Effects(effects))) => effects.from = Some(arguments.value()?.string()?),
+            (Long("csv"), Some(Job::Effects(effects))) => effects.csv = Some(arguments.value()?.into()),
+            (Long("write"), Some(Job::Effects(effects))) => {
+                effects.write = true;
+                effects.file = file_that_follows(&mut arguments)?;
+            }
             (argument, _) => return Err(argument.unexpected().into()),
         }
     }
     Ok(job.unwrap_or(Job::Study { readme: false }))
+}
+
+/// The value of an option that may go without one.
+fn file_that_follows(arguments: &mut lexopt::Parser) -> Result<Option<PathBuf>> {
+    if let Some(file) = arguments.optional_value() {
+        return Ok(Some(file.into()));
+    }
+    let follows = arguments.try_raw_args().and_then(|mut rest| {
+        let is_file = rest.peek().is_some_and(|next| !next.to_string_lossy().starts_with('-'));
+        if is_file { rest.next() } else { None }
+    });
+    Ok(follows.map(PathBuf::from))
 }
 
 fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
@@ -90,6 +117,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "describe" => Job::Describe { check: false },
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
+        "effects" => Job::Effects(Effects::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
@@ -121,6 +149,7 @@ fn run(job: Job) -> Result<()> {
         }
         Job::Scene(scene) => scene.run()?,
         Job::Loads(loads) => loads.run()?,
+        Job::Effects(effects) => effects.run()?,
         Job::TestPython(arguments) => {
             let progress = Progress::start("looking for Python");
             let environment = Environment::ready(|what| progress.tell(what))?;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::{Inputs, Parameters, Simulation};
-use bevel_differential::problem;
+use bevel_differential::problem::{self, Problem};
 use bevel_differential::variables::{Access, OutputSource, Variable, check_ranges};
 
 use super::units;
@@ -33,14 +33,16 @@ pub struct Run<'a> {
 impl<'a> Run<'a> {
     /// Starts `scene` with communication steps of `step` [s].
     pub fn start(scene: &'a Scene, step: f64) -> Result<Self> {
+        Self::attempt(scene, step).map_err(|found| anyhow!("{}", problem::list(&found))).with_context(|| refused(scene))
+    }
+
+    /// The same; what does not go together is told by variable.
+    pub fn attempt(scene: &'a Scene, step: f64) -> Result<Self, Vec<Problem>> {
         let out_of_range = check_ranges(&scene.parameters);
-        let simulation = if out_of_range.is_empty() {
-            Simulation::start(&scene.parameters, &scene.inputs, 0.0)
-        } else {
-            Err(out_of_range)
-        };
-        let simulation =
-            simulation.map_err(|found| anyhow!("{}", problem::list(&found))).with_context(|| refused(scene))?;
+        if !out_of_range.is_empty() {
+            return Err(out_of_range);
+        }
+        let simulation = Simulation::start(&scene.parameters, &scene.inputs, 0.0)?;
         Ok(Self { scene, parameters: scene.parameters, inputs: scene.inputs, step, done: 0, events: 0, simulation })
     }
 
