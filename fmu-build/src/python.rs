@@ -28,7 +28,8 @@ impl Environment {
     /// The environment of all commands but one, made if it does not exist yet; `tell` hears what takes time.
     pub fn ready(tell: impl Fn(&str)) -> Result<Self> {
         let requirements = places::workspace().join("fmu-build").join("python").join("requirements.txt");
-        Self { folder: places::target().join("python"), requirements, holds: "fmpy, numpy, matplotlib, pytest" }.made(tell)
+        Self { folder: places::target().join("python"), requirements, holds: "fmpy, numpy, matplotlib, pytest" }
+            .made(tell)
     }
 
     /// The environment with the programs to compare with; it lies where the comparison's results are.
