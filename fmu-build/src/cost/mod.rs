@@ -8,10 +8,13 @@
 //! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
 
 pub mod cases;
+pub mod communication;
+pub mod coupling;
 pub mod csv;
 pub mod measure;
 pub mod reference;
 pub mod summary;
+pub mod vehicle;
 pub mod work_precision;
 
 use std::fs;
@@ -28,7 +31,7 @@ use crate::{marked, places, script};
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 /// Share of the bar that belongs to each figure, and to drawing.
-const SHARES: [f64; 2] = [0.95, 0.05];
+const SHARES: [f64; 3] = [0.7, 0.25, 0.05];
 
 /// The command `cost [--quick] [--write] [--out DIR]`.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +50,8 @@ pub struct Form {
     pub tolerances: &'static [f64],
     /// Steps of the method with fixed ones [s].
     pub fixed_steps: &'static [f64],
+    /// Communication steps, each an exact part of 0.1 s [s].
+    pub communication_steps: &'static [f64],
     /// Runs of each setting.
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
@@ -56,11 +61,18 @@ pub struct Form {
 const FULL: Form = Form {
     tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
     fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
+    communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
     runs: 15,
     patience: 10.0,
 };
 
-const QUICK: Form = Form { tolerances: &[1e-3, 1e-6, 1e-9], fixed_steps: &[1e-4, 1e-5], runs: 5, patience: 0.5 };
+const QUICK: Form = Form {
+    tolerances: &[1e-3, 1e-6, 1e-9],
+    fixed_steps: &[1e-4, 1e-5],
+    communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
+    runs: 5,
+    patience: 0.5,
+};
 
 impl Cost {
     /// Does it.
@@ -79,7 +91,12 @@ impl Cost {
         };
         let found = work_precision::measure(&form, &mut |done, what| tell(0, done, what))?;
         save(&folder, "work_precision.csv", &found.csv())?;
-        tell(1, 0.0, "drawing");
+        save(
+            &folder,
+            "communication_step.csv",
+            &communication::measure(&form, &mut |done, what| tell(1, done, what))?,
+        )?;
+        tell(2, 0.0, "drawing");
         let script = places::workspace().join("fmu-build").join("python").join("cost.py");
         script::run(&environment, &script, &[&folder], &progress)?;
         progress.finish();

@@ -26,8 +26,6 @@ pub struct Reference {
     pub samples: Vec<Sample>,
     /// Where it comes from.
     pub source: String,
-    /// Largest speed [rad/s] and mean force [N].
-    pub scales: [f64; 2],
     /// How far it may be off itself, as errors are told.
     pub error: [f64; 2],
 }
@@ -48,7 +46,6 @@ fn file(case: &Case) -> Option<String> {
     let name = match (case.motion, case.fidelity) {
         (Motion::Turn, Fidelity::Impact) => "turn_equilibrium",
         (Motion::Blow, Fidelity::Impact) => "turn_rolling",
-        (Motion::Clunk, Fidelity::Impact) => "clunk",
         _ => return None,
     };
     let name = format!("reference_{name}.csv");
@@ -125,21 +122,31 @@ fn by_two_methods(case: &Case) -> Result<Reference> {
 
 impl Reference {
     fn new(samples: Vec<Sample>, source: String, error: [f64; 2]) -> Self {
-        let speeds = samples.iter().flat_map(|s| s.speed);
-        let forces = samples.iter().flat_map(|s| s.force);
-        let fastest = speeds.map(f64::abs).fold(0.0, f64::max);
-        let mean = forces.map(f64::abs).sum::<f64>() / (2 * samples.len()) as f64;
-        Self { samples, source, scales: [fastest, mean], error }
+        Self { samples, source, error }
     }
 
-    /// Errors of `samples` in speed and force: the largest difference, over the largest speed and the mean force.
+    /// Errors of `samples` in speed and force.
     pub fn errors(&self, samples: &[Sample]) -> [f64; 2] {
-        let pairs = |of: fn(&Sample) -> [f64; 2]| {
-            let both = self.samples.iter().zip(samples);
-            both.flat_map(move |(a, b)| of(a).into_iter().zip(of(b)))
-        };
-        [largest_error(pairs(|s| s.speed), self.scales[0]), largest_error(pairs(|s| s.force), self.scales[1])]
+        errors(&self.samples, samples)
     }
+}
+
+/// Largest speed [rad/s] and mean force [N].
+fn scales(samples: &[Sample]) -> [f64; 2] {
+    let speeds = samples.iter().flat_map(|s| s.speed);
+    let forces = samples.iter().flat_map(|s| s.force);
+    let mean = forces.map(f64::abs).sum::<f64>() / (2 * samples.len()) as f64;
+    [speeds.map(f64::abs).fold(0.0, f64::max), mean]
+}
+
+/// Errors in speed and force: the largest difference, over the largest speed and the mean force of `reference`.
+pub fn errors(reference: &[Sample], samples: &[Sample]) -> [f64; 2] {
+    let pairs = |of: fn(&Sample) -> [f64; 2]| {
+        let both = reference.iter().zip(samples);
+        both.flat_map(move |(a, b)| of(a).into_iter().zip(of(b)))
+    };
+    let [fastest, mean] = scales(reference);
+    [largest_error(pairs(|s| s.speed), fastest), largest_error(pairs(|s| s.force), mean)]
 }
 
 #[cfg(test)]
@@ -150,7 +157,7 @@ mod tests {
     fn errors_are_relative_to_the_largest_speed_and_the_mean_force() {
         let sample = |speed: f64, force: f64| Sample { speed: [speed, 0.0], force: [force, force] };
         let reference = Reference::new(vec![sample(10.0, 100.0), sample(-20.0, 300.0)], String::new(), [0.0; 2]);
-        assert_eq!(reference.scales, [20.0, 200.0]);
+        assert_eq!(scales(&reference.samples), [20.0, 200.0]);
         let errors = reference.errors(&[sample(10.0, 100.0), sample(-19.0, 280.0)]);
         assert_eq!(errors, [0.05, 0.1]);
     }
