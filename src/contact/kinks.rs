@@ -40,6 +40,22 @@ impl Engagement {
         first
     }
 
+    /// Calls `visit` with the fractions of the motion at which pairs come or go abruptly, for want of corner contact.
+    pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
+        for flank in [Flank::Drive, Flank::Coast] {
+            let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
+            for k in numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1) {
+                let [start, end] = [position[1], position[1] + change[1]].map(|x| self.past_ends(flank, x, 0.0, k));
+                for (from, to) in start.into_iter().zip(end) {
+                    let t = from / (from - to);
+                    if t > 0.0 && t <= 1.0 {
+                        visit(t);
+                    }
+                }
+            }
+        }
+    }
+
     /// Where pair `k` of `flank` touches, if it does.
     #[inline(always)]
     fn spot(&self, flank: Flank, x: f64, approach: f64, k: i64) -> Option<Spot> {

@@ -134,6 +134,12 @@ impl Engagement {
         }
     }
 
+    /// Whether tip corners carry beyond the path; if not, pairs come and go abruptly.
+    #[inline(always)]
+    pub fn corner_contact(&self) -> bool {
+        self.corner_contact
+    }
+
     /// Half the normal backlash [rad].
     #[inline(always)]
     pub fn half_backlash(&self) -> f64 {

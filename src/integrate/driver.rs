@@ -35,6 +35,8 @@ pub struct Statistics {
     pub rejected_error: u64,
     /// Steps rejected because a value was not finite or the matrix singular.
     pub rejected_invalid: u64,
+    /// Steps rejected because their ledger did not close.
+    pub rejected_ledger: u64,
     /// Steps shortened because the equations switched within them.
     pub rejected_switch: u64,
     /// Evaluations of the right-hand side, those of linearisations and of the ledger included.
@@ -90,6 +92,11 @@ const LAST_STEPS: f64 = 3.0;
 const LARGEST_GROWTH: f64 = 6.0;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
+/// How many times the tolerance the ledger of a step may be off, relative to the energy that the step dealt with: heat is
+/// a quadrature beside the motion, and kinks in it are felt less by the motion.
+const LEDGER: f64 = 100.0;
+/// Times in a row that a step is shortened for its ledger alone; what still does not close is no matter of step size.
+const UNBALANCED: u32 = 8;
 /// An error remembered as smaller would make the predictive controller timid.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 
@@ -122,6 +129,8 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     let mut just_rejected = false;
     let mut switch_at = f64::INFINITY;
     let mut lin = linearise::<N, M, S>(system, point, statistics);
+    let mut energy = system.energy(point);
+    let mut unbalanced = 0;
     loop {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let remaining = until - *time;
@@ -142,27 +151,35 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                     continue;
                 }
                 switch_at = f64::INFINITY;
+                let reached = if h == remaining { until } else { *time + h };
+                let done = until - reached <= resolution;
+                let (_, middle) = system.evaluate(&trial.middle);
+                let next = (!done).then(|| linearise::<N, M, S>(system, &trial.end, statistics));
+                let end = next.as_ref().map_or_else(|| system.evaluate(&trial.end).1, |lin| lin.power);
+                statistics.evaluations += 1 + u64::from(done);
+                let power = [lin.power, middle, end];
+                let energies = [energy, system.energy(&trial.end)];
+                let imbalance = system.imbalance(energies, h, &power) / (LEDGER * tolerance);
+                if imbalance > 1.0 && unbalanced < UNBALANCED {
+                    unbalanced += 1;
+                    statistics.rejected_ledger += 1;
+                    just_rejected = true;
+                    control.next = h / (M::root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
+                    continue;
+                }
+                unbalanced = 0;
+                energy = energies[1];
                 control.accept::<M>(h, cut, error, just_rejected);
                 just_rejected = false;
                 statistics.accepted += 1;
-                let begin = lin.power;
-                let (_, middle) = system.evaluate(&trial.middle);
-                statistics.evaluations += 1;
                 let start = *point;
                 *point = trial.end;
-                *time = if h == remaining { until } else { *time + h };
-                let done = until - *time <= resolution;
-                let end = if done {
-                    statistics.evaluations += 1;
-                    system.evaluate(point).1
-                } else {
-                    lin = linearise::<N, M, S>(system, point, statistics);
-                    lin.power
-                };
-                let step = Step { h, time: *time, start: &start, end: point, power: [begin, middle, end] };
-                let flow = observe(step).map_err(Failure::Refused)?;
-                if done || flow == Flow::Stop {
-                    return Ok(());
+                *time = reached;
+                let flow =
+                    observe(Step { h, time: reached, start: &start, end: point, power }).map_err(Failure::Refused)?;
+                match next {
+                    Some(next) if flow == Flow::Continue => lin = next,
+                    _ => return Ok(()),
                 }
             }
             _ => {

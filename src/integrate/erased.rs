@@ -15,6 +15,10 @@ pub trait Object<const N: usize, P> {
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, P>;
     /// See [`SecondOrder::weights`].
     fn weights(&self, at: &Point<N>) -> Point<N>;
+    /// See [`SecondOrder::energy`].
+    fn energy(&self, at: &Point<N>) -> [f64; 2];
+    /// See [`SecondOrder::imbalance`].
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[P; 3]) -> f64;
     /// See [`SecondOrder::reach`].
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64;
     /// See [`SecondOrder::kink`].
@@ -38,6 +42,12 @@ impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
     }
     fn weights(&self, at: &Point<N>) -> Point<N> {
         SecondOrder::weights(self, at)
+    }
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
+        SecondOrder::energy(self, at)
+    }
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[S::Power; 3]) -> f64 {
+        SecondOrder::imbalance(self, energies, h, power)
     }
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
         SecondOrder::reach(self, from, to)
@@ -70,6 +80,12 @@ impl<const N: usize, P: Copy> SecondOrder<N> for Erased<'_, N, P> {
     }
     fn weights(&self, at: &Point<N>) -> Point<N> {
         self.0.weights(at)
+    }
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
+        self.0.energy(at)
+    }
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[P; 3]) -> f64 {
+        self.0.imbalance(energies, h, power)
     }
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
         self.0.reach(from, to)

@@ -33,7 +33,6 @@ impl Method for Rodas4 {
 /// Coefficients of RODAS.
 const RODAS4: Tableau<6> = Tableau {
     gamma: 0.25,
-    // as the authors have it: the estimate, of lower order, stands for the error
     a: &[
         &[1.544],
         &[0.946_678_528_081_582_6, 0.255_701_169_898_328_4],

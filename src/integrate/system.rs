@@ -60,6 +60,19 @@ pub trait SecondOrder<const N: usize> {
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 
+    /// Kinetic and stored energy.
+    #[inline(always)]
+    fn energy(&self, _at: &Point<N>) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// By how much the ledger of a step of size `h` does not close, relative to the energy that the step dealt with, from
+    /// the energies at its ends and the ledger rates at begin, middle and end.
+    #[inline(always)]
+    fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Power; 3]) -> f64 {
+        0.0
+    }
+
     /// The part of an iteration from `from` to `to` to take, so that it does not leap deep into a contact whose force it
     /// has not seen yet.
     #[inline(always)]

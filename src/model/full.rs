@@ -3,8 +3,9 @@
 use super::causes::Cause;
 use super::dry::{Clamp, Pressing, Turn};
 use super::effects::{Action, Bodies, Slopes};
-use super::equations::{Equations, Jacobian, Power};
+use super::equations::{Equations, Jacobian};
 use super::layout::CARRIER;
+use super::power::Power;
 use super::teeth::SIGMA;
 use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
 use crate::contact::gaps::FlankGaps;
@@ -384,14 +385,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     pub(super) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
         let full = &self.teeth.full;
         let mut energy = if full.in_detail {
-            in_pairs(G, |g| {
-                let of = |s| {
-                    let state = self.detailed_state(at, g, s);
-                    let names = (self.teeth.plan.group(g).planet, s);
-                    full.detailed.energy(&self.teeth.mesh.engagement, self.gaps().map(|g| g as _), names, &state)
-                };
-                self.members(g) * (of(0) + of(1))
-            })
+            in_pairs(G, |g| self.members(g) * (self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1)))
         } else {
             self.elastic_energy(at)
         };
@@ -404,6 +398,17 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             }
         }
         energy
+    }
+
+    /// Elastic energy of the mesh of group `g` with side `s` [J].
+    pub(super) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
+        let full = &self.teeth.full;
+        if !(FULL && full.in_detail) {
+            return self.teeth.mesh.energy(self.mesh_state(at, g, s).position);
+        }
+        let state = self.detailed_state(at, g, s);
+        let names = (self.teeth.plan.group(g).planet, s);
+        full.detailed.energy(&self.teeth.mesh.engagement, self.gaps().map(|g| g as _), names, &state)
     }
 
     /// Where a hold switches within a step.
@@ -444,11 +449,6 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                 clamp.settle(&mut self.holds[i], &turn, &presses[i], count, heat);
             }
         }
-    }
-
-    /// Kinetic and stored energy [J].
-    pub(super) fn energy(&self, at: &Point<N>) -> f64 {
-        self.kinetic_energy(at) + if FULL { self.stored(at, true) } else { self.elastic_energy(at) }
     }
 
     /// Takes holds over from other stiffnesses: catches bodies that were free, lets go of others.

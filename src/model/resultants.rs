@@ -2,12 +2,13 @@
 
 use super::constants::Model;
 use super::effect_specs::HalfShaftSpec;
-use super::equations::{Equations, Power};
+use super::equations::Equations;
 use super::ideal::Ideal;
 use super::layout::{CARRIER, MAX_GROUPS};
 use super::loads::ToothLoad;
 use super::parameters::Inputs;
 use super::plan::Plan;
+use super::power::Power;
 use super::readings::{Forces, MeshForces, bias};
 use super::rigid::RigidEquations;
 use super::state::State;

@@ -11,12 +11,12 @@ use super::causes::CAUSES;
 use super::dry::{Clamp, Hold, Pressing, Turn};
 use super::effect_specs::HalfShaftSpec;
 use super::effects::{Action, Bodies, BodyEffect, Setting, Slopes, body_effects, grips, lock_grip};
-use super::equations::Power;
 use super::grip::Grip;
 use super::ideal::Ideal;
 use super::layout::{CARRIER, HOLDS, Layout, PLANET};
 use super::parameters::Inputs;
 use super::plan::Plan;
+use super::power::Power;
 use super::state::State;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 
@@ -235,11 +235,10 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         self.torques_of(&sum, &self.accelerations(&sum, imposed), power.drive)
     }
 
-    /// Kinetic energy, and that of half-shafts and holds [J].
-    pub fn energy(&self, at: &Point<N>) -> f64 {
-        let kinetic: f64 = (0..N).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
-        let stored: f64 = self.rigid.bodies.iter().map(|e| e.energy(&self.bodies(at))).sum();
-        0.5 * kinetic + stored + (0..2).map(|s| self.clamp.energy(&self.holds[s], at.q[s])).sum::<f64>()
+    /// Energy of half-shafts and holds [J].
+    fn stored(&self, at: &Point<N>) -> f64 {
+        let bodies: f64 = self.rigid.bodies.iter().map(|e| e.energy(&self.bodies(at))).sum();
+        bodies + (0..2).map(|s| self.clamp.energy(&self.holds[s], at.q[s])).sum::<f64>()
     }
 
     /// Whether a hold is due to switch.
@@ -267,6 +266,15 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
 
 impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
     type Power = Power;
+
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
+        let kinetic: f64 = (0..N).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
+        [0.5 * kinetic, self.stored(at)]
+    }
+
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
+        Power::imbalance::<true>(energies, h, power)
+    }
 
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         let mut rates = *v;

@@ -14,7 +14,7 @@ use super::parameters::{Inputs, Parameters, Start};
 use super::plan::Plan;
 use super::readings::{Books, Forces, Motion};
 use super::rigid::RigidEquations;
-use super::run::{self, BUDGET};
+use super::run;
 use super::state::State;
 use super::{commands, resultants, start};
 use crate::friction::FrictionLaw;
@@ -324,7 +324,7 @@ impl Simulation {
             energy_residual: self.energy() - self.state.energy_at_start - self.state.work
                 + self.state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
-            rejected: (s.rejected_error + s.rejected_invalid + s.rejected_switch) as f64,
+            rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,
             rhs_calls: s.evaluations as f64,
             step_size: self.state.control.last,
         }
@@ -354,10 +354,11 @@ impl Simulation {
     pub fn account(&self) -> String {
         let s = &self.state.statistics;
         format!(
-            "solver: {} steps accepted, {} rejected for their error, {} for values that are not finite, {} cut at a switch; \
+            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not finite, {} cut at a switch; \
              {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
             s.accepted,
             s.rejected_error,
+            s.rejected_ledger,
             s.rejected_invalid,
             s.rejected_switch,
             s.evaluations,
@@ -392,7 +393,7 @@ impl Simulation {
 #[inline(never)]
 fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
     let before = *state;
-    let mut budget = BUDGET;
+    let mut budget = run::budget(model);
     while state.time < until {
         let stretch = commands::end_of_stretch(model, state, until);
         let outcome = with_equations!(model, state, inputs, |equations| {
@@ -416,7 +417,7 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
 
 /// Kinetic and stored energy [J].
 fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
-    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()))
+    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
 }
 
 /// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.

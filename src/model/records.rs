@@ -1,0 +1,199 @@
+//! What is recorded of accepted steps: the ledger, mesh cycles, fatigue; and teeth that would jump.
+
+use std::fmt;
+
+use super::causes::{CAUSES, Cause};
+use super::constants::Model;
+use super::dry::Hold;
+use super::equations::Equations;
+use super::layout::HOLDS;
+use super::power::{Power, book, simpson};
+use super::rigid::RigidEquations;
+use super::state::{Bias, Fatigue};
+use super::strength::MeshLoad;
+use crate::integrate::{Point, SecondOrder, Step};
+
+/// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
+pub struct Jump {
+    deflection: f64,
+    limit: f64,
+    planet: usize,
+    side: usize,
+}
+
+impl fmt::Display for Jump {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            out,
+            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action \
+             exceeds the limit {:.3} mm; reduce the load or raise contact.stiffness",
+            self.planet + 1,
+            ["left", "right"][self.side],
+            self.deflection * 1e3,
+            self.limit * 1e3
+        )
+    }
+}
+
+/// What is kept beside the motion.
+pub struct Records<'a> {
+    /// Work of all inputs [J].
+    pub work: &'a mut f64,
+    /// Heat by cause [J].
+    pub heat: &'a mut [f64; CAUSES],
+    /// Shaft torques by mesh cycles.
+    pub bias: &'a mut Bias,
+    /// Damage of the teeth.
+    pub fatigue: &'a mut Fatigue,
+}
+
+/// Equations whose motion can be played over a stretch of time.
+pub trait Scene<const N: usize>: SecondOrder<N, Power = Power> {
+    /// How dry friction holds bodies.
+    fn holds(&self) -> &[Hold; HOLDS];
+    /// Whether a hold is due to switch.
+    fn is_due(&self, at: &Point<N>) -> bool;
+    /// Switches holds that are due and books what their springs give up.
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]);
+    /// Refuses an accepted step that teeth cannot follow, and records it otherwise.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump>;
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Scene<N> for Equations<'_, N, G, P, FULL> {
+    fn holds(&self) -> &[Hold; HOLDS] {
+        &self.holds
+    }
+
+    #[inline(always)]
+    fn is_due(&self, at: &Point<N>) -> bool {
+        FULL && self.hold_is_due(at)
+    }
+
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
+        self.settle_holds(at, heat);
+    }
+
+    #[inline(always)]
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+        let teeth = self.teeth;
+        let (approach, g, side) = self.deepest(step.end);
+        if approach > teeth.jump {
+            let planet = teeth.plan.group(g).planet;
+            let [deflection, limit] = [approach, teeth.jump].map(|arc| arc * teeth.mesh.cone);
+            return Err(Jump { deflection, limit, planet, side });
+        }
+        book(step, records.work, records.heat, FULL);
+        if !teeth.mesh.engagement.corner_contact() {
+            records.heat[Cause::Contact as usize] -= self.energy_of_jumps(step);
+        }
+        if FULL && Self::ENDS {
+            let i = Self::PLANET;
+            let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
+            let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
+            cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
+        }
+        if let (true, Some(strength)) = (FULL, &model.strength) {
+            count_fatigue(self, model, strength, step, records.fatigue);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Scene<N> for RigidEquations<'_, N> {
+    fn holds(&self) -> &[Hold; HOLDS] {
+        &self.holds
+    }
+
+    fn is_due(&self, at: &Point<N>) -> bool {
+        self.hold_is_due(at)
+    }
+
+    fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
+        self.settle_holds(at, heat);
+    }
+
+    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+        book(step, records.work, records.heat, true);
+        Ok(())
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
+    #[inline(never)]
+    fn energy_of_jumps(&self, step: &Step<N, Power>) -> f64 {
+        let between = |t: f64| Point {
+            q: std::array::from_fn(|i| step.start.q[i] + t * (step.end.q[i] - step.start.q[i])),
+            v: std::array::from_fn(|i| step.start.v[i] + t * (step.end.v[i] - step.start.v[i])),
+        };
+        let mut energy = 0.0;
+        for g in 0..G {
+            for s in 0..2 {
+                let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
+                let change = [end[0] - start[0], end[1] - start[1]];
+                self.teeth.mesh.engagement.jumps(start, change, |t| {
+                    let [before, after] = [t - AT_ONCE, t + AT_ONCE].map(|t| self.mesh_energy(&between(t), g, s));
+                    energy += self.members(g) * (after - before);
+                });
+            }
+        }
+        energy
+    }
+}
+
+/// Part of a step within which a pair that comes or goes has come or gone.
+const AT_ONCE: f64 = 1e-9;
+
+/// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
+#[inline(never)]
+fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+    equations: &Equations<N, G, P, FULL>,
+    model: &Model,
+    strength: &super::strength::Strength,
+    step: &Step<N, Power>,
+    fatigue: &mut super::state::Fatigue,
+) {
+    let mut loads = [[MeshLoad::default(); 2]; G];
+    let first = Equations::<N, G, P, FULL>::PLANET;
+    let spin: [f64; G] = std::array::from_fn(|g| step.end.q[first + g] - step.start.q[first + g]);
+    let roll = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
+    let members: [f64; G] = std::array::from_fn(|g| equations.teeth.layout.members[g]);
+    for g in 0..G {
+        for s in 0..2 {
+            equations.tooth_loads(&model.pair, step.end, g, s, |load| loads[g][s].add(strength, load));
+        }
+    }
+    strength.count(fatigue, &spin, roll, &loads, &members);
+}
+
+/// Watches planets pass from one mesh cycle to the next, and keeps the means of shaft torques over whole ones.
+///
+/// Wrapping takes out whole pitches, so that the boundaries of cycles stay where they are.
+struct Cycle {
+    pitch: f64,
+}
+
+impl Cycle {
+    /// Adds the impulses `torque` [N·m·s] of a step of size `h` in which the planet went from one position to another.
+    fn add(&self, bias: &mut super::state::Bias, position: [f64; 2], h: f64, torque: [f64; 2]) {
+        let place = position.map(|q| q / self.pitch);
+        let cycle = place.map(libm::floor);
+        let mut left = 1.0;
+        if cycle[0] != cycle[1] {
+            // the part of the step before the boundary belongs to the cycle that ends
+            let boundary = cycle[0].max(cycle[1]);
+            let part = ((boundary - place[0]) / (place[1] - place[0])).clamp(0.0, 1.0);
+            let time = bias.time + part * h;
+            let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
+            if bias.whole && time > 0.0 {
+                bias.last = Some((sum.map(|x| x / time), time));
+            }
+            *bias = super::state::Bias { sum: [0.0; 2], time: 0.0, whole: true, last: bias.last };
+            left = 1.0 - part;
+        }
+        bias.time += left * h;
+        for s in 0..2 {
+            bias.sum[s] += left * torque[s];
+        }
+    }
+}
