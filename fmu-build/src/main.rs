@@ -26,10 +26,11 @@ usage: cargo run --release [-- COMMAND]
   loads --scene FILE|NAME --out OUT.csv [--every TIME]
                          record the force of each loaded tooth pair, with its place on both gears, for FEA; every
                          communication step, or every TIME such as 0.1ms
-  effects --scene FILE|NAME --accuracy 1% [--from TIME] [--csv OUT.csv] [--write [FILE]]
+  effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]
                          run a scene with each effect on and off: what each changes and costs, and which the scene calls
-                         for; --from: count outputs from TIME on; --csv: all changes by effect and output; --write: save
-                         the scene with these effects alone, to reduced/NAME.toml beside it or to FILE
+                         for; --from: count outputs from TIME on; --as-written: only look what it can do without, not
+                         what it lacks; --csv: all changes by effect and output; --write: save the scene with these
+                         effects alone, to reduced/NAME.toml beside it or to FILE
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
   cost [--quick] [--write] [--out DIR]
                          measure what accuracy costs: figures and CSV in target/cost or DIR; --quick: in under a minute;
@@ -95,6 +96,7 @@ fn parse() -> Result<Job> {
             (Long("scene"), Some(Job::Effects(effects))) => effects.scene = Some(arguments.value()?.string()?),
             (Long("accuracy"), Some(Job::Effects(effects))) => effects.accuracy = Some(arguments.value()?.string()?),
             (Long("from"), Some(Job::Effects(effects))) => effects.from = Some(arguments.value()?.string()?),
+            (Long("as-written"), Some(Job::Effects(effects))) => effects.as_written = true,
             (Long("csv"), Some(Job::Effects(effects))) => effects.csv = Some(arguments.value()?.into()),
             (Long("write"), Some(Job::Effects(effects))) => {
                 effects.write = true;

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
 
-use super::{examine, reduced, table};
+use super::{Question, examine, reduced, table};
 use crate::places;
 use crate::progress::Progress;
 use crate::scene::{Scene, find, units};
 
-/// `effects --scene FILE|NAME --accuracy 1% [--from TIME] [--csv OUT.csv] [--write [FILE]]`.
+/// `effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]`.
 #[derive(Clone, Debug, Default)]
 pub struct Effects {
     /// File or name.
@@ -20,6 +20,8 @@ pub struct Effects {
     pub accuracy: Option<String>,
     /// Time from which on outputs count, with a unit.
     pub from: Option<String>,
+    /// Whether to look only at what the scene has on.
+    pub as_written: bool,
     /// Where to put all changes.
     pub csv: Option<PathBuf>,
     /// Whether to save the reduced scene.
@@ -46,7 +48,8 @@ impl Effects {
         let mut csv = csv.transpose()?;
         let progress = Progress::start("switching effects");
         progress.begin_bar("switching effects");
-        let found = examine(&scene, accuracy, from, &mut |done, what| progress.advance(done, what))?;
+        let question = Question { accuracy, from, as_written: self.as_written, timed: true };
+        let found = examine(&scene, &question, &mut |done, what| progress.advance(done, what))?;
         progress.finish();
         print!("{}", table::text(&found));
         if let (Some(out), Some(path)) = (&mut csv, &self.csv) {

@@ -46,6 +46,8 @@ pub struct Findings {
     pub accuracy: f64,
     /// Time from which on outputs count [s].
     pub from: f64,
+    /// Whether the fullest scene is the scene as written.
+    pub as_written: bool,
     /// What 100 % of each output is.
     pub scales: Vec<Scale>,
     /// How far each output of the fullest scene strays when the integrator's tolerance changes.
@@ -98,9 +100,22 @@ impl Trial {
     }
 }
 
-/// Examines `scene` at `accuracy`, a fraction, from after `from` [s] on. `tell` hears how much of the work is done, and what
-/// is going on.
-pub fn examine(scene: &Scene, accuracy: f64, from: f64, tell: &mut dyn FnMut(f64, &str)) -> Result<Findings> {
+/// What to examine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Question {
+    /// Wanted accuracy, as a fraction.
+    pub accuracy: f64,
+    /// Outputs count after this time [s].
+    pub from: f64,
+    /// Take the scene as written for the fullest: look at what may be left out, and not at what it lacks.
+    pub as_written: bool,
+    /// Repeat the runs and compare their times; without it there are counts alone.
+    pub timed: bool,
+}
+
+/// Examines `scene`. `tell` hears how much of the work is done, and what is going on.
+pub fn examine(scene: &Scene, question: &Question, tell: &mut dyn FnMut(f64, &str)) -> Result<Findings> {
+    let Question { accuracy, from, as_written, timed } = *question;
     if scene.outputs.is_empty() {
         return Err(anyhow!("scene {} has no outputs to compare: name some under outputs", scene.name));
     }
@@ -115,7 +130,7 @@ pub fn examine(scene: &Scene, accuracy: f64, from: f64, tell: &mut dyn FnMut(f64
     }
     let switches: Vec<Switch> = switches::levels(scene).into_iter().chain(switches::effects()).collect();
     let mut work = Work { done: 0, of: 3 * switches.len() + 4, tell };
-    let (mut bench, refused) = references(scene, from, &mut work)?;
+    let (mut bench, refused) = references(scene, question, &mut work)?;
     let strays = strays(&mut bench, accuracy, &mut work);
     // each of the two runs that are compared may have strayed
     let limits: Vec<f64> = strays.iter().map(|stray| accuracy.max(2.0 * stray)).collect();
@@ -137,12 +152,15 @@ pub fn examine(scene: &Scene, accuracy: f64, from: f64, tell: &mut dyn FnMut(f64
     rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
     let trials = rows.iter().flat_map(|row| [&row.alone, &row.among]);
     let used: Vec<usize> = trials.filter_map(|trial| trial.run.clone().ok()).chain([WRITTEN, FULL, reduced]).collect();
-    bench.measure(&used, work.tell);
+    if timed {
+        bench.measure(&used, work.tell);
+    }
     let against_full = |run| Trial { reference: FULL, run: Ok(run), without: Vec::new() };
     Ok(Findings {
         scene: scene.clone(),
         accuracy,
         from,
+        as_written,
         scales: bench.scales.clone(),
         strays,
         limits,
@@ -171,9 +189,13 @@ impl Work<'_> {
 
 /// Runs the scene as written and the fullest, and tells what the fullest lacks and why.
 #[allow(clippy::type_complexity)]
-fn references(scene: &Scene, from: f64, work: &mut Work) -> Result<(Bench, Vec<(Switch, String)>)> {
+fn references(scene: &Scene, question: &Question, work: &mut Work) -> Result<(Bench, Vec<(Switch, String)>)> {
+    let from = question.from;
     work.next("the scene as written");
     let written = bench::of(scene, from, f64::INFINITY).map_err(|why| anyhow!("scene {}: {why}", scene.name))?;
+    if question.as_written {
+        return Ok((Bench::new(from, scene, written.clone(), scene, written), Vec::new()));
+    }
     let (mut full, refused) = switches::fullest(scene);
     let mut refused: Vec<(Switch, String)> = refused.into_iter().map(|(s, p)| (s, bench::told(&p))).collect();
     work.next("all effects");

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
-use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
+use toml_edit::{DocumentMut, InlineTable, Item, Table, Value};
 
-use super::switches::{Switch, level_name, level_variable};
+use super::switches::{Standing, Switch, level_name, level_variable};
 use super::table::{accuracy, most, percent, reduction};
 use super::{Finding, Findings};
 use crate::places;
@@ -45,7 +45,6 @@ pub fn write(found: &Findings, file: &Path) -> Result<()> {
 pub fn text(found: &Findings, original: &str) -> Result<String> {
     let mut document: DocumentMut = original.parse().context("the scene's file")?;
     let set = document.entry("set").or_insert_with(|| Item::Table(Table::new()));
-    let set = set.as_table_like_mut().context("set is no table")?;
     let level = level_name(&found.reduced_scene.parameters);
     if level != level_name(&found.scene.parameters) {
         put(set, level_variable(), level.into(), "")?;
@@ -65,54 +64,46 @@ pub fn text(found: &Findings, original: &str) -> Result<String> {
 }
 
 /// Sets a variable where it stands, or anew.
-fn put(set: &mut dyn TableLike, name: &str, value: Value, comment: &str) -> Result<()> {
-    let (table, key) = match name.split_once('.') {
-        Some((group, key)) if !set.contains_key(name) => {
-            let dotted = || {
-                let mut table = Table::new();
-                table.set_dotted(true);
-                Item::Table(table)
-            };
-            let group = set.entry(group).or_insert_with(dotted);
-            (group.as_table_like_mut().with_context(|| format!("{name} stands in no table"))?, key)
-        }
-        _ => (set, name),
-    };
-    let inline = table.get(key).is_none_or(Item::is_value) && table_is_inline(table);
-    match table.get_mut(key).and_then(Item::as_value_mut) {
-        Some(old) => {
-            let decor = old.decor().clone();
-            *old = value;
-            *old.decor_mut() = decor;
-        }
-        None => {
-            table.insert(key, Item::Value(value));
-        }
+fn put(set: &mut Item, name: &str, value: Value, comment: &str) -> Result<()> {
+    let mut inline = set.is_inline_table();
+    let mut table = set.as_table_like_mut().context("set is no table")?;
+    let mut key = name;
+    if let Some((group, last)) = name.split_once('.')
+        && !table.contains_key(name)
+    {
+        let group = table.entry(group).or_insert_with(|| dotted(inline));
+        inline |= group.is_inline_table();
+        table = group.as_table_like_mut().with_context(|| format!("{name} stands in no table"))?;
+        key = last;
     }
-    if let Some(value) = table.get_mut(key).and_then(Item::as_value_mut) {
-        let said = value.decor().suffix().and_then(|suffix| suffix.as_str()).is_some_and(|text| text.contains('#'));
-        // an inline table has no room for comments, and the author's own stays
-        if !inline && !said && !comment.is_empty() {
-            value.decor_mut().set_suffix(format!(" # {comment}"));
-        }
+    let item = table.entry(key).or_insert_with(|| Item::Value(value.clone()));
+    let old = item.as_value_mut().with_context(|| format!("{name} has no value"))?;
+    let decor = old.decor().clone();
+    let said = decor.suffix().and_then(|suffix| suffix.as_str()).is_some_and(|text| text.contains('#'));
+    *old = value;
+    *old.decor_mut() = decor;
+    // the author's comment stays, and braces have no room for any
+    if !inline && !said && !comment.is_empty() {
+        old.decor_mut().set_suffix(format!(" # {comment}"));
     }
     Ok(())
 }
 
-/// Whether a table is one in braces.
-fn table_is_inline(table: &dyn TableLike) -> bool {
-    // dotted tables of a document are none, and those in braces have no decor of lines
-    table.iter().next().is_some_and(|(key, _)| {
-        table.key(key).is_some_and(|key| {
-            let text = key.leaf_decor().prefix().and_then(|prefix| prefix.as_str()).unwrap_or("");
-            text.starts_with(' ') && !text.contains('\n')
-        })
-    })
+/// A table for keys with dots.
+fn dotted(inline: bool) -> Item {
+    if inline {
+        let mut table = InlineTable::new();
+        table.set_dotted(true);
+        return Item::Value(Value::InlineTable(table));
+    }
+    let mut table = Table::new();
+    table.set_dotted(true);
+    Item::Table(table)
 }
 
 /// Why an effect is on or off.
 fn comment(found: &Findings, row: &Finding) -> String {
-    let verdict = row.verdict.text(row.standing).replace('\n', " ");
+    let verdict = row.verdict.text(Standing::On);
     match row.among.change(&found.bench).filter(|change| !change.is_none()) {
         Some(change) => format!("{verdict}: {}, {}", percent(change.largest()), most(found, change)),
         None => verdict,
@@ -131,11 +122,7 @@ fn head(found: &Findings) -> String {
         .collect();
     let level = [&found.scene, &found.reduced_scene].map(|scene| level_name(&scene.parameters));
     let mut lines = vec![
-        format!(
-            "Made from scene {}: what it calls for at an accuracy of {}.",
-            found.scene.name,
-            percent(found.accuracy)
-        ),
+        format!("Made from scene {}: what it calls for at an accuracy of {}.", found.scene.name, accuracy(found)),
         reduction(found),
         format!(
             "Left out, with what each changes: {}.",

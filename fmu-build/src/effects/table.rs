@@ -14,6 +14,8 @@ use crate::scene::units;
 
 /// Width of the sentences.
 const WIDTH: usize = 118;
+/// Changes of this many times the scale and more are told as such.
+const MANY: f64 = 10.0;
 /// What comes before this part of a scene is its start.
 const START: f64 = 0.02;
 /// Outputs that stray by more than this part of the accuracy are told.
@@ -27,6 +29,9 @@ pub fn percent(fraction: f64) -> String {
     }
     if !percent.is_finite() {
         return "no number".into();
+    }
+    if fraction >= MANY {
+        return format!("{fraction:.0} x");
     }
     let decimals = (1.0 - percent.abs().log10().floor()).max(0.0) as usize;
     if decimals > 5 { format!("{percent:.0e} %") } else { format!("{percent:.decimals$} %") }
@@ -42,7 +47,7 @@ pub fn text(found: &Findings) -> String {
     let _ = write!(
         out,
         "\nalone: the other way round in the scene as written; among all: in the fullest scene, with all effects on that\n\
-         it allows; most in: the output and statistic that change most among all; by points: effective value of the\n\
+         it allows, or as written; most in: the output and statistic that change most among all; by points: effective value of the\n\
          difference point by point; cost and evaluations of tooth forces: with over without, a level over the plainer.\n\n"
     );
     out.push_str(&outputs(found));
@@ -147,7 +152,8 @@ pub fn sentences(found: &Findings) -> Vec<String> {
         let missing = names(&|row| row.standing == Standing::Off && row.verdict.is_kept());
         let lacks = if missing.is_empty() { String::new() } else { format!(": it lacks {}", missing.join(", ")) };
         out.push(format!(
-            "As written it differs from everything on by {}, {}{lacks}.",
+            "As written it {}differs from it by {}, {}{lacks}.",
+            gain(found, WRITTEN),
             percent(change.largest()),
             most(found, change),
         ));
@@ -168,16 +174,21 @@ pub fn sentences(found: &Findings) -> Vec<String> {
             early.join(", ")
         ));
     }
-    let notable = |stray: f64| 2.0 * stray > NOTABLE * found.accuracy;
-    for (i, output) in found.scene.outputs.iter().enumerate().filter(|(i, _)| notable(found.strays[*i])) {
+    let stray: Vec<String> = found
+        .scene
+        .outputs
+        .iter()
+        .zip(&found.strays)
+        .filter(|(_, stray)| 2.0 * **stray > NOTABLE * found.accuracy)
+        .map(|(output, stray)| format!("{} by {}", output.name, percent(*stray)))
+        .collect();
+    if !stray.is_empty() {
         out.push(format!(
-            "{} strays by {} when nothing but solver.relative_tolerance is tightened: no change of it below {} can be told.",
-            output.name,
-            percent(found.strays[i]),
-            percent(2.0 * found.strays[i]),
+            "When nothing but solver.relative_tolerance is tightened, {} strays; no change below twice that can be told from it.",
+            stray.join(", ")
         ));
     }
-    let absent = names(&|row| row.verdict == Verdict::NotThere);
+    let absent = names(&|row| row.standing == Standing::NotThere && row.verdict == Verdict::NotThere);
     if !absent.is_empty() {
         out.push(format!(
             "Part of the question, as they say what is built in, broken or driven, and not looked at unless the scene has \
@@ -186,6 +197,11 @@ pub fn sentences(found: &Findings) -> Vec<String> {
         ));
     }
     out
+}
+
+/// What the reduced scene is compared with.
+fn whole(found: &Findings) -> &'static str {
+    if found.as_written { "the scene as written" } else { "everything on" }
 }
 
 /// The wanted accuracy, and from when on.
@@ -199,19 +215,24 @@ pub fn reduction(found: &Findings) -> String {
     let Some(change) = found.reduced.change(&found.bench) else { return String::new() };
     let Ok(run) = found.reduced.run else { return String::new() };
     if run == FULL {
-        return "That is everything on.".into();
+        return format!("That is {}.", whole(found));
     }
-    let gain = match found.bench.ratio(FULL, run) {
-        Some(Ratio { median, spread }) if median >= 1.0 => {
-            format!("is {} ± {} times cheaper than with everything on and ", three(median), three(spread))
-        }
-        Some(Ratio { median, .. }) => format!("takes {} times the time of everything on and ", three(1.0 / median)),
-        None => String::new(),
-    };
+    let gain = gain(found, run);
     if change.is_none() {
         return format!("That {gain}differs from it in nothing.");
     }
     format!("That {gain}differs from it by at most {}, {}.", percent(change.largest()), most(found, change))
+}
+
+/// How much cheaper a run is than everything on.
+fn gain(found: &Findings, run: usize) -> String {
+    match found.bench.ratio(FULL, run) {
+        Some(Ratio { median, spread }) if median >= 1.0 => {
+            format!("is {} ± {} times cheaper than {} and ", three(median), three(spread), whole(found))
+        }
+        Some(Ratio { median, .. }) => format!("takes {} times the time of {} and ", three(1.0 / median), whole(found)),
+        None => String::new(),
+    }
 }
 
 /// The output and statistic of the largest change.
@@ -381,11 +402,6 @@ fn lines(found: &Findings, row: &Finding, comparison: &str, trial: &Trial, out: 
         )?;
     }
     Ok(())
-}
-
-/// How many times dearer the scene as written is than the reduced one.
-pub fn written_over_reduced(found: &Findings) -> Option<Ratio> {
-    found.bench.ratio(WRITTEN, found.reduced.run.clone().ok()?)
 }
 
 #[cfg(test)]

@@ -126,7 +126,8 @@ pub fn decide(bench: &mut Bench, rows: &mut [Finding], limits: &[f64], accuracy:
             match (&row.among.run, row.among.change(bench).cloned()) {
                 (Ok(_), Some(change)) => {
                     work.next(&format!("without {}", row.switch.name()));
-                    leave_out(bench, &row.switch, &change, limits, accuracy, lowered, &mut current)
+                    let whether = Whether { limits, accuracy, lowered, on: row.standing == Standing::On };
+                    leave_out(bench, &row.switch, &change, &whether, &mut current)
                 }
                 (outcome, _) => Verdict::Fails(outcome.as_ref().err().cloned().unwrap_or_default()),
             }
@@ -144,16 +145,19 @@ fn absent(row: &Finding) -> Verdict {
     }
 }
 
-/// Leaves an effect out of the run `current` if that may be.
-fn leave_out(
-    bench: &mut Bench,
-    switch: &Switch,
-    change: &Change,
-    limits: &[f64],
+/// What decides whether an effect may be left out.
+struct Whether<'a> {
+    limits: &'a [f64],
     accuracy: f64,
+    /// Whether the level of tooth contact is plainer than that of the scene.
     lowered: bool,
-    current: &mut usize,
-) -> Verdict {
+    /// Whether the scene as written has the effect on.
+    on: bool,
+}
+
+/// Leaves an effect out of the run `current` if that may be.
+fn leave_out(bench: &mut Bench, switch: &Switch, change: &Change, whether: &Whether, current: &mut usize) -> Verdict {
+    let Whether { limits, accuracy, lowered, on } = *whether;
     let beyond = !change.is_within(limits);
     if beyond && !lowered {
         return Verdict::Needed;
@@ -172,7 +176,8 @@ fn leave_out(
     if !same && !(without.changes[FULL].is_within(limits) && !beyond) {
         return if beyond { Verdict::Needed } else { Verdict::NeededToo };
     }
-    if !same && with.class == without.class && without.evaluations > DEARER * with.evaluations {
+    // what the scene does not have on is not put in to save time
+    if on && !same && with.class == without.class && without.evaluations > DEARER * with.evaluations {
         return Verdict::Dearer;
     }
     *current = less;
