@@ -3,66 +3,28 @@
 Stiffness that varies along the path makes a potential well for the planets' spin. Its depth and steepest slope follow
 from the tooth geometry alone: energy of all pairs, side gears in balance with their load, as the planets turn."""
 
-from math import acos, asin, atan, atan2, cos, pi, sin, tan
+from math import pi
 
 import numpy as np
 import pytest
 import theory
+from plain import Differential, Gears, Scene
 
-GLEASON_SIDE = (0.54 + 0.46 * (theory.PLANET_TEETH / theory.SIDE_TEETH) ** 2) * theory.MODULE
-ADDENDUM = {"planet": 2.0 * theory.MODULE - GLEASON_SIDE, "side": GLEASON_SIDE}
-PITCH = {"planet": theory.PLANET_PITCH, "side": theory.SIDE_PITCH}
-BASE = {gear: asin(sin(PITCH[gear]) * cos(theory.PRESSURE_ANGLE)) for gear in PITCH}
-
-
-def arc(gear, polar):
-    return acos(cos(polar) / cos(BASE[gear]))
-
-
-PITCH_ARC = {gear: arc(gear, PITCH[gear]) for gear in PITCH}
-TIP = {gear: PITCH[gear] + atan(ADDENDUM[gear] / theory.OUTER_CONE) for gear in PITCH}
-TIP_ARC = {gear: arc(gear, TIP[gear]) for gear in PITCH}
-END = {gear: TIP_ARC[gear] - PITCH_ARC[gear] for gear in PITCH}
-BASE_PITCH = 2.0 * pi * sin(BASE["planet"]) / theory.PLANET_TEETH
-SHIFT = (ADDENDUM["planet"] - ADDENDUM["side"]) / 2.0 / theory.MODULE
-HALF_TOOTH = ((pi / 2.0 + 2.0 * SHIFT * tan(theory.PRESSURE_ANGLE)) / theory.PLANET_TEETH
-              - theory.BACKLASH / 2.0 / theory.MODULE / theory.PLANET_TEETH)
-
-
-def involute(gear, psi):
-    return psi / sin(BASE[gear]) - atan2(tan(psi), sin(BASE[gear]))
-
-
-def gap(gear, past):
-    """Arc by which the mate's flank is clear of the tip corner of `gear`, `past` beyond the end of the path."""
-    mate = "side" if gear == "planet" else "planet"
-    turned = atan2(tan(TIP_ARC[gear]), sin(BASE[gear])) - atan2(tan(PITCH_ARC[gear]), sin(BASE[gear]))
-    azimuth = turned + past / sin(BASE[gear])
-    # axes at a right angle: the mate's axis is x, the gear's z
-    x, y, z = sin(TIP[gear]) * cos(azimuth), sin(TIP[gear]) * sin(azimuth), cos(TIP[gear])
-    touch = atan2(y, z) - involute(mate, acos(x / cos(BASE[mate]))) + involute(mate, PITCH_ARC[mate])
-    return END[gear] + past - sin(BASE[mate]) * touch
+GEARS = Gears()
+# only its elastic forces: pairs are asked at no speed
+MODEL = Differential(Scene())
 
 
 def energy(approach, travel):
     """Elastic energy of one mesh whose flanks approach by `approach`, planet's travel `travel`."""
-    total = 0.0
-    for k in range(-3, 4):
-        s = HALF_TOOTH * sin(BASE["planet"]) + travel + k * BASE_PITCH
-        clear = 0.0
-        if s > END["planet"]:
-            clear = gap("planet", s - END["planet"]) if s < END["planet"] + 0.15 else 1.0
-        elif s - approach < -END["side"]:
-            clear = gap("side", approach - END["side"] - s) if s > -END["side"] - 0.15 else 1.0
-        depth = max(approach - clear, 0.0) * theory.MEAN_CONE
-        total += theory.STIFFNESS * depth ** (theory.EXPONENT + 1.0) / (theory.EXPONENT + 1.0)
-    return total
+    pairs = MODEL.pairs(approach, 0.0, travel, 0.0) if approach > 0.0 else ()
+    return sum(force * depth for _, _, depth, force, _, _ in pairs) / (theory.EXPONENT + 1.0)
 
 
 def balanced(sign, spin):
     """Potential of one side with its two planets, the side gear where its load is borne."""
-    travel = sign * sin(BASE["planet"]) * spin
-    lever = sin(BASE["side"])
+    travel = sign * GEARS.lever["planet"] * spin
+    lever = GEARS.lever["side"]
 
     def potential(approach):
         return theory.PLANETS * energy(approach, travel) + theory.LOAD * (travel - approach) / lever

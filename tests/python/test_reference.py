@@ -1,0 +1,132 @@
+"""The packaged FMU against solutions that the program did not make: plain.py, integrated by scipy (make_reference.py)."""
+
+from math import atan2, cos, sin, tan
+
+import make_reference
+import numpy as np
+import pytest
+from make_reference import CASES
+from plain import MATE, Gears
+from scipy.optimize import brentq
+
+# Asked of the default tolerance: speeds relative to the fastest, forces to the mean. A transient of damped teeth is over
+# by SETTLED, thousands of their time constants.
+SPEED_ERROR, FORCE_ERROR, SETTLED = 1e-6, 1e-3, 0.01
+# Of the files integrated again by the tests [s]; the blows of a rolling start and of the clunk are in it.
+STRETCH = 3e-3
+
+
+@pytest.fixture
+def errors(open_fmu):
+    """errors(case, tolerance): times, and by name of the output the error of the FMU at each of them."""
+
+    def compared(name, tolerance=None):
+        case = CASES[name]
+        times, columns = make_reference.read(name)
+        np.testing.assert_array_equal(times, case.times)
+        values = np.array([columns[output] for output in case.outputs]).T
+        with open_fmu() as opened:
+            for variable, value in (case.fmu | {"scene.start": case.start}).items():
+                opened.set(variable, value)
+            if tolerance is not None:
+                opened.set("solver.relative_tolerance", tolerance)
+            opened.initialise()
+            for variable, value in case.then.items():
+                opened.set(variable, value)
+            rows = [[opened.get(output) for output in case.outputs]]
+            for begin, end in zip(times[:-1], times[1:]):
+                opened.fmu.doStep(begin, end - begin)
+                rows.append([opened.get(output) for output in case.outputs])
+        scales = make_reference.scales(case, values)
+        return times, dict(zip(case.outputs, (np.abs(np.array(rows) - values) / scales).T))
+
+    return compared
+
+
+def largest(errors, kind, late=slice(None)):
+    """Of all outputs of a kind, and where."""
+    return max((np.max(error[late]), name) for name, error in errors.items() if name.endswith(kind))
+
+
+@pytest.mark.parametrize("case", ["straight_equilibrium", "turn_equilibrium"])
+def test_the_study_follows_the_reference_from_the_first_instant(errors, case):
+    _, found = errors(case)
+    assert largest(found, "speed") <= (SPEED_ERROR, "")
+    assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
+
+
+@pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
+def test_the_study_follows_the_reference_once_the_blows_of_a_rolling_start_are_over(errors, case):
+    times, found = errors(case)
+    late = times > SETTLED
+    assert largest(found, "speed", late) <= (SPEED_ERROR, "")
+    assert largest(found, ("force", "torque", "error"), late) <= (FORCE_ERROR, "")
+
+
+def test_the_blows_of_a_rolling_start_follow_the_reference(errors):
+    for case in ["straight_rolling", "turn_rolling"]:
+        _, found = errors(case)
+        assert largest(found, "speed") <= (1e2 * SPEED_ERROR, ""), case
+        assert largest(found, ("force", "torque", "error")) <= (10.0 * FORCE_ERROR, ""), case
+
+
+def test_the_clunk_follows_the_reference(errors):
+    # undamped teeth chatter on, with what the light gears have got: torque in the shafts is what is asked for
+    _, found = errors("clunk")
+    assert largest(found, "shaft_torque") <= (FORCE_ERROR, "")
+    assert found["carrier.speed"].max() <= FORCE_ERROR
+
+
+@pytest.mark.parametrize("case", ["straight_rolling", "turn_equilibrium", "turn_rolling"])
+def test_the_fmu_draws_near_the_reference_as_its_tolerance_is_tightened(errors, case):
+    # two solutions by methods, laws and hands that share nothing: at 1e-10 what is left is a few local errors
+    worst = [max(np.max(error) for error in errors(case, tolerance)[1].values()) for tolerance in [1e-6, 1e-8, 1e-10]]
+    assert worst[2] < 1e-9 and worst[2] < 0.1 * worst[1] < 0.01 * worst[0], worst
+
+
+@pytest.mark.parametrize("case", [*CASES])
+def test_files_are_what_the_plain_model_gives(case):
+    """The first stretch, integrated again by another method."""
+    case, columns = CASES[case], make_reference.read(case)[1]
+    count = max(11, np.count_nonzero(case.times <= STRETCH))
+    rows = make_reference.table(case, make_reference.solve(case, case.times[:count], "Radau", 1e-9))
+    values = np.array([columns[output] for output in case.outputs]).T
+    error = np.abs(rows - values[:count]) / make_reference.scales(case, values)
+    assert np.max(error) < 1e-7
+
+
+@pytest.mark.parametrize("gear", ["planet", "side"])
+def test_the_gap_of_a_tip_corner_is_what_two_flanks_in_space_leave(gear):
+    gears, mate = Gears(), MATE[gear]
+
+    def flank(of, unwound):
+        """Polar angle and azimuth of the end of an arc unwound from the base circle, which begins at azimuth 0."""
+        lever, length = gears.lever[of], unwound * gears.lever[of]
+        height = cos(gears.base[of])
+        foot, tangent = (lever * cos(unwound), lever * sin(unwound)), (-sin(unwound), cos(unwound))
+        x, y = (cos(length) * f - sin(length) * t for f, t in zip(foot, tangent))
+        return np.arccos(height * cos(length)), atan2(y, x)
+
+    def azimuth(of, polar):
+        unwound = brentq(lambda unwound: flank(of, unwound)[0] - polar, 1e-9, 2.0, xtol=1e-16, rtol=1e-15)
+        return flank(of, unwound)[1]
+
+    def corner(past):
+        """About the gear's axis z, then polar angle and azimuth about the mate's axis x; teeth meet between both."""
+        turned = (gears.end[gear] + past) / gears.lever[gear]
+        around = turned - azimuth(gear, gears.tip[gear]) + azimuth(gear, gears.pitch[gear])
+        tip = gears.tip[gear]
+        x, y, z = sin(tip) * cos(around), sin(tip) * sin(around), cos(tip)
+        return np.arccos(x), atan2(y, z)
+
+    for past, golden in [(0.01, {"planet": 1.993971e-4, "side": 3.893746e-4}),
+                         (0.02, {"planet": 7.971583e-4, "side": 1.324971e-3}),
+                         (0.03, {"planet": 1.794029e-3, "side": 2.728913e-3})]:
+        polar, across = corner(past)
+        mate_turned = across - azimuth(mate, polar) + azimuth(mate, gears.pitch[mate])
+        left = gears.end[gear] + past - gears.lever[mate] * mate_turned
+        clear, slope = gears.gap(gear, past)
+        assert clear == pytest.approx(left, abs=1e-13) and clear == pytest.approx(golden[gear], rel=1e-6)
+        step = 1e-5
+        difference = (gears.gap(gear, past + step)[0] - gears.gap(gear, past - step)[0]) / (2.0 * step)
+        assert slope == pytest.approx(difference, abs=1e-8)
