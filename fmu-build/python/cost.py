@@ -5,11 +5,13 @@ usage: cost.py FOLDER
 
 import csv
 import sys
+import textwrap
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.ticker import LogLocator, NullFormatter
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from figures import caption, save
 
@@ -32,7 +34,7 @@ FLOOR = 1.5e-13
 
 def main():
     folder = Path(sys.argv[1])
-    figures = [work_precision, communication_step]
+    figures = [work_precision, fidelity_ladder, effects, communication_step]
     for done, figure in enumerate(figures):
         print(f"progress {0.95 + 0.05 * done / len(figures):.3f} drawing {figure.__name__.replace('_', ' ')}",
               file=sys.stderr, flush=True)
@@ -47,6 +49,13 @@ def read(path):
     return machine, [{key: number(value) for key, value in row.items()} for row in rows]
 
 
+def foreign_solvers(folder):
+    """Rows of solvers of others on the same cases, if they were measured."""
+    path = folder / "foreign.csv"
+    rows = read(path)[1] if path.is_file() else []
+    return [row for row in rows if "case" in row and "solver" in row]
+
+
 def number(text):
     try:
         return float(text)
@@ -56,8 +65,7 @@ def number(text):
 
 def work_precision(folder):
     machine, rows = read(folder / "work_precision.csv")
-    path = folder / "foreign.csv"
-    foreign = read(path)[1] if path.is_file() else []
+    foreign = foreign_solvers(folder)
     unit = {row["case"]: row["cpu_s"] for row in rows
             if row["method"] == "adaptive" and row["setting"] == 1e-6 and row["status"] == "ok"}
     costs = [row["cost"] for row in rows if row["status"] == "ok"]
@@ -110,6 +118,130 @@ def counts_figure(folder, machine, rows):
     save(figure, folder, "work_precision_counts")
 
 
+def fidelity_ladder(folder):
+    machine, rows = read(folder / "fidelity_ladder.csv")
+    scenes = {"turn": "The study's turn: one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
+    figure, grid = plt.subplots(2, 2, figsize=(15, 10.5), layout="constrained", width_ratios=[3.1, 1])
+    colors = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
+    limits = BoundaryNorm([0.0, 1e-3, 1e-2, 0.1, 0.5, 1e9], colors.N)
+    for (left, right), (scene, title) in zip(grid, scenes.items()):
+        own = [row for row in rows if row["scene"] == scene]
+        rungs = list(dict.fromkeys(row["rung"] for row in own))
+        quantities = list(dict.fromkeys(row["quantity"] for row in own))
+        cell = {(row["rung"], row["quantity"]): row for row in own}
+        errors = np.array([[cell[rung, quantity]["error"] for quantity in quantities] for rung in rungs])
+        left.imshow(np.where(np.isfinite(errors), errors, 1e8), cmap=colors, norm=limits, aspect="auto")
+        for i, rung in enumerate(rungs):
+            for j, quantity in enumerate(quantities):
+                row = cell[rung, quantity]
+                text = "failed" if row["status"] == "failed" else shown(row["error"])
+                if i == len(rungs) - 1:
+                    text = f"{row['richest']:.4g} {row['unit'] if row['unit'] != '1' else ''}"
+                dark = errors[i, j] < 1e-3 or errors[i, j] >= 0.5
+                left.text(j, i, text, ha="center", va="center", fontsize=10.5, color="white" if dark else "#222222")
+        adds = [cell[rung, quantities[0]]["adds"] for rung in rungs]
+        left.set(title=title + ": error against the richest rung (bottom)", xticks=range(len(quantities)),
+                 yticks=range(len(rungs)))
+        left.set_xticklabels([wrapped(quantity, 16) for quantity in quantities], fontsize=10)
+        left.set_yticklabels([f"{rung}\n" + wrapped(what, 28) for rung, what in zip(rungs, adds)], fontsize=9.5)
+        left.grid(False)
+        left.tick_params(length=0)
+        firsts = [cell[rung, quantities[0]] for rung in rungs]
+        cost = np.array([row["cost"] for row in firsts])
+        spread = [[c - row["cpu_s_low"] / row["cpu_s"] * c for c, row in zip(cost, firsts)],
+                  [row["cpu_s_high"] / row["cpu_s"] * c - c for c, row in zip(cost, firsts)]]
+        right.barh(range(len(rungs)), cost, xerr=spread, color="#1f6fb4", height=0.62, error_kw={"elinewidth": 1, "capsize": 2})
+        for i, (c, row) in enumerate(zip(cost, firsts)):
+            text = "failed" if row["status"] == "failed" else f"{two(c)} ×"
+            right.text(c * 1.25 if np.isfinite(c) else 1.2, i, text, va="center", fontsize=10)
+        right.set(xscale="log", title="Cost, × ideal", xlabel="time on the processor, × that of ideal gears",
+                  yticks=range(len(rungs)), ylim=(len(rungs) - 0.5, -0.5),
+                  xlim=(0.5, 60 * np.nanmax(cost)))
+        right.set_yticklabels([])
+        right.grid(axis="y", visible=False)
+    by = {row["rung"]: row["cost"] for row in rows if row["scene"] == "clunk"}
+    caption(figure, "What each level of fidelity gets right, and what it costs. Colours: error below 0.1 % (dark green), 1 %, 10 %, "
+            "50 %, and beyond (red); the bottom row has the values themselves. Mean speeds and mean forces need no teeth. "
+            "Ripple, deflection and peaks need the right stiffness: tooth pairs, and what stands in series with them. "
+            "Heat needs friction. In the turn ideal gears are a closed form, some ten nanoseconds a step; in the clunk half-shafts "
+            f"have to be integrated at every level. Default solver and tolerance, communication step 1 ms; medians with quartiles. {machine}.")
+    save(figure, folder, "fidelity_ladder")
+
+
+def effects(folder):
+    machine, rows = read(folder / "effects.csv")
+    scenes = list(dict.fromkeys(row["scene"] for row in rows))
+    looked_at = [row for row in rows if row["verdict"] not in ("not in this scene", "set off by the scene")]
+    sizes = [len(dict.fromkeys(row["effect"] for row in looked_at if row["scene"] == scene)) for scene in scenes]
+    figure, grid = plt.subplots(len(scenes), 2, figsize=(16, 2.4 + 0.46 * sum(sizes) + 1.3 * len(scenes)), layout="constrained",
+                                width_ratios=[3.4, 1], height_ratios=sizes, squeeze=False)
+    colors = ListedColormap(["#ffffff", "#e3edf6", "#a9c8e4", "#5f97c9", "#1f5a92"])
+    limits = BoundaryNorm([0.0, 1e-4, 1e-2, 0.1, 0.5, 1e9], colors.N)
+    verdicts = {"kept": "#c94f4f", "left out": "#2f7d4f", "refused": "#888888"}
+    for (left, right), scene in zip(grid, scenes):
+        own = [row for row in looked_at if row["scene"] == scene]
+        names = list(dict.fromkeys(row["effect"] for row in own))
+        outputs = list(dict.fromkeys(row["output"] for row in own))
+        cell = {(row["effect"], row["output"]): row for row in own}
+        changes = np.array([[cell[name, output]["change"] for output in outputs] for name in names])
+        left.imshow(np.where(np.isfinite(changes), changes, 0.0), cmap=colors, norm=limits, aspect="auto")
+        for i, name in enumerate(names):
+            for j, output in enumerate(outputs):
+                change, status = changes[i, j], cell[name, output]["status"]
+                text = shown(change) if status == "ok" else "×" if status == "failed" else "–"
+                left.text(j, i, text, ha="center", va="center", fontsize=9.5, color="white" if change >= 0.1 else "#222222")
+        left.set(xticks=range(len(outputs)), yticks=range(len(names)),
+                 title=f"Scene {scene}: change of each output by each effect, among all others")
+        left.set_xticklabels([wrapped(output.replace("_", " ").replace(".", ". "), 13).replace(". ", ".") for output in outputs],
+                             fontsize=9)
+        left.set_yticklabels(names, fontsize=10)
+        left.grid(False)
+        left.tick_params(length=0)
+        firsts = [cell[name, outputs[0]] for name in names]
+        timed = np.isfinite([row["cost"] for row in firsts]).any()
+        for i, row in enumerate(firsts):
+            kind = "refused" if row["status"] == "refused" else "kept" if row["kept"] == "true" else "left out"
+            cost = row["cost"] if timed else row["evaluations"]
+            if row["status"] == "ok" and np.isfinite(cost):
+                right.barh(i, cost - 1.0, left=1.0, xerr=row["cost_spread"] if timed else None, color=verdicts[kind], height=0.6,
+                           error_kw={"elinewidth": 1})
+            label = f"{two(cost)} ×  {row['verdict']}" if np.isfinite(cost) else row["verdict"]
+            right.text(1.02, i, label, transform=right.get_yaxis_transform(), va="center", fontsize=9.5, color=verdicts[kind])
+            left.get_yticklabels()[i].set_color(verdicts[kind])
+        right.axvline(1.0, color="#333333", lw=1)
+        right.set(xscale="log", yticks=range(len(names)), ylim=(len(names) - 0.5, -0.5), title="Cost with / without, verdict",
+                  xlabel="time with the effect / without" if timed else "evaluations with the effect / without")
+        right.set_yticklabels([])
+        right.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        right.xaxis.set_minor_formatter(NullFormatter())
+    accuracy = 100.0 * rows[0]["accuracy"]
+    caption(figure, "Which effects a scene calls for. Each effect is switched in the scene with all effects on that it allows; a cell "
+            "is the largest change of an output's mean, rms, minimum or maximum, on that output's scale (darker: more). Red: "
+            f"kept, an output would change by more than {accuracy:g} % without it. Green: may stay off. Grey or –: not allowed "
+            "in this scene. × fails without. Levels are plainer contact in place of the scene's. Effects that the scene sets off, and such as belong to the "
+            f"question (limited slip, a broken tooth), are not shown. {machine}.")
+    save(figure, folder, "effects")
+
+
+def shown(error):
+    """A relative error in percent, short."""
+    percent = 100.0 * error
+    if not np.isfinite(percent):
+        return "–"
+    if percent < 1e-3:
+        return "0 %" if percent < 1e-9 else "< 0.001 %"
+    return f"{percent:.2g} %" if percent < 99.5 else f"{percent:.0f} %"
+
+
+def two(value):
+    """A ratio with two digits."""
+    return f"{value:.2g}" if value < 100.0 else f"{float(f'{value:.2g}'):,.0f}".replace(",", " ")
+
+
+def wrapped(text, width):
+    return "\n".join(textwrap.wrap(text, width))
+
+
 def communication_step(folder):
     machine, rows = read(folder / "communication_step.csv")
     text = (folder / "communication_step.csv").read_text(encoding="utf-8")
@@ -148,7 +280,7 @@ def communication_step(folder):
         left.text(1.2e-4, 0.25 * row["speed_error"] * (1.2e-4 / row["h_s"])**order * 0.35, f"∝ H{'²' if order == 2 else ''}",
                   color=color, ha="left", va="center")
     left.axvline(stable, color="#666666", ls="--", lw=1)
-    left.text(stable * 1.12, 3e-12, f"2Jv/(Cr²) = {1e3 * stable:.1f} ms:\nbeyond, held tyre\ntorques swing", fontsize=9.5,
+    left.text(stable * 1.12, 3e-9, f"2Jv/(Cr²) = {1e3 * stable:.1f} ms:\nbeyond, held tyre\ntorques swing", fontsize=9.5,
               color="#555555", va="center")
     left.set(xscale="log", yscale="log", xlabel="communication step H, s", ylabel="error in speed of the side gears",
              title="Error against the whole in one piece", ylim=(1e-13, 3.0))
@@ -157,6 +289,8 @@ def communication_step(folder):
     left.legend(loc="upper left", fontsize=9.5, frameon=True, framealpha=0.9, edgecolor="none")
     right.set(xscale="log", yscale="log", xlabel="communication step H, s",
               ylabel="time on the processor, × plain stepping at 1 ms", title="Cost")
+    right.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    right.yaxis.set_minor_formatter(NullFormatter())
     right.legend(loc="upper right", fontsize=9.5)
     caption(figure, "A car accelerates for 0.4 s with its left wheel on ice. The host has the car and the slip-dependent forces of "
             "its tyres, the FMU the differential with teeth and the wheels. Inputs held over a step are late by H/2: order 1. A "

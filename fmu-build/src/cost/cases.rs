@@ -4,7 +4,7 @@
 //! long would dictate the steps, and the figure would show the host's step instead of the solver's.
 
 use anyhow::{Result, anyhow};
-use bevel_differential::contact::ContactLaw;
+use bevel_differential::contact::{ContactLaw, DampingModel};
 use bevel_differential::integrate::Statistics;
 use bevel_differential::model::{GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, SolverSpec, Start};
 use bevel_differential::problem;
@@ -20,7 +20,7 @@ pub enum Motion {
     Turn,
     /// The same started in the middle of the gaps: the teeth strike.
     Blow,
-    /// The scene `clunk` with the gears and the damping of the study: the whole lash is crossed, half-shafts wind up. With
+    /// The scene `clunk` with the study's gears, damped by restitution: the whole lash is crossed, half-shafts wind up. With
     /// gears as light and undamped as the scene has them, teeth rattle on and solutions that differ by rounding part
     /// within its 20 ms, so that nothing could be compared.
     Clunk,
@@ -153,7 +153,7 @@ impl Case {
                     setting.apply(&mut parameters, &mut then);
                 }
                 let study = Parameters::default();
-                parameters.contact.damping = study.contact.damping;
+                parameters.contact.damping_model = DampingModel::Restitution;
                 parameters.inertia.side_gear = study.inertia.side_gear;
                 parameters.inertia.planet = study.inertia.planet;
                 (parameters, scene.inputs, then)

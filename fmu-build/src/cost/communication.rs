@@ -129,13 +129,7 @@ fn text(rows: &[Row]) -> String {
             }
             Err(why) => ("failed", csv::text(why), [vec!["0".to_owned()], vec!["nan".to_owned(); 9]].concat()),
         };
-        let _ = writeln!(
-            out,
-            "{name},{},{},{status},{message},{}",
-            fidelity.name(),
-            number(row.h),
-            cells.join(",").to_lowercase()
-        );
+        let _ = writeln!(out, "{name},{},{},{status},{message},{}", fidelity.name(), number(row.h), cells.join(","));
     }
     out
 }

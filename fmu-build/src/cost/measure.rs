@@ -98,7 +98,7 @@ pub fn largest_error(values: impl Iterator<Item = (f64, f64)>, scale: f64) -> f6
 
 /// A number as it stands in a CSV file.
 pub fn number(value: f64) -> String {
-    format!("{value:.6e}")
+    if value.is_nan() { "nan".into() } else { format!("{value:.6e}") }
 }
 
 /// Processor, cores and system, in a line.

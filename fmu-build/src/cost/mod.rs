@@ -2,7 +2,7 @@
 //!
 //! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
 //! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
-//! 3. Effects: what each changes in a scene, what it costs, and which the scene calls for ([`effects`]).
+//! 3. Effects: what each changes in a scene, what it costs, and which the scene calls for ([`switched`]).
 //! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
 //!
 //! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
@@ -11,9 +11,11 @@ pub mod cases;
 pub mod communication;
 pub mod coupling;
 pub mod csv;
+pub mod fidelity;
 pub mod measure;
 pub mod reference;
 pub mod summary;
+pub mod switched;
 pub mod vehicle;
 pub mod work_precision;
 
@@ -31,7 +33,7 @@ use crate::{marked, places, script};
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 /// Share of the bar that belongs to each figure, and to drawing.
-const SHARES: [f64; 3] = [0.7, 0.25, 0.05];
+const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
 
 /// The command `cost [--quick] [--write] [--out DIR]`.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +54,8 @@ pub struct Form {
     pub fixed_steps: &'static [f64],
     /// Communication steps, each an exact part of 0.1 s [s].
     pub communication_steps: &'static [f64],
+    /// Scenes whose effects are switched.
+    pub scenes: &'static [&'static str],
     /// Runs of each setting.
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
@@ -62,6 +66,7 @@ const FULL: Form = Form {
     tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
     fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
     communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
+    scenes: &["torque_bias", "clunk"],
     runs: 15,
     patience: 10.0,
 };
@@ -70,6 +75,7 @@ const QUICK: Form = Form {
     tolerances: &[1e-3, 1e-6, 1e-9],
     fixed_steps: &[1e-4, 1e-5],
     communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
+    scenes: &["clunk"],
     runs: 5,
     patience: 0.5,
 };
@@ -96,7 +102,9 @@ impl Cost {
             "communication_step.csv",
             &communication::measure(&form, &mut |done, what| tell(1, done, what))?,
         )?;
-        tell(2, 0.0, "drawing");
+        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| tell(2, done, what))?)?;
+        save(&folder, "effects.csv", &switched::measure(&form, &mut |done, what| tell(3, done, what))?)?;
+        tell(4, 0.0, "drawing");
         let script = places::workspace().join("fmu-build").join("python").join("cost.py");
         script::run(&environment, &script, &[&folder], &progress)?;
         progress.finish();

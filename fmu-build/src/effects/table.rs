@@ -247,7 +247,8 @@ pub fn most(found: &Findings, change: &Change) -> String {
 }
 
 /// Name of a row; levels say so.
-fn name(row: &Finding) -> String {
+/// Name of a row.
+pub fn name(row: &Finding) -> String {
     match row.switch {
         Switch::Effect(_) => row.switch.name().to_owned(),
         Switch::Level(_) => format!("level {}", row.switch.name()),
@@ -264,7 +265,7 @@ fn scene(standing: Standing, switch: &Switch) -> &'static str {
 }
 
 /// Runs with and without, of the comparison in the fullest scene.
-fn pair(row: &Finding, trial: &Trial) -> Option<[usize; 2]> {
+pub fn pair(row: &Finding, trial: &Trial) -> Option<[usize; 2]> {
     let run = trial.run.clone().ok()?;
     let on = match trial.reference {
         FULL => row.in_full,
