@@ -3,6 +3,7 @@
 #![warn(missing_docs)]
 
 pub mod comparison;
+pub mod cost;
 pub mod describe;
 pub mod documentation;
 pub mod effects;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
+use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
@@ -31,6 +32,9 @@ usage: cargo run --release [-- COMMAND]
                          what it lacks; --csv: all changes by effect and output; --write: save the scene with these
                          effects alone, to reduced/NAME.toml beside it or to FILE
   test-python [ARG]...   package the FMU and run pytest on tests/python, with arguments for pytest
+  cost [--quick] [--write] [--out DIR]
+                         measure what accuracy costs: figures and CSV in target/cost or DIR; --quick: in under a minute;
+                         --write: also renew docs/cost.md and docs/figures
   off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
   peers [--quick] [--write]  run MuJoCo and Drake beside this program on the study's cases, in an environment of their
@@ -46,6 +50,7 @@ enum Job {
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
     Effects(Effects),
+    Cost(Cost),
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
@@ -92,6 +97,9 @@ fn parse() -> Result<Job> {
             (Long("scene"), Some(Job::Loads(loads))) => loads.scene = Some(arguments.value()?.string()?),
             (Long("out"), Some(Job::Loads(loads))) => loads.out = Some(arguments.value()?.into()),
             (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
+            (Long("quick"), Some(Job::Cost(cost))) => cost.quick = true,
+            (Long("write"), Some(Job::Cost(cost))) => cost.write = true,
+            (Long("out"), Some(Job::Cost(cost))) => cost.out = Some(arguments.value()?.into()),
             (Long("scene"), Some(Job::Effects(effects))) => effects.scene = Some(arguments.value()?.string()?),
             (Long("accuracy"), Some(Job::Effects(effects))) => effects.accuracy = Some(arguments.value()?.string()?),
             (Long("from"), Some(Job::Effects(effects))) => effects.from = Some(arguments.value()?.string()?),
@@ -127,6 +135,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
         "effects" => Job::Effects(Effects::default()),
+        "cost" => Job::Cost(Cost::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
@@ -161,6 +170,7 @@ fn run(job: Job) -> Result<()> {
         Job::Scene(scene) => scene.run()?,
         Job::Loads(loads) => loads.run()?,
         Job::Effects(effects) => effects.run()?,
+        Job::Cost(cost) => cost.run()?,
         Job::TestPython(arguments) => {
             let progress = Progress::start("looking for Python");
             let environment = Environment::ready(|what| progress.tell(what))?;
