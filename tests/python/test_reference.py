@@ -75,18 +75,19 @@ def test_the_study_follows_the_reference_once_the_blows_of_a_rolling_start_are_o
     assert largest(found, ("force", "torque", "error"), late) <= (FORCE_ERROR, "")
 
 
-def test_the_blows_of_a_rolling_start_follow_the_reference(errors):
-    for case in ["straight_rolling", "turn_rolling"]:
-        _, found = errors(case)
-        assert largest(found, "speed") <= (1e2 * SPEED_ERROR, ""), case
-        assert largest(found, ("force", "torque", "error")) <= (10.0 * FORCE_ERROR, ""), case
+@pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
+def test_the_blows_of_a_rolling_start_follow_the_reference(errors, case):
+    # speeds pass through several times the settled ones within microseconds: ten times the error is theirs
+    _, found = errors(case)
+    assert largest(found, "speed") <= (10.0 * SPEED_ERROR, "")
+    assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
 
 
 def test_the_clunk_follows_the_reference(errors):
-    # undamped teeth chatter on, with what the light gears have got: torque in the shafts is what is asked for
+    # gears without weight chatter between undamped teeth and shafts; what is asked for is what a vehicle feels
     _, found = errors("clunk")
+    assert found["carrier.speed"].max() <= SPEED_ERROR
     assert largest(found, "shaft_torque") <= (FORCE_ERROR, "")
-    assert found["carrier.speed"].max() <= FORCE_ERROR
 
 
 @pytest.mark.parametrize("case", ["straight_rolling", "turn_equilibrium", "turn_rolling"])
