@@ -7,6 +7,11 @@ import pytest
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 
 
+def pytest_addoption(parser):
+    parser.addoption("--scenes", type=int, default=int(os.environ.get("SCENES", "200")),
+                     help="how many random scenes (or by the environment variable SCENES)")
+
+
 @pytest.fixture(scope="session")
 def fmu_file():
     """Path of the .fmu, from the environment variable FMU."""
