@@ -32,8 +32,8 @@ COLD = 1e-3
 FIXED_STEP = 2
 # energy below which a scene is at rest [J]
 LEAST = 1e-9
-# a communication step longer than this is a hang [s]
-PATIENCE = 120.0
+# a scene longer than this is a hang [s]: longer than all attempts take, unless several effects are seen slice by slice
+PATIENCE = 300.0
 
 
 class Instance:
