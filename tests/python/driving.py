@@ -4,8 +4,8 @@ Limits of the energy residual, each against what it is compared with:
 
 UNDAMPED  of the energy turned over, in scenes where nothing is lost: what is demanded of the solver at its default
           tolerance of 1e-6, and all damped scenes that are smooth keep it too
-BLOWS     of the heat, where teeth strike: the heat of a blow is what a clunk or a rattle is judged by, and is to be known
-          to four digits, as the impact speeds are"""
+BLOWS     of the heat, where teeth strike: the heat of a blow is what a clunk or a rattle is judged by, and is to be
+          known to four digits"""
 
 import numpy as np
 

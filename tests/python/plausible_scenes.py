@@ -131,8 +131,8 @@ def contact(scene, u):
 
 def drives(scene, u):
     """At most two imposed speeds, and speeds at the start that go together."""
-    choice = int(u["scene.carrier_drive"] * 7)
-    imposed = [{"carrier"}, {"carrier", "spin"}, set(), {"left"}, {"right", "carrier"}, {"left", "right"}, {"spin"}][choice]
+    choices = [{"carrier"}, {"carrier", "spin"}, set(), {"left"}, {"right", "carrier"}, {"left", "right"}, {"spin"}]
+    imposed = choices[int(u["scene.carrier_drive"] * len(choices))]
     scene["scene.carrier_drive"] = 1 if "carrier" in imposed else TORQUE_CARRIER
     for side in ("left", "right"):
         scene[f"scene.{side}_drive"] = 2 if side in imposed else 1

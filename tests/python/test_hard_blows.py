@@ -105,7 +105,8 @@ def test_rattling_gears_gain_no_energy(drive, law, damping):
     assert abs(scene["solver.energy_residual"] - begin) < 1e-3 * max(early)
 
 
-@pytest.mark.parametrize("values", [{"geometry.backlash": 0.0}, {"effects.backlash": False}, {"geometry.backlash": 2e-3}])
+@pytest.mark.parametrize("values", [{"geometry.backlash": 0.0}, {"effects.backlash": False},
+                                    {"geometry.backlash": 2e-3}])
 @pytest.mark.parametrize("base", [{}, TURN], ids=["straight", "turn"])
 @pytest.mark.parametrize("start", ["equilibrium", "rolling", "rest"])
 def test_gears_without_backlash_and_with_two_millimetres_run_and_reverse(drive, values, base, start):

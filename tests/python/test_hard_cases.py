@@ -22,7 +22,8 @@ def assert_straight(scene, sign=1.0):
 def test_with_one_wheel_locked_the_other_turns_at_twice_the_carrier_s_speed_and_forces_stay_bounded(drive, start):
     scene = drive({"scene.left_drive": "speed", "left.speed_command": 0.0, "scene.start": start}).to(0.02, 1e-3)
     begin, angle, forces = scene.time, scene["right.angle"], []
-    scene.to(0.22, 1e-3, lambda s: forces.extend(s.read(["planet[1].left_normal_force", "planet[2].right_normal_force"])))
+    meshes = ["planet[1].left_normal_force", "planet[2].right_normal_force"]
+    scene.to(0.22, 1e-3, lambda s: forces.extend(s.read(meshes)))
     # by Willis, but for what the locked wheel's shaft winds up further, and the slack
     expected = 2.0 * CARRIER * (scene.time - begin)
     twist = theory.LOAD / 1e4

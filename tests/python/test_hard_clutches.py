@@ -9,9 +9,9 @@ from driving import UNDAMPED
 
 CLUTCH = {"effects.limited_slip": True, "limited_slip.preload": 100.0, "limited_slip.torque_coefficient": 0.0,
           "inertia.left_end": 0.5, "inertia.right_end": 0.5}
-# integrator steps granted to a half-cycle of the load beside one for each communication step. It sticks and breaks loose
-# once; after either the step size grows again from that of the landing, and a mesh that was shaken rings: some tens of
-# steps each, where chatter takes them by the hundred. Gears that roll pass some teeth besides.
+# integrator steps granted to a half-cycle of the load beside one for each communication step. It sticks and breaks
+# loose once; after either the step size grows again from that of the landing, and a mesh that was shaken rings: some
+# tens of steps each, where chatter takes them by the hundred. Gears that roll pass some teeth besides.
 PER_HALF_CYCLE = {"ideal": 100.0, "lumped": 100.0, "tooth": 400.0}
 
 

@@ -1,4 +1,4 @@
-"""Values that are no numbers, absurd, or out of range: refused with variable, value, unit and range, and no harm done."""
+"""Values that are no numbers, absurd, or out of range: refused with variable, value, unit and range, without harm."""
 
 import math
 import re

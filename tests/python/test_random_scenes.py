@@ -1,6 +1,6 @@
 """Random scenes on the packaged FMU: each finishes in balance or is refused with a clear error.
 
-None panics, hangs, calls a step good that gave a value which is no number, or takes more than a bounded number of steps.
+None panics, hangs, calls a step good that gave a value which is no number, or takes more steps than are granted.
 200 by default; `cargo run --release -- test-python -k random --scenes 10000` runs as many as asked for."""
 
 import collections
