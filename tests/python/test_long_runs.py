@@ -70,10 +70,10 @@ def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive)
     assert scene.imbalance() < UNDAMPED
 
 
-def test_half_an_hour_in_the_study_s_turn_leaves_the_teeth_as_they_stood_at_the_start(drive):
-    # ten thousand whole mesh periods
-    scene = drive(TURN).to(1800.0, 0.18)
-    assert scene["planet[1].spin_angle"] == pytest.approx(1800.0 * np.radians(200.0), rel=1e-11)
+def test_ten_minutes_in_the_study_s_turn_leave_the_teeth_as_they_stood_at_the_start(drive):
+    # more than three thousand whole mesh periods
+    scene = drive(TURN).to(594.0, 0.18)
+    assert scene["planet[1].spin_angle"] == pytest.approx(594.0 * np.radians(200.0), rel=1e-11)
     assert scene["left.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
     ratio = theory.PLANET_TEETH / theory.SIDE_TEETH
     wind_up = scene["carrier.angle"] + ratio * scene["planet[1].spin_angle"] - scene["left.angle"]
