@@ -64,3 +64,26 @@ def test_what_is_printed_of_a_failure_reproduces_its_scene(description):
     first, second = (next(scenes) for scenes in again)
     assert first == second
     assert eval(repr(first[1])) == first[1]
+
+
+def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one_goes_on(unpacked, monkeypatch):
+    crashed = list(scene_runs.attempts("no such folder", "wild", 2, SEED))
+    assert [index for index, _ in crashed] == [0, 1]
+    assert all("process ended with 1" in record["problems"][0] for _, record in crashed)
+    # no answer within less than it takes to start
+    monkeypatch.setattr(scene_runs, "PATIENCE", 1e-3)
+    hung = list(scene_runs.attempts(unpacked, "wild", 2, SEED))
+    assert [record["verdict"] for _, record in hung] == ["failed", "failed"]
+    assert all("no answer" in record["problems"][0] for _, record in hung)
+
+
+def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(unpacked, description, monkeypatch):
+    _, scene = next(random_scenes.scenes(description, "plausible", 20, SEED, 3, 4))
+    assert scene_runs.Attempt(unpacked, description, scene).verdict == "ran"
+    monkeypatch.setattr(scene_runs, "IMBALANCE", 0.0)
+    out_of_balance = scene_runs.Attempt(unpacked, description, scene)
+    assert out_of_balance.verdict == "failed" and "energy residual" in out_of_balance.problems[0]
+    scene["start"]["geometry.shaft_angle"] = 1.0
+    monkeypatch.setattr(scene_runs.Instance, "names_a_variable", lambda *_: False)
+    nameless = scene_runs.Attempt(unpacked, description, scene)
+    assert nameless.verdict == "failed" and "refused with 3" in nameless.problems[0]
