@@ -22,7 +22,8 @@ FACTORS = {
     "thrust_friction.stiffness": 30.0, "limited_slip.stiffness": 30.0, "lock.stiffness": 30.0, "lock.torque": 30.0,
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
     "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
-    "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0}
+    "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
+    "solver.fixed_step": 10.0}
 # from zero (a tenth of the draws) up to this many times the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
