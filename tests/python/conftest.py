@@ -4,7 +4,13 @@ import os
 from contextlib import contextmanager
 
 import pytest
+from driving import Drive
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+
+
+def pytest_addoption(parser):
+    parser.addoption("--scenes", type=int, default=int(os.environ.get("SCENES", "200")),
+                     help="how many random scenes (or by the environment variable SCENES)")
 
 
 @pytest.fixture(scope="session")
@@ -93,3 +99,17 @@ def open_fmu(unpacked, description, reference, literals):
             instance.fmu.freeInstance()
 
     return opened
+
+
+@pytest.fixture
+def drive(unpacked, description, reference, literals):
+    """drive(values): a started scene (see driving.py); all are freed at the end of the test."""
+    begun = []
+
+    def start(values=None):
+        begun.append(Opened(unpacked, description, reference, literals))
+        return Drive(begun[-1], values)
+
+    yield start
+    for opened in begun:
+        opened.fmu.freeInstance()

@@ -300,38 +300,6 @@ def test_an_ideal_limited_slip_accelerates_the_ends_by_its_closed_form(open_fmu)
         assert opened.get("right.speed") - begin == pytest.approx(acceleration * 0.2, rel=1e-6)
 
 
-# ---- clunk ---------------------------------------------------------------------------------------------------------
-
-def test_clunk_peaks_at_the_torque_of_two_inertias_across_the_lash(open_fmu):
-    stiffness, inertia_1, inertia_2, torque = 2e4, 0.05, 1.0, 100.0
-    backlash = 0.1885e-3
-    with open_fmu() as opened:
-        # at rest on the coast flanks, held there by next to nothing
-        started(opened, **{
-            "scene.carrier_drive": "torque", "carrier.torque_command": -2e-3, "carrier.speed_command": 0.0,
-            "left.load_torque": -1e-3, "right.load_torque": -1e-3, "inertia.carrier": inertia_1,
-            "inertia.from_geometry": False, "inertia.side_gear": 1e-6, "inertia.planet": 1e-7,
-            "effects.half_shaft": True, "half_shaft.left_stiffness": stiffness / 2.0,
-            "half_shaft.right_stiffness": stiffness / 2.0, "half_shaft.left_damping": 0.0,
-            "half_shaft.right_damping": 0.0, "inertia.left_end": inertia_2 / 2.0, "inertia.right_end": inertia_2 / 2.0,
-            "geometry.backlash": backlash, "contact.law": "line", "contact.damping": 0.0})
-        opened.set("carrier.torque_command", torque)
-        for side in ("left", "right"):
-            opened.set(f"{side}.load_torque", 0.0)
-        peak, step = 0.0, 2e-5
-        for k in range(500):
-            opened.fmu.doStep(k * step, step)
-            peak = max(peak, opened.get("left.shaft_torque") + opened.get("right.shaft_torque"))
-    lash = backlash / (theory.MODULE * theory.SIDE_TEETH / 2.0)
-    assert np.degrees(lash) == pytest.approx(0.3, rel=1e-3)
-    mean = torque * inertia_2 / (inertia_1 + inertia_2)
-    reduced = inertia_1 * inertia_2 / (inertia_1 + inertia_2)
-    speed_squared = 2.0 * torque / inertia_1 * lash
-    expected = mean + sqrt(mean**2 + stiffness * reduced * speed_squared)
-    assert expected == pytest.approx(265.58, rel=1e-4)
-    assert peak == pytest.approx(expected, rel=0.01)
-
-
 # ---- shafts, pins, drag, excitation, a broken tooth ----------------------------------------------------------------
 
 def test_a_half_shaft_twists_by_its_stiffness_and_swings_with_its_end(open_fmu):

@@ -1,0 +1,163 @@
+"""Values of parameters and inputs that make a differential which can be built, loaded and turned.
+
+Where the interface allows many decades, because gears of watches and of ships do, a band is given here around the start
+value. Sizes follow the module. What is documented not to go together is drawn such that it does."""
+
+from math import atan2, exp, log, pi, sin
+
+from sampling import spread
+
+# the interface's enumerations, by number
+EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
+ADAPTIVE, FIXED_STEP, RADAU, RODAS4 = 1, 2, 3, 4
+IMPLICIT = [FIXED_STEP, RADAU, RODAS4]
+MODULE = 4.5e-3
+
+# factor below and above the start value, drawn by logarithm
+FACTORS = {
+    "material.young_modulus": 3.0, "material.density": 2.0, "inertia.carrier": 10.0, "inertia.side_gear": 30.0,
+    "inertia.planet": 30.0, "contact.penetration_depth": 30.0, "contact.impact_speed": 30.0,
+    "contact.reference_line_load": 10.0, "contact.mesh_stiffness": 100.0, "half_shaft.left_stiffness": 30.0,
+    "half_shaft.right_stiffness": 30.0, "pin_compliance.pin_stiffness": 30.0, "pin_compliance.case_stiffness": 30.0,
+    "thrust_friction.stiffness": 30.0, "limited_slip.stiffness": 30.0, "lock.stiffness": 30.0, "lock.torque": 30.0,
+    "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
+    "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
+    "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
+    "solver.fixed_step": 10.0}
+# from zero (a tenth of the draws) up to this many times the start value
+MULTIPLES = {
+    "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
+    "limited_slip.preload": 10.0, "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
+    "bearing_drag.carrier_viscous": 30.0, "bearing_drag.carrier_churning": 30.0, "bearing_drag.side_torque": 30.0,
+    "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0}
+# drawn evenly
+BANDS = {
+    "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5),
+    "contact.exponent": (1.0, 2.0), "limited_slip.torque_coefficient": (0.0, 0.5),
+    "limited_slip.static_ratio": (1.0, 2.0), "tooth_friction.static_ratio": (1.0, 2.0),
+    "tooth_friction.coefficient": (0.0, 0.15), "thrust_friction.coefficient": (0.0, 0.2),
+    "thrust_friction.pin_coefficient": (0.0, 0.2), "tooth_errors.shaft_angle_error": (-1e-3, 1e-3),
+    "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
+    "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "planet.spin_command": (-60.0, 60.0),
+    "strength.tool_radius": (0.0, 0.3)}
+# lengths that follow the module, in modules
+IN_MODULES = {
+    "geometry.backlash": (0.0, 0.05), "geometry.planet_bore": (0.0, 2.0), "geometry.side_bore": (0.0, 4.0),
+    "tooth_errors.planet_runout": (0.0, 0.01), "tooth_errors.side_runout": (0.0, 0.01),
+    "tooth_errors.planet_tip_relief": (0.0, 0.01), "tooth_errors.side_tip_relief": (0.0, 0.01),
+    "tooth_errors.crowning": (0.0, 0.01), "tooth_errors.planet_axial_offset": (-0.01, 0.01),
+    "tooth_errors.side_axial_offset": (-0.01, 0.01), "tooth_errors.axis_offset": (-0.01, 0.01),
+    "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
+    "thrust_friction.planet_washer_radius": (1.0, 4.0), "thrust_friction.side_washer_radius": (2.0, 6.0)}
+# torques, in those that teeth of this size carry
+IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_command": 2.0}
+
+
+def value(variable, u, scene):
+    """Of one variable, given the values of those it follows."""
+    name, low, high = variable.name, variable.min, variable.max
+    if variable.type == "Boolean":
+        return u < 0.5
+    if variable.type == "Enumeration":
+        return 1 + int(u * len(variable.declaredType.items))
+    start, low, high = float(variable.start), float(low), float(high)
+    if variable.type == "Integer":
+        return int(low + u * (high - low + 1.0))
+    size = scene.get("geometry.module", MODULE)
+    if name in FACTORS:
+        x = start * FACTORS[name] ** (2.0 * u - 1.0)
+    elif name in MULTIPLES:
+        x = 0.0 if u < 0.1 else start * exp(log(MULTIPLES[name]) * (2.0 * (u - 0.1) / 0.9 - 1.0))
+    elif name in BANDS:
+        x = BANDS[name][0] + u * (BANDS[name][1] - BANDS[name][0])
+    elif name in IN_MODULES:
+        x = size * (IN_MODULES[name][0] + u * (IN_MODULES[name][1] - IN_MODULES[name][0]))
+    elif name in IN_LOADS:
+        # bending of similar teeth goes with the third power of their size; a fifth of the loads is against rotation
+        x = IN_LOADS[name] * 1200.0 * (size / MODULE) ** 3 * (u - 0.2)
+    else:
+        x = spread(u, low, high, start)
+    return min(max(x, low), high)
+
+
+def values(variables, shares):
+    """A scene: values of all variables by name."""
+    scene = {"geometry.module": MODULE * 4.0 ** (2.0 * shares["geometry.module"] - 1.0)}
+    for variable in variables:
+        if variable.name not in scene:
+            scene[variable.name] = value(variable, shares[variable.name], scene)
+    gears(scene, shares)
+    contact(scene, shares)
+    drives(scene, shares)
+    effects(scene, shares)
+    return scene
+
+
+def gears(scene, u):
+    """Teeth that mesh, planets that fit in between, faces that leave a cone."""
+    planet = 9 + int(u["geometry.planet_teeth"] * 12)
+    side = planet + int(u["geometry.side_teeth"] * 14)
+    fitting = [n for n in (2, 3, 4) if 2 * side % n == 0]
+    scene.update({
+        "geometry.planet_teeth": planet, "geometry.side_teeth": side,
+        "geometry.planet_count": fitting[int(u["geometry.planet_count"] * len(fitting))],
+        "geometry.shaft_angle": pi / 2.0})
+    cone = scene["geometry.module"] * planet / (2.0 * sin(atan2(planet, side)))
+    scene["geometry.face_width"] = cone * (0.1 + 0.35 * u["geometry.face_width"])
+    # the tip of each gear clears the root of its mate
+    for gear, mate in (("planet", "side"), ("side", "planet")):
+        addendum = 0.7 + 0.3 * u[f"geometry.{gear}_addendum"]
+        scene[f"geometry.{gear}_addendum"] = addendum
+        scene[f"geometry.{mate}_dedendum"] = addendum + 0.15 + 0.2 * u[f"geometry.{mate}_dedendum"]
+    # inertia of similar bodies follows the fifth power of size
+    growth = (scene["geometry.module"] / MODULE) ** 5
+    for name in ("inertia.carrier", "inertia.side_gear", "inertia.planet"):
+        scene[name] *= growth
+    # ends of half-shafts: none for a tenth, else those of wheels, which keep unequal loads from spinning light gears up
+    for name in ("inertia.left_end", "inertia.right_end"):
+        scene[name] = 0.0 if u[name] < 0.1 else growth * 10.0 ** (-1.5 + 2.0 * u[name])
+
+
+def contact(scene, u):
+    """A stiffness that lets a tooth of this size bend by 0.01 to 1 % of the module under the load it is made for."""
+    force = 16e3 * (scene["geometry.module"] / MODULE) ** 2
+    exponent = 1.5 if scene["contact.stiffness_from_hertz"] else scene["contact.exponent"]
+    deflection = scene["geometry.module"] * 10.0 ** (-4.0 + 2.0 * u["contact.stiffness"])
+    scene["contact.exponent"] = exponent
+    scene["contact.stiffness"] = force / deflection**exponent
+    # mostly the default method, and never the explicit one, which takes minutes where teeth are stiff
+    scene["solver.method"] = ([ADAPTIVE] * 8 + IMPLICIT)[int(u["solver.method"] * (8 + len(IMPLICIT)))]
+    scene["solver.relative_tolerance"] = 10.0 ** (-7.0 + 3.0 * u["solver.relative_tolerance"])
+
+
+def drives(scene, u):
+    """At most two imposed speeds, and speeds at the start that go together."""
+    choices = [{"carrier"}, {"carrier", "spin"}, set(), {"left"}, {"right", "carrier"}, {"left", "right"}, {"spin"}]
+    imposed = choices[int(u["scene.carrier_drive"] * len(choices))]
+    scene["scene.carrier_drive"] = 1 if "carrier" in imposed else TORQUE_CARRIER
+    for side in ("left", "right"):
+        scene[f"scene.{side}_drive"] = 2 if side in imposed else 1
+    scene["scene.planet_spin"] = 2 if "spin" in imposed else 1
+
+
+def effects(scene, u):
+    """No effect where there is nothing for it to act on."""
+    gear_contact = [IDEAL, LUMPED, TOOTH, TOOTH, TOOTH][int(u["scene.gear_contact"] * 5)]
+    scene["scene.gear_contact"] = gear_contact
+    for name in u:
+        # one or two effects at a time, so that it shows which is to blame
+        if name.startswith("effects.") and name not in ("effects.backlash", "effects.corner_contact"):
+            scene[name] = u[name] < 0.15
+    scene["effects.corner_contact"] = u["effects.corner_contact"] < 0.95
+    if gear_contact != TOOTH:
+        scene.update({f"effects.{name}": False for name in ("tooth_errors", "tooth_fault", "tooth_friction")})
+    if gear_contact == IDEAL:
+        scene.update({f"effects.{name}": False for name in ("thrust_friction", "pin_compliance", "strength")})
+        scene["limited_slip.torque_coefficient"] = 0.0
+    grade = int(u["tooth_errors.accuracy_grade"] * 10)
+    scene["tooth_errors.accuracy_grade"] = grade + 1 if grade else 0
+    scene["tooth_errors.runout_by_grade"] = bool(grade and scene["tooth_errors.runout_by_grade"])
+    scene["tooth_fault.index"] = int(u["tooth_fault.index"] * 2)
+    scene["tooth_fault.tooth"] = int(u["tooth_fault.tooth"] * scene["geometry.planet_teeth"])
+    if scene["contact.law"] == IMPACT:
+        scene["tooth_fault.missing_fraction"] = 0.55 + 0.45 * u["tooth_fault.missing_fraction"]

@@ -1,0 +1,59 @@
+"""Random scenes: Latin hypercubes over all parameters and inputs of the FMU.
+
+`wild` takes every value from its whole range, so that hardly anything fits together. `plausible` stays near scenes that
+can be built and obeys the documented rules of combination, so that most of them run. `bold` is plausible but for a few
+values from their whole ranges: it gets past the first checks and meets the others."""
+
+import numpy as np
+
+import plausible_scenes
+from sampling import latin, spread
+
+KINDS = ("wild", "bold", "plausible")
+# of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make each step dear
+DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
+# share of values that a bold scene takes from their whole ranges
+BOLD = 0.03
+
+
+def free_variables(description):
+    """All parameters and inputs."""
+    return [v for v in description.modelVariables if v.causality in ("parameter", "input")]
+
+
+def wild_value(variable, u):
+    if variable.type == "Boolean":
+        return u < 0.5
+    if variable.type == "Enumeration":
+        return 1 + int(u * len(variable.declaredType.items))
+    low, high = float(variable.min), float(variable.max)
+    if variable.type == "Integer":
+        return int(low + u * (high - low + 1.0))
+    return spread(u, low, high, float(variable.start))
+
+
+def schedule(random, duration, inputs, draw):
+    """Irregular communication steps of a short run, some of them with new inputs: (size, inputs) each."""
+    sizes = 10.0 ** random.uniform(-5.0, -2.0, 12)
+    sizes *= random.uniform(*duration) / sizes.sum()
+    return [(float(size), {v.name: draw(v) for v in inputs if random.random() < 0.15}) for size in sizes]
+
+
+def scenes(description, kind, count, seed, first=0, last=None):
+    """Scenes `first` to `last` of the `count` of a kind: {"start": values by name, "steps": [(size, inputs)]}."""
+    variables = free_variables(description)
+    inputs = [v for v in variables if v.causality == "input"]
+    cube = latin(count, len(variables), np.random.default_rng([seed, KINDS.index(kind)]))
+    for index in range(first, count if last is None else last):
+        random = np.random.default_rng([seed, KINDS.index(kind), index])
+        shares = dict(zip((v.name for v in variables), cube[index].tolist()))
+        if kind == "wild":
+            start = {v.name: wild_value(v, shares[v.name]) for v in variables}
+            draw = wild_value
+        else:
+            start = plausible_scenes.values(variables, shares)
+            draw = lambda v, u: plausible_scenes.value(v, u, start)  # noqa: E731
+            if kind == "bold":
+                start |= {v.name: wild_value(v, random.random()) for v in variables if random.random() < BOLD}
+        steps = schedule(random, DURATION[kind], inputs, lambda v: draw(v, random.random()))
+        yield index, {"start": start, "steps": steps}

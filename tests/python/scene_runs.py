@@ -1,0 +1,237 @@
+"""Attempts at scenes: each is refused with a clear error, or runs, and what must hold of either is checked here.
+
+`Attempts` runs them in a process of its own, so that a crash or a hang is told with the scene that made it. Replay one:
+
+    FMU=target/fmu/BevelDifferential.fmu python tests/python/scene_runs.py replay 'the scene as it was printed'
+"""
+
+import ast
+import json
+import math
+import os
+import queue
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+
+import random_scenes
+from fmpy import extract, instantiate_fmu, read_model_description
+from fmpy.fmi1 import FMICallException
+
+OK, DISCARD, ERROR = 0, 2, 3
+# attempts at steps that the FMU grants a communication step of up to a second before it discards it
+ATTEMPTS = 2_000_000
+# Energy residual over the energy turned over, in tolerances: the error of a speed is one at most in each step, that of
+# its energy two, and fifty blows may err to the same side. The method of fixed steps has no error control. Without tip
+# corners a bent pair leaves its path with the energy it holds, which nothing books.
+IMBALANCE = 100.0
+# heat below zero, over the energy turned over
+COLD = 1e-3
+FIXED_STEP = 2
+# energy below which a scene is at rest [J]
+LEAST = 1e-9
+# a scene longer than this is a hang [s]: longer than all attempts take, unless several effects are seen slice by slice
+PATIENCE = 300.0
+
+
+class Instance:
+    """An FMU to be called by names; statuses are returned and not raised."""
+
+    def __init__(self, folder, description):
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.log = []
+        self.fmu = instantiate_fmu(folder, description, logger=lambda *message: self.log.append(message[-1].decode()))
+        self.readable = [v for v in description.modelVariables if v.causality == "output"]
+        self.references = [v.valueReference for v in self.readable]
+
+    def call(self, function, *arguments, **options):
+        try:
+            function(*arguments, **options)
+        except FMICallException as failure:
+            return failure.status
+        return OK
+
+    def set(self, name, value):
+        variable = self.variables[name]
+        kind = "Integer" if variable.type == "Enumeration" else variable.type
+        return self.call(getattr(self.fmu, f"set{kind}"), [variable.valueReference], [value])
+
+    def initialise(self):
+        return (self.call(self.fmu.setupExperiment) or self.call(self.fmu.enterInitializationMode)
+                or self.call(self.fmu.exitInitializationMode))
+
+    def outputs(self):
+        return dict(zip((v.name for v in self.readable), self.fmu.getReal(self.references)))
+
+    def names_a_variable(self, since=0):
+        """Whether what was logged names a variable that there is."""
+        words = " ".join(self.log[since:]).replace(",", " ").replace(":", " ").replace("\"", " ").replace("`", " ")
+        return any(word.strip(".;()") in self.variables for word in words.split())
+
+
+class Attempt:
+    """One scene: `verdict` is refused, ran, discarded or failed; `problems` says what did not hold."""
+
+    def __init__(self, folder, description, scene):
+        self.scene, self.problems, self.verdict = scene, [], "ran"
+        self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
+        self.instance, self.told = Instance(folder, description), []
+        try:
+            if self.start():
+                self.go()
+            else:
+                self.verdict = "refused"
+            self.told = self.instance.log[-2:]
+            self.fresh_again()
+        finally:
+            self.instance.fmu.freeInstance()
+        if self.problems:
+            self.verdict = "failed"
+
+    def record(self):
+        told = {name: getattr(self, name) for name in ("verdict", "problems", "imbalance", "turned_over", "attempts",
+                                                       "slowest")}
+        return {**told, "log": self.told}
+
+    def demand(self, holds, what):
+        if not holds:
+            self.problems.append(what)
+
+    def start(self):
+        """Whether the scene was accepted. If not: by an error in time, and with a message that names a variable."""
+        one = self.instance
+        for name, value in self.scene["start"].items():
+            status = one.set(name, value)
+            if status:
+                self.demand(status in (DISCARD, ERROR) and one.names_a_variable(), f"{name} refused with {status}")
+                return False
+        begin, time_before = len(one.log), time.monotonic()
+        status = one.initialise()
+        self.slowest = time.monotonic() - time_before
+        if status > 1:
+            self.demand(status == ERROR and one.names_a_variable(begin), f"refused with {status}, {one.log[begin:]}")
+        return status <= 1
+
+    def go(self):
+        one, now = self.instance, 0.0
+        self.finite(one.outputs(), "at the start")
+        exchanged = inertial = 0.0
+        for size, inputs in self.scene["steps"]:
+            for name, value in inputs.items():
+                self.demand(one.set(name, value) == OK, f"input {name} = {value} refused")
+            before = one.outputs()
+            kept = one.fmu.getFMUstate()
+            begin, time_before = len(one.log), time.monotonic()
+            status = one.call(one.fmu.doStep, now, size)
+            self.slowest = max(self.slowest, time.monotonic() - time_before)
+            after = one.outputs()
+            self.finite(after, f"after the step from {now}")
+            done = sum(after[n] - before[n] for n in ("solver.steps", "solver.rejected"))
+            self.attempts += done
+            self.demand(done <= ATTEMPTS, f"{done} attempts in one communication step")
+            if status > 1:
+                self.verdict = "discarded"
+                self.demand(status == DISCARD, f"step from {now} has status {status}")
+                self.demand("t = " in " ".join(one.log[begin:]), f"no time in {one.log[begin:]}")
+                self.demand(one.call(one.fmu.setFMUstate, kept) == OK and one.outputs() == before, "state not restored")
+            else:
+                exchanged += size * (turned(before) + turned(after)) / 2.0
+                inertial = max(inertial, kinetic(self.scene, before), kinetic(self.scene, after))
+            one.fmu.freeFMUstate(kept)
+            if status > 1:
+                break
+            now += size
+        books = one.outputs()
+        heat = {name: value for name, value in books.items() if name.startswith("heat.")}
+        self.turned_over = sum(map(abs, heat.values())) + exchanged + inertial
+        self.imbalance = abs(books["solver.energy_residual"]) / max(self.turned_over, LEAST)
+        start = self.scene["start"]
+        if start["solver.method"] != FIXED_STEP and start["effects.corner_contact"]:
+            limit = IMBALANCE * start["solver.relative_tolerance"]
+            self.demand(self.imbalance <= limit, f"energy residual of {self.imbalance:.2e} of what was turned over")
+            # what stuck springs took back may for a moment be more than what friction gave
+            made = [name for name, value in heat.items() if value < -COLD * self.turned_over]
+            self.demand(not made, f"energy made out of heat: {made}")
+
+    def finite(self, outputs, when):
+        wrong = [name for name, value in outputs.items() if not math.isfinite(value)]
+        self.demand(not wrong, f"not finite {when}: {wrong}")
+
+    def fresh_again(self):
+        """After fmi2Reset the instance is as new: the study's straight case."""
+        one = self.instance
+        done = one.call(one.fmu.reset) == OK and one.initialise() <= 1 and one.call(one.fmu.doStep, 0.0, 1e-3) == OK
+        straight = done and one.outputs()["left.speed"] == one.outputs()["right.speed"]
+        self.demand(done and straight, "not usable after fmi2Reset")
+
+
+def turned(outputs):
+    return abs(outputs["power.in"]) + abs(outputs["power.out"])
+
+
+def kinetic(scene, outputs):
+    """Kinetic energy of the bodies whose inertia is given."""
+    start = scene["start"]
+    bodies = [("inertia.carrier", "carrier.speed"), ("inertia.left_end", "left.speed"),
+              ("inertia.right_end", "right.speed"), ("inertia.side_gear", "left.speed"),
+              ("inertia.side_gear", "right.speed")]
+    return sum(0.5 * start[inertia] * outputs[speed] ** 2 for inertia, speed in bodies)
+
+
+def work(folder, kind, count, seed, first):
+    """The worker: attempts scenes from `first` on, telling begin and end of each."""
+    description = read_model_description(os.path.join(folder, "modelDescription.xml"))
+    for index, scene in random_scenes.scenes(description, kind, count, seed, first):
+        print(json.dumps({"index": index}), flush=True)
+        print(json.dumps(Attempt(folder, description, scene).record()), flush=True)
+
+
+def listen(stream, lines):
+    for line in stream:
+        lines.put(line)
+    lines.put(None)
+
+
+def attempts(folder, kind, count, seed):
+    """Records of all scenes of a kind, from processes that may crash or hang."""
+    first = 0
+    while first < count:
+        arguments = [folder, kind, str(count), str(seed), str(first)]
+        process = subprocess.Popen([sys.executable, os.path.abspath(__file__), "work", *arguments],
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        lines = queue.Queue()
+        threading.Thread(target=listen, args=(process.stdout, lines), daemon=True).start()
+        running, said = first, []
+        try:
+            while (line := lines.get(timeout=PATIENCE)) is not None:
+                try:
+                    told = json.loads(line)
+                except ValueError:
+                    said.append(line)
+                    continue
+                if "verdict" in told:
+                    yield running, told
+                    running += 1
+            end = f"process ended with {process.wait()}: {''.join(said[-20:])}"
+        except queue.Empty:
+            end = f"no answer in {PATIENCE} s"
+        finally:
+            process.kill()
+        if running < count:
+            yield running, {"verdict": "failed", "problems": [end], "imbalance": 0.0, "turned_over": 0.0,
+                            "attempts": 0, "slowest": PATIENCE, "log": []}
+        first = running + 1
+
+
+if __name__ == "__main__":
+    task, *arguments = sys.argv[1:]
+    if task == "work":
+        folder, kind, *numbers = arguments
+        work(folder, kind, *map(int, numbers))
+    else:
+        unpacked = tempfile.mkdtemp()
+        extract(os.environ["FMU"], unpacked)
+        model = read_model_description(os.path.join(unpacked, "modelDescription.xml"))
+        print(json.dumps(Attempt(unpacked, model, ast.literal_eval(arguments[0])).record(), indent=2))
