@@ -7,9 +7,9 @@
 use super::pairs::{Engagement, Flank, Spot};
 
 /// Parts of a step within which a kink is worth to end on: one that lies at either end already does no harm.
-const WORTHWHILE: (f64, f64) = (0.01, 0.99);
-/// Halvings of the step by which a kink is found: to a thousandth of it.
-const HALVINGS: u32 = 10;
+const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
+/// Halvings of the step by which a kink is found: to some hundred-thousandths of it.
+const HALVINGS: u32 = 15;
 
 impl Engagement {
     /// The fraction of the motion from `position` to `position + change` (both (q, x)) after which the first kink lies,

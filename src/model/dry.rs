@@ -249,14 +249,13 @@ impl Clamp {
         self.settle(&mut hold.clone(), turn, by, 0.0, &mut [0.0; CAUSES])
     }
 
-    /// Takes a hold over from another stiffness, keeping its torque; a body that was not held yet is caught here.
+    /// Takes a hold over from another stiffness; a body that was not held yet is caught here.
     pub fn take_over(&self, hold: &mut Hold, turn: &Turn, heat: &mut [f64; CAUSES], count: f64) {
         if hold.stiffness == self.stiffness {
             return;
         }
-        let before = 0.5 * hold.stiffness * (turn.position - hold.anchor) * (turn.position - hold.anchor);
-        let before = if hold.mode == Mode::Stuck { before } else { 0.0 };
-        let torque = if hold.stiffness > 0.0 { hold.stiffness * (turn.position - hold.anchor) } else { 0.0 };
+        let wound = turn.position - hold.anchor;
+        let before = if hold.mode == Mode::Stuck { 0.5 * hold.stiffness * wound * wound } else { 0.0 };
         if self.stiffness > 0.0 {
             if hold.stiffness == 0.0 {
                 hold.mode = match turn.speed {
@@ -265,7 +264,8 @@ impl Clamp {
                     _ => Mode::Stuck,
                 };
             }
-            hold.anchor = turn.position - torque / self.stiffness;
+            // a spring that becomes stiffer keeps its torque, one that becomes softer its twist: neither gains energy
+            hold.anchor = turn.position - wound * (hold.stiffness / self.stiffness).min(1.0);
         } else {
             *hold = Hold::default();
         }

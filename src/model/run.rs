@@ -12,14 +12,11 @@ use crate::integrate::{
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
-/// What a slice of a face costs over what a plain tooth pair costs.
-const SLICE: u64 = 4;
-
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
     match &model.gears {
         Gears::Teeth(teeth) if teeth.full.in_detail => {
-            BUDGET / (SLICE * (teeth.full.detailed.slices.len() * teeth.layout.groups) as u64).max(1)
+            BUDGET / ((teeth.full.detailed.slices.len() * teeth.layout.groups) as u64).max(1)
         }
         _ => BUDGET,
     }
