@@ -2,6 +2,7 @@
 
 use bevel_differential::model::Method;
 
+use super::reference::CLOSED_FORM;
 use super::work_precision::{Measured, Row, WorkPrecision, name};
 
 /// Errors of speed that are asked for.
@@ -34,7 +35,8 @@ fn by_tolerance(found: &WorkPrecision) -> Table {
     }
     let mut rows =
         vec![["case".to_owned()].into_iter().chain(tolerances.iter().map(|t| format!("{t:.0e}"))).collect::<Vec<_>>()];
-    for (i, (case, _)) in found.cases.iter().enumerate() {
+    let solved = found.cases.iter().enumerate().filter(|(_, (_, reference))| reference.source != CLOSED_FORM);
+    for (i, (case, _)) in solved {
         let cell = |tolerance: &f64| {
             let row = found
                 .rows
@@ -58,7 +60,8 @@ fn by_tolerance(found: &WorkPrecision) -> Table {
 /// Cheapest method for an error of speed.
 fn cheapest(found: &WorkPrecision) -> Table {
     let mut rows = vec![["case".to_owned()].into_iter().chain(WANTED.map(|w| format!("{w:.0e}"))).collect::<Vec<_>>()];
-    for (i, (case, _)) in found.cases.iter().enumerate() {
+    let solved = found.cases.iter().enumerate().filter(|(_, (_, reference))| reference.source != CLOSED_FORM);
+    for (i, (case, _)) in solved {
         let best = |wanted: f64, of: &dyn Fn(Method) -> bool| {
             let rows = found.rows.iter().filter(|row| row.case == i && of(row.setting.method));
             let good = rows.filter_map(|row| Some((row, measured(row)?))).filter(|(_, m)| m.errors[0] <= wanted);
