@@ -12,7 +12,7 @@ LOAD = 835.0
 LENGTH = 0.5
 # who drives a tool talks to it at these intervals, as often as the study writes its output
 STEP = 1e-3
-# the peers' load rises over this time: all at once it would throw a side gear over several teeth within one of their steps
+# the peers' load rises over this time: at once it may throw a side gear over several teeth in one step
 RISE = 0.1
 # forces are summed at every so many communication points, as asking for them costs some tools a step
 FORCES_EVERY = 10
@@ -42,9 +42,9 @@ CASES = {
 }
 
 
-def load(time):
-    """The peers' load: a cubic rise, then constant."""
-    s = np.clip(time / RISE, 0.0, 1.0)
+def load(time, at_once=False):
+    """The peers' load: a cubic rise, then constant; or constant at once."""
+    s = 1.0 if at_once else np.clip(time / RISE, 0.0, 1.0)
     return LOAD * s * s * (3.0 - 2.0 * s)
 
 
@@ -60,8 +60,8 @@ def measures(case, time, speeds, angles, forces, cpu):
     """What is compared.
 
     time: ends of the steps taken; speeds: of left and right at these times; angles: of left, right, carrier and first
-    planet at the end; forces: sums of the normal forces on left and right by communication step, NaN where not asked for;
-    cpu: spent on all steps.
+    planet at the end; forces: sums of the normal forces on left and right by communication step, NaN where not asked
+    for; cpu: spent on all steps.
     """
     deviation = 100.0 * (speeds[time > case.settled + 1e-9] / case.sides - 1.0)
     left, right, carrier, planet = angles

@@ -28,7 +28,7 @@ from pydrake.systems.framework import DiagramBuilder
 import cases
 import gears
 
-# inertia that makes a motion imposed: loads change such a speed by 2e-4 rad/s in a communication step, then it is set anew
+# inertia that makes a motion imposed: in a communication step loads change its speed by 2e-4 rad/s; then it is reset
 IMPOSED = 1e4
 # any value does: axes are fixed, so only inertias about them count
 MASS = 0.3
@@ -59,7 +59,8 @@ class Differential:
         self.plant.set_discrete_contact_approximation(DiscreteContactApproximation.kLagged)
         self.plant.set_contact_surface_representation(HydroelasticContactRepresentation.kPolygon)
         self.plant.mutable_gravity_field().set_gravity_vector([0.0, 0.0, 0.0])
-        self.material, self.facets, self.joints, self.actuators = properties(wanted["contact"]), wanted["facets"], {}, {}
+        self.material, self.facets = properties(wanted["contact"]), wanted["facets"]
+        self.joints, self.actuators = {}, {}
         world = self.plant.world_body()
         carrier = self.add_body("carrier", world, np.eye(3), [1.0, 0.0, 0.0], 1e-3, True)
         for k, frame in enumerate(gears.PLANET_FRAMES, 1):

@@ -26,7 +26,7 @@ SHIFT = (PLANET_ADDENDUM - SIDE_ADDENDUM) / (2.0 * MODULE)
 
 
 def arc(base, polar):
-    """Arc along the line of action from its tangent point at the base circle to a flank point: cos φ = cos δ_b cos ψ."""
+    """Arc along the line of action from the base circle to a flank point: cos φ = cos δ_b cos ψ."""
     return np.arccos(np.clip(np.cos(polar) / np.cos(base), -1.0, 1.0))
 
 
@@ -58,7 +58,7 @@ class Gear:
         return self.half_pitch + involute(self.base, self.pitch) - involute(self.base, polar)
 
     def flank(self, facets):
-        """Polar angle and azimuth of the right flank, root to tip: `facets` chords of the involute, of nearly one error."""
+        """Polar angle and azimuth of a flank, root to tip: `facets` chords of the involute, of nearly one error."""
         foot = max(self.base, self.root)
         steps = np.linspace(arc(self.base, foot), arc(self.base, self.tip), facets + 1)
         polar = np.arccos(np.cos(self.base) * np.cos(steps))
@@ -77,8 +77,8 @@ class Gear:
         return [np.concatenate([INNER_CONE * rays, OUTER_CONE * rays]) for rays in outline]
 
     def inertia(self):
-        """Moment of inertia about the axis of the gear without bore, which has flat ends: ρ/20 ∮ r⁴ dθ cos δ_f, r = sin φ,
-        between the cubes' fifth powers of both cone distances; the same solid that this program takes."""
+        """Moment of inertia about the axis of the gear without bore, the solid that this program takes: with r = sin φ
+        along the outline ρ/20 cos δ_f ∮ r⁴ dθ, times the difference of the cone distances' fifth powers."""
         polar, half = self.flank(4000)
         middle = 0.5 * (polar[1:] + polar[:-1])
         along_flank = np.sum(np.sin(middle) ** 4 * (half[:-1] - half[1:]))
@@ -103,7 +103,7 @@ SIDE = _gear(SIDE_TEETH, PLANET_TEETH, SIDE_ADDENDUM, -SHIFT)
 
 
 def frame(axis, first):
-    """Rotation matrix of a gear whose axis is `axis` and whose azimuth 0 lies along `first`, in the assembly's frame."""
+    """Rotation matrix of a gear whose axis is `axis` and whose azimuth 0 lies along `first`."""
     axis, first = np.array(axis, float), np.array(first, float)
     return np.column_stack([first, np.cross(axis, first), axis])
 

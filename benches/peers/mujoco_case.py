@@ -15,7 +15,7 @@ import numpy as np
 import cases
 import gears
 
-# inertia that makes a motion imposed: loads change such a speed by 2e-4 rad/s in a communication step, then it is set anew
+# inertia that makes a motion imposed: in a communication step loads change its speed by 2e-4 rad/s; then it is reset
 IMPOSED = 1e4
 # the study's contact law, for the stiffness of a pair
 STIFFNESS, EXPONENT = 1.824634e10, 1.5
@@ -117,7 +117,7 @@ def run(wanted):
         data.qpos[carrier], data.qvel[carrier] = case.carrier * time, case.carrier
         if case.spin is not None:
             data.qpos[planets], data.qvel[planets] = case.spin * time, case.spin
-        data.qfrc_applied[sides] = -cases.load(time + cases.STEP)
+        data.qfrc_applied[sides] = -cases.load(time + cases.STEP, wanted["at_once"])
         for i in range(k * within, (k + 1) * within):
             mujoco.mj_step(model, data)
             speeds[i] = data.qvel[sides]

@@ -8,6 +8,7 @@ pub mod describe;
 pub mod documentation;
 pub mod effects;
 pub mod evaluation;
+pub mod foreign;
 pub mod marked;
 pub mod off;
 pub mod package;

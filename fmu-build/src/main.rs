@@ -10,7 +10,7 @@ use fmu_build::effects::job::Effects;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
-use fmu_build::{describe, off, package, peers, places, study};
+use fmu_build::{describe, foreign, off, package, peers, places, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -39,6 +39,8 @@ usage: cargo run --release [-- COMMAND]
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
   peers [--quick] [--write]  run MuJoCo and Drake beside this program on the study's cases, in an environment of their
                          own (a few minutes); --quick: a few rows, once; --write: also renew docs/compare.md
+  foreign [--quick] [--write]  run scipy's LSODA and Radau and CVODE on the same equations beside this program's method
+                         (many minutes); --quick: two cases, once; --write: also renew docs/foreign-solvers.md
   help                   show this";
 
 enum Job {
@@ -52,6 +54,7 @@ enum Job {
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
+    Foreign { quick: bool, write: bool },
     Help,
 }
 
@@ -81,8 +84,12 @@ fn parse() -> Result<Job> {
             (Value(name), None) => job = Some(command(&name.string()?, &mut arguments)?),
             (Long("readme"), None) => job = Some(Job::Study { readme: true }),
             (Long("readme"), Some(Job::Study { readme })) => *readme = true,
-            (Long("quick"), Some(Job::Off { quick, .. } | Job::Peers { quick, .. })) => *quick = true,
-            (Long("write"), Some(Job::Off { write, .. } | Job::Peers { write, .. })) => *write = true,
+            (Long("quick"), Some(Job::Off { quick, .. } | Job::Peers { quick, .. } | Job::Foreign { quick, .. })) => {
+                *quick = true
+            }
+            (Long("write"), Some(Job::Off { write, .. } | Job::Peers { write, .. } | Job::Foreign { write, .. })) => {
+                *write = true
+            }
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -132,6 +139,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
+        "foreign" => Job::Foreign { quick: false, write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
     })
@@ -142,6 +150,7 @@ fn run(job: Job) -> Result<()> {
         Job::Help => println!("{USAGE}"),
         Job::Off { quick, write } => off::run(quick, write)?,
         Job::Peers { quick, write } => peers::run(quick, write)?,
+        Job::Foreign { quick, write } => foreign::run(quick, write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package => {
             let progress = Progress::start("packaging the FMU");

@@ -35,18 +35,18 @@ struct Entry {
 
 /// Builds the library and packs the FMU to its usual place.
 pub fn package() -> Result<PathBuf> {
-    let library = build_library()?;
+    let library = build_library("bevel-differential")?;
     let target = places::fmu();
     write_archive(&library, &target)?;
     Ok(target)
 }
 
-/// Builds the FMU's library with cargo, quietly, and tells where it is.
-pub fn build_library() -> Result<PathBuf> {
+/// Builds the dynamic library of `package` with cargo, quietly, and tells where it is.
+pub fn build_library(package: &str) -> Result<PathBuf> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(&cargo)
         .current_dir(places::workspace())
-        .args(["build", "--release", "-p", "bevel-differential", "--lib", "--quiet"])
+        .args(["build", "--release", "-p", package, "--lib", "--quiet"])
         .args(["--message-format", "json-render-diagnostics", "--target-dir"])
         .arg(places::target())
         .output()

@@ -35,6 +35,11 @@ pub fn peers() -> PathBuf {
     workspace().join("benches").join("peers")
 }
 
+/// The comparison with solvers written by others.
+pub fn foreign() -> PathBuf {
+    workspace().join("benches").join("foreign")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

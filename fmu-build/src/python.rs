@@ -1,5 +1,5 @@
-//! The Python environments, each made once, from pinned versions: one for fmpy, matplotlib and pytest, and one for the
-//! comparison with other programs, which nothing else needs.
+//! The Python environments, each made once, from pinned versions: one for fmpy, matplotlib and pytest, and one for
+//! each comparison with what others wrote, which nothing else needs.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -28,7 +28,7 @@ impl Environment {
     /// The environment of all commands but one, made if it does not exist yet; `tell` hears what takes time.
     pub fn ready(tell: impl Fn(&str)) -> Result<Self> {
         let requirements = places::workspace().join("fmu-build").join("python").join("requirements.txt");
-        Self { folder: places::target().join("python"), requirements, holds: "fmpy, numpy, matplotlib, pytest" }
+        Self { folder: places::target().join("python"), requirements, holds: "fmpy, numpy, scipy, matplotlib, pytest" }
             .made(tell)
     }
 
@@ -37,6 +37,12 @@ impl Environment {
         let requirements = places::peers().join("requirements.txt");
         let folder = places::target().join("peers").join("venv");
         Self { folder, requirements, holds: "MuJoCo, Drake, fmpy" }.made(tell)
+    }
+
+    /// The environment with solvers written by others.
+    pub fn for_foreign(tell: impl Fn(&str)) -> Result<Self> {
+        let requirements = places::foreign().join("requirements.txt");
+        Self { folder: places::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(tell)
     }
 
     /// Itself, made if it does not exist yet or has other requirements.

@@ -6,7 +6,7 @@ use anyhow::Result;
 use fmu_build::effects::bench::FULL;
 use fmu_build::effects::switches::{self, Standing};
 use fmu_build::effects::verdict::Verdict;
-use fmu_build::effects::{Finding, Findings, Question, examine, reduced, table};
+use fmu_build::effects::{Finding, Findings, Question, csv, examine, reduced, table};
 use fmu_build::scene::run::run;
 use fmu_build::scene::{Scene, load};
 
@@ -216,7 +216,7 @@ fn a_reduced_scene_goes_to_a_file_that_is_not_there_yet() -> Result<()> {
 fn all_changes_go_to_the_csv() -> Result<()> {
     let found = examined(&format!("{IDEAL}{DRAG}"), 0.01);
     let mut text = Vec::new();
-    table::csv(&found, &mut text)?;
+    csv::write(&found, &mut text)?;
     let text = String::from_utf8(text)?;
     let rows: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
     let columns = rows[0].split(',').count();

@@ -2,7 +2,8 @@
 //!
 //! While stuck T = k (z + τ ω) with the turn z since the body was caught, while sliding T = ±T_max (P. R. Dahl's and
 //! Jenkins' element: a spring in series with a Coulomb slider). The turn z is a position that the model has anyway, less
-//! an anchor, so that holding costs no state and a constant load is held without creep. Transitions are landed on by the
+//! an anchor, so that holding costs no state and a constant load is held without creep. While sliding the anchor is dragged
+//! along by the spring, step by step, so that a body is caught with what the spring holds then, never with more. Transitions are landed on by the
 //! integrator; the energy that the spring gives up or takes on at them is booked as heat.
 
 use serde::{Deserialize, Serialize};
@@ -38,7 +39,7 @@ impl Mode {
 pub struct Hold {
     /// Stuck or sliding.
     pub mode: Mode,
-    /// Position at which the spring is relaxed [rad].
+    /// Position at which the spring is relaxed [rad]; while sliding, where it would be.
     pub anchor: f64,
     /// Stiffness that the anchor belongs to [N·m/rad]; 0 = not held yet.
     pub stiffness: f64,
@@ -216,7 +217,7 @@ impl Clamp {
     /// Switches the hold where it is due; what its spring gives up is heat of `count` bodies. Whether it switched.
     pub fn settle(&self, hold: &mut Hold, turn: &Turn, by: &Pressing, count: f64, heat: &mut [f64; CAUSES]) -> bool {
         let before = *hold;
-        let (torque, limit) = (self.torque(hold, turn, by), self.limit(by));
+        let torque = self.torque(hold, turn, by);
         let due = self.overshoot(hold, turn, by) > 0.0;
         match hold.mode {
             Mode::Stuck if due => hold.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
@@ -227,11 +228,7 @@ impl Clamp {
                     hold.anchor = turn.position - most * z.signum();
                 }
             }
-            mode if due => {
-                let z = limit / self.stiffness;
-                hold.mode = Mode::Stuck;
-                hold.anchor = turn.position - if mode == Mode::Forward { z } else { -z };
-            }
+            _ if due => hold.mode = Mode::Stuck,
             _ => {}
         }
         if *hold == before {
@@ -240,6 +237,13 @@ impl Clamp {
         let lost = self.energy(&before, turn.position) - self.energy(hold, turn.position);
         self.book(count * lost, by, heat);
         true
+    }
+
+    /// Anchor of a body that has slid to `turn`: dragged along as far as the spring, wound to the limit torque, drags it.
+    /// Where the limit rises faster than the motion winds the spring, the spring is left behind it.
+    pub fn drag(&self, anchor: f64, turn: &Turn, by: &Pressing) -> f64 {
+        let most = self.limit(by) / self.stiffness;
+        turn.position - (turn.position - anchor).max(-most).min(most)
     }
 
     /// Whether [`Self::settle`] has something to do.

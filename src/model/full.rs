@@ -1,10 +1,10 @@
 //! Forces of a scene with effects: meshes in detail where an effect asks for it, effects on bodies, dry friction.
 
 use super::causes::Cause;
-use super::dry::{Clamp, Pressing, Turn};
+use super::dry::{Clamp, Mode, Pressing, Turn};
 use super::effects::{Action, Bodies, Slopes};
 use super::equations::{Equations, Jacobian};
-use super::layout::CARRIER;
+use super::layout::{CARRIER, HOLDS};
 use super::power::Power;
 use super::teeth::SIGMA;
 use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
@@ -437,6 +437,18 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             let (clamp, _) = self.clamp(i);
             clamp.is_on() && clamp.is_due(&self.holds[i], &self.turn(at, i), &presses[i])
         })
+    }
+
+    /// Drags the anchors of bodies that slide along to `at`.
+    #[inline(always)]
+    pub(super) fn drag_anchors(&self, at: &Point<N>, anchors: &mut [f64; HOLDS]) {
+        if self.holds.iter().all(|hold| hold.mode == Mode::Stuck) {
+            return;
+        }
+        let presses = self.presses(at);
+        for i in (0..2 + G).filter(|&i| self.holds[i].mode != Mode::Stuck) {
+            anchors[i] = self.clamp(i).0.drag(anchors[i], &self.turn(at, i), &presses[i]);
+        }
     }
 
     /// Switches holds that are due at `at` and books what their springs give up.

@@ -53,6 +53,10 @@ pub trait Scene<const N: usize>: SecondOrder<N, Power = Power> {
     fn holds(&self) -> &[Hold; HOLDS];
     /// Whether a hold is due to switch.
     fn is_due(&self, at: &Point<N>) -> bool;
+    /// Drags the anchors of bodies that slide.
+    fn drag(&self, at: &Point<N>, anchors: &mut [f64; HOLDS]);
+    /// Takes dragged anchors over.
+    fn anchor(&mut self, anchors: &[f64; HOLDS]);
     /// Switches holds that are due and books what their springs give up.
     fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]);
     /// Refuses an accepted step that teeth cannot follow, and records it otherwise.
@@ -67,6 +71,17 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Scene<N> 
     #[inline(always)]
     fn is_due(&self, at: &Point<N>) -> bool {
         FULL && self.hold_is_due(at)
+    }
+
+    #[inline(always)]
+    fn drag(&self, at: &Point<N>, anchors: &mut [f64; HOLDS]) {
+        if FULL {
+            self.drag_anchors(at, anchors);
+        }
+    }
+
+    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+        self.holds.iter_mut().zip(anchors).for_each(|(hold, &anchor)| hold.anchor = anchor);
     }
 
     fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {
@@ -106,6 +121,14 @@ impl<const N: usize> Scene<N> for RigidEquations<'_, N> {
 
     fn is_due(&self, at: &Point<N>) -> bool {
         self.hold_is_due(at)
+    }
+
+    fn drag(&self, at: &Point<N>, anchors: &mut [f64; HOLDS]) {
+        self.drag_anchors(at, anchors);
+    }
+
+    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+        self.holds.iter_mut().zip(anchors).for_each(|(hold, &anchor)| hold.anchor = anchor);
     }
 
     fn settle(&mut self, at: &Point<N>, heat: &mut [f64; CAUSES]) {

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use super::causes::CAUSES;
-use super::dry::{Clamp, Hold, Pressing, Turn};
+use super::dry::{Clamp, Hold, Mode, Pressing, Turn};
 use super::effect_specs::HalfShaftSpec;
 use super::effects::{Action, Bodies, BodyEffect, Setting, Slopes, body_effects, grips, lock_grip};
 use super::grip::Grip;
@@ -245,6 +245,13 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     pub fn hold_is_due(&self, at: &Point<N>) -> bool {
         let due = |s: usize| self.clamp.is_due(&self.holds[s], &self.turn(at, s), &Pressing::default());
         self.clamp.is_on() && (due(0) || due(1))
+    }
+
+    /// Drags the anchors of sides that slide along to `at`.
+    pub fn drag_anchors(&self, at: &Point<N>, anchors: &mut [f64; HOLDS]) {
+        for s in (0..2).filter(|&s| self.holds[s].mode != Mode::Stuck) {
+            anchors[s] = self.clamp.drag(anchors[s], &self.turn(at, s), &Pressing::default());
+        }
     }
 
     /// Switches holds that are due and books what their springs give up.

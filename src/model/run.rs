@@ -40,12 +40,14 @@ pub fn stretch<const N: usize, E: Scene<N>>(
     let mut good = (point, time);
     let mut outcome = Ok(());
     let mut switched = true;
+    let mut anchors = equations.holds().map(|hold| hold.anchor);
     while switched && time < end && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, fatigue, .. } = state;
         let mut records = Records { work, heat, bias, fatigue };
         let mut observe = |step: Step<N, Power>| {
             equations.record(model, &step, &mut records)?;
+            equations.drag(step.end, &mut anchors);
             good = (*step.end, step.time);
             if equations.is_due(step.end) {
                 switched = true;
@@ -59,8 +61,10 @@ pub fn stretch<const N: usize, E: Scene<N>>(
         } else {
             otherwise(solver, &equations, &mut point, &mut time, end, effort, &mut observe)
         };
+        equations.anchor(&anchors);
         if switched {
             equations.settle(&point, &mut state.heat);
+            anchors = equations.holds().map(|hold| hold.anchor);
         }
     }
     state.holds = *equations.holds();

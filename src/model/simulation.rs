@@ -295,6 +295,28 @@ impl Simulation {
         });
     }
 
+    /// Derivatives of what [`Self::rates`] gives by positions and velocities: 2n rows of 2n columns, row by row, ordered
+    /// (positions, velocities).
+    pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
+        let (inputs, state) = (&self.inputs, &self.state);
+        with_equations!(self.model, state, inputs, |equations| {
+            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
+            let linearisation = equations.linearise(&at);
+            let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
+            equations.times_rates(&mut rates);
+            for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
+                let (by_position, by_velocity) = row.split_at_mut(N);
+                if i < N {
+                    by_position.fill(0.0);
+                    by_velocity.copy_from_slice(&rates[i]);
+                } else {
+                    by_position.copy_from_slice(&linearisation.by_position[i - N]);
+                    by_velocity.copy_from_slice(&linearisation.by_velocity[i - N]);
+                }
+            }
+        });
+    }
+
     /// The same simulation moved to positions `q` and velocities `v`, for its outputs there; the ledger stays behind.
     pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
         let mut moved = self.clone();

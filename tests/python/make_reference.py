@@ -23,9 +23,10 @@ UNITS = {"speed": "rad/s", "torque": "N.m", "force": "N", "error": "m"}
 GIVEN = {"inertia.from_geometry": False}  # the plain model has no solids to take inertias from
 TURN = {"carrier.speed_command": radians(954.0), "planet.spin_command": radians(200.0), "scene.planet_spin": "imposed"}
 TURNING = {"carrier_speed": radians(954.0), "spin": radians(200.0), "spin_imposed": True}
-# Given inertias of planets are shared out as in the solid, so that about the apex across its axis a planet has so much
-# times the given one. It is the only number here that comes from the FMU.
-PLANET_ACROSS = 5.0327922182
+# Planets of a given inertia have that of their solid across the axis (about the apex) in the same proportion; this is the
+# solid's at the clunk's backlash. It is the only number here that comes from the FMU: 100 N·m over `carrier.acceleration`
+# in mid-gap, less the given carrier.
+PLANET_ACROSS = 5.0448327603
 CLUNK = {"scene.carrier_drive": "torque", "carrier.torque_command": -2e-3, "carrier.speed_command": 0.0,
          "left.load_torque": -1e-3, "right.load_torque": -1e-3, "geometry.backlash": 0.1885e-3,
          "inertia.carrier": 0.05, "inertia.side_gear": 1e-5, "inertia.planet": 1e-6, "inertia.left_end": 0.5,

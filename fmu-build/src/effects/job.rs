@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
 
-use super::{Question, examine, reduced, table};
+use super::{Question, csv, examine, reduced, table};
 use crate::places;
 use crate::progress::Progress;
 use crate::scene::{Scene, find, units};
@@ -42,18 +42,18 @@ impl Effects {
         let file = self.write.then(|| self.file.clone().unwrap_or_else(|| reduced::default_file(&scene)));
         // before the work, not after it
         file.as_deref().map(reduced::ensure_new).transpose()?;
-        let csv = self.csv.as_deref().map(|path| {
+        let record = self.csv.as_deref().map(|path| {
             File::create(path).map(BufWriter::new).with_context(|| format!("{} cannot be written", path.display()))
         });
-        let mut csv = csv.transpose()?;
+        let mut record = record.transpose()?;
         let progress = Progress::start("switching effects");
         progress.begin_bar("switching effects");
         let question = Question { accuracy, from, as_written: self.as_written, timed: true };
         let found = examine(&scene, &question, &mut |done, what| progress.advance(done, what))?;
         progress.finish();
         print!("{}", table::text(&found));
-        if let (Some(out), Some(path)) = (&mut csv, &self.csv) {
-            table::csv(&found, out)?;
+        if let (Some(out), Some(path)) = (&mut record, &self.csv) {
+            csv::write(&found, out)?;
             out.flush().with_context(|| format!("{} cannot be written", path.display()))?;
             println!("all changes: {}", places::shown(path));
         }
@@ -78,7 +78,7 @@ pub fn fraction(text: &str) -> Result<f64> {
         return Err(wrong("is no number"));
     }
     if value <= 0.0 {
-        return Err(wrong("must be above 0; no effect is exactly none"));
+        return Err(wrong("must be above 0: at 0 every effect would be called for"));
     }
     if value >= 1.0 {
         let meant = if per == 1.0 && value < 100.0 { format!(", did you mean {number}%?") } else { String::new() };

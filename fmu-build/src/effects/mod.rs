@@ -9,13 +9,15 @@
 //!    effects that matter only together are kept.
 //! 4. All runs are repeated in turn and their times on the processor compared.
 //!
-//! [`examine`] does it and returns [`Findings`]; [`table`] and [`reduced`] tell them.
+//! [`examine`] does it and returns [`Findings`]; [`table`], [`sentences`], [`csv`] and [`reduced`] tell them.
 
 pub mod bench;
 pub mod change;
+pub mod csv;
 pub mod job;
 pub mod record;
 pub mod reduced;
+pub mod sentences;
 pub mod switches;
 pub mod table;
 pub mod verdict;

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail, ensure};
 use toml_edit::{DocumentMut, InlineTable, Item, Table, Value};
 
+use super::sentences::{accuracy, reduction};
 use super::switches::{Standing, Switch, level_name, level_variable};
-use super::table::{accuracy, most, percent, reduction};
+use super::table::{most, percent};
 use super::{Finding, Findings};
 use crate::places;
 use crate::scene::{Scene, load};

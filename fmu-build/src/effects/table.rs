@@ -1,13 +1,11 @@
-//! Findings as tables and sentences for the terminal, and as CSV.
+//! Findings as tables for the terminal.
 
 use std::fmt::Write as _;
-use std::io::Write;
 
-use anyhow::{Context, Result};
-
-use super::bench::{Bench, FULL, Ratio, WRITTEN};
-use super::change::{Change, Scale, Statistic};
-use super::switches::{Standing, Switch, level_name};
+use super::bench::{Bench, FULL, Ratio};
+use super::change::Change;
+use super::sentences::sentences;
+use super::switches::{Standing, Switch};
 use super::verdict::Verdict;
 use super::{Finding, Findings, Trial};
 use crate::scene::units;
@@ -16,10 +14,6 @@ use crate::scene::units;
 const WIDTH: usize = 118;
 /// Changes of this many times the scale and more are told as such.
 const MANY: f64 = 10.0;
-/// What comes before this part of a scene is its start.
-const START: f64 = 0.02;
-/// Outputs that stray by more than this part of the accuracy are told.
-const NOTABLE: f64 = 0.5;
 
 /// A fraction in percent with two significant digits.
 pub fn percent(fraction: f64) -> String {
@@ -44,12 +38,14 @@ pub fn text(found: &Findings) -> String {
     for (names, why) in reasons(found) {
         out.push_str(&wrapped(&format!("{}: {why}", names.join(", "))));
     }
-    let _ = write!(
-        out,
-        "\nalone: the other way round in the scene as written; among all: in the fullest scene, with all effects on that\n\
-         it allows, or as written; most in: the output and statistic that change most among all; by points: effective value of the\n\
-         difference point by point; cost and evaluations of tooth forces: with over without, a level over the plainer.\n\n"
-    );
+    out.push('\n');
+    out.push_str(&wrapped(&format!(
+        "alone: the other way round in the scene as written. Among all: the same in {}. Most in: output and statistic of the \
+         largest change among all. By points: effective value of the difference point by point. Cost, evaluations of the \
+         tooth forces: with over without, or a level over the plainer one.",
+        if found.as_written { "the scene as written too" } else { "the fullest scene, with all on that the scene allows" }
+    )));
+    out.push('\n');
     out.push_str(&outputs(found));
     out.push('\n');
     for sentence in sentences(found) {
@@ -126,115 +122,6 @@ fn outputs(found: &Findings) -> String {
     aligned(&rows, &[0])
 }
 
-/// What follows from it, a sentence each.
-pub fn sentences(found: &Findings) -> Vec<String> {
-    let bench = &found.bench;
-    let names = |pick: &dyn Fn(&Finding) -> bool| {
-        let rows = found.rows.iter().filter(|row| matches!(row.switch, Switch::Effect(_)) && pick(row));
-        rows.map(|row| row.switch.name()).collect::<Vec<_>>()
-    };
-    let mut out = Vec::new();
-    let called = names(&|row| row.verdict.is_kept() && row.verdict != Verdict::Dearer);
-    let mut first = format!(
-        "At {} this scene calls for gear contact {}{}",
-        accuracy(found),
-        level_name(&found.reduced_scene.parameters),
-        if called.is_empty() { " and no effect".into() } else { format!(" with: {}", called.join(", ")) },
-    );
-    let dearer = names(&|row| row.verdict == Verdict::Dearer);
-    if !dearer.is_empty() {
-        let _ = write!(first, "; {} stays on, as off is dearer", dearer.join(", "));
-    }
-    out.push(format!("{first}."));
-    out.push(reduction(found));
-    let written = found.written.change(bench).filter(|change| !change.is_none());
-    if let Some(change) = written {
-        let missing = names(&|row| row.standing == Standing::Off && row.verdict.is_kept());
-        let lacks = if missing.is_empty() { String::new() } else { format!(": it lacks {}", missing.join(", ")) };
-        out.push(format!(
-            "As written it {}differs from it by {}, {}{lacks}.",
-            gain(found, WRITTEN),
-            percent(change.largest()),
-            most(found, change),
-        ));
-    }
-    let spare = names(&|row| row.standing == Standing::On && row.verdict.is_left_out());
-    if !spare.is_empty() {
-        out.push(format!("On in the scene, and off would do: {}.", spare.join(", ")));
-    }
-    let early = |row: &&Finding| {
-        let worst = row.among.change(bench).and_then(Change::worst);
-        let at = worst.and_then(|(_, worst)| worst.at);
-        row.verdict == Verdict::Needed && at.is_some_and(|at| at < found.from + START * found.scene.stop_time)
-    };
-    let early: Vec<&str> = found.rows.iter().filter(early).map(|row| row.switch.name()).collect();
-    if !early.is_empty() {
-        out.push(format!(
-            "{} matter most right after the start: if that is not what the scene is about, --from TIME leaves it out.",
-            early.join(", ")
-        ));
-    }
-    let stray: Vec<String> = found
-        .scene
-        .outputs
-        .iter()
-        .zip(&found.strays)
-        .filter(|(_, stray)| 2.0 * **stray > NOTABLE * found.accuracy)
-        .map(|(output, stray)| format!("{} by {}", output.name, percent(*stray)))
-        .collect();
-    if !stray.is_empty() {
-        out.push(format!(
-            "When nothing but solver.relative_tolerance is tightened, {} strays; no change below twice that can be told from it.",
-            stray.join(", ")
-        ));
-    }
-    let absent = names(&|row| row.standing == Standing::NotThere && row.verdict == Verdict::NotThere);
-    if !absent.is_empty() {
-        out.push(format!(
-            "Part of the question, as they say what is built in, broken or driven, and not looked at unless the scene has \
-             them on: {}.",
-            absent.join(", ")
-        ));
-    }
-    out
-}
-
-/// What the reduced scene is compared with.
-fn whole(found: &Findings) -> &'static str {
-    if found.as_written { "the scene as written" } else { "everything on" }
-}
-
-/// The wanted accuracy, and from when on.
-pub fn accuracy(found: &Findings) -> String {
-    let from = if found.from > 0.0 { format!(" from {} s on", units::digits(found.from)) } else { String::new() };
-    format!("{} %{from}", units::digits(100.0 * found.accuracy))
-}
-
-/// What the reduced scene gains and loses.
-pub fn reduction(found: &Findings) -> String {
-    let Some(change) = found.reduced.change(&found.bench) else { return String::new() };
-    let Ok(run) = found.reduced.run else { return String::new() };
-    if run == FULL {
-        return format!("That is {}.", whole(found));
-    }
-    let gain = gain(found, run);
-    if change.is_none() {
-        return format!("That {gain}differs from it in nothing.");
-    }
-    format!("That {gain}differs from it by at most {}, {}.", percent(change.largest()), most(found, change))
-}
-
-/// How much cheaper a run is than everything on.
-fn gain(found: &Findings, run: usize) -> String {
-    match found.bench.ratio(FULL, run) {
-        Some(Ratio { median, spread }) if median >= 1.0 => {
-            format!("is {} ± {} times cheaper than {} and ", three(median), three(spread), whole(found))
-        }
-        Some(Ratio { median, .. }) => format!("takes {} times the time of {} and ", three(1.0 / median), whole(found)),
-        None => String::new(),
-    }
-}
-
 /// The output and statistic of the largest change.
 pub fn most(found: &Findings, change: &Change) -> String {
     match change.worst() {
@@ -247,7 +134,6 @@ pub fn most(found: &Findings, change: &Change) -> String {
 }
 
 /// Name of a row; levels say so.
-/// Name of a row.
 pub fn name(row: &Finding) -> String {
     match row.switch {
         Switch::Effect(_) => row.switch.name().to_owned(),
@@ -255,7 +141,7 @@ pub fn name(row: &Finding) -> String {
     }
 }
 
-fn scene(standing: Standing, switch: &Switch) -> &'static str {
+pub(super) fn scene(standing: Standing, switch: &Switch) -> &'static str {
     match (switch, standing) {
         (Switch::Level(_), _) => "",
         (_, Standing::On) => "on",
@@ -291,7 +177,7 @@ fn cost(ratio: Ratio) -> String {
 }
 
 /// A number with about three digits.
-fn three(value: f64) -> String {
+pub(super) fn three(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         return format!("{value:.2e}");
     }
@@ -340,69 +226,6 @@ fn wrapped(text: &str) -> String {
     }
     let _ = writeln!(out, "{line}");
     out
-}
-
-/// Writes a line for each effect or level, comparison and output: changes, statistics with and without, costs, verdict.
-pub fn csv(found: &Findings, out: &mut dyn Write) -> Result<()> {
-    write_csv(found, out).context("the table cannot be written")
-}
-
-fn write_csv(found: &Findings, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "# effects of scene {} at an accuracy of {}", found.scene.name, found.accuracy)?;
-    writeln!(
-        out,
-        "# changes are fractions of the scales; values are SI; with and without are the effect, or the level of"
-    )?;
-    writeln!(out, "# the scene and the plainer one")?;
-    let of = |when: &str| Statistic::ALL.map(|s| format!("{s}_{when}")).join(",");
-    writeln!(
-        out,
-        "switch,scene,comparison,output,unit,rms_scale,magnitude_scale,stray,limit,change,of,by_points,{},{},\
-         cost,cost_spread,evaluations_with,evaluations_without,steps_with,steps_without,verdict",
-        of("with"),
-        of("without")
-    )?;
-    for row in &found.rows {
-        for (comparison, trial) in [("alone", &row.alone), ("among_all", &row.among)] {
-            lines(found, row, comparison, trial, out)?;
-        }
-    }
-    Ok(())
-}
-
-fn lines(found: &Findings, row: &Finding, comparison: &str, trial: &Trial, out: &mut dyn Write) -> std::io::Result<()> {
-    let bench = &found.bench;
-    let (Some(change), Some([with, without])) = (trial.change(bench), pair(row, trial)) else { return Ok(()) };
-    let ratio = bench.ratio(with, without);
-    let number = |value: Option<f64>| value.map_or(String::new(), |value| value.to_string());
-    let standing = scene(row.standing, &row.switch);
-    let verdict = row.verdict.text(row.standing).replace('"', "'");
-    for (i, output) in found.scene.outputs.iter().enumerate() {
-        let Scale { rms, magnitude } = found.scales[i];
-        let all = |run: usize| bench.runs[run].statistics[i].map(|value| value.to_string()).join(",");
-        let changed = change.outputs[i];
-        writeln!(
-            out,
-            "{},{standing},{comparison},{},{},{rms},{magnitude},{},{},{},{},{},{},{},{},{},{},{},{},{},\"{verdict}\"",
-            name(row),
-            output.name,
-            output.unit.map_or("1", |unit| unit.name),
-            found.strays[i],
-            found.limits[i],
-            changed.by,
-            changed.of,
-            changed.pointwise,
-            all(with),
-            all(without),
-            number(ratio.map(|r| r.median)),
-            number(ratio.map(|r| r.spread)),
-            bench.runs[with].evaluations,
-            bench.runs[without].evaluations,
-            bench.runs[with].steps,
-            bench.runs[without].steps,
-        )?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

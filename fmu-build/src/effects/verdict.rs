@@ -69,7 +69,8 @@ impl Verdict {
             Self::Untold if on => "off would do: not told from strays",
             Self::Untold => "may stay off: not told from strays",
             Self::Nothing => "changes nothing",
-            Self::WithTheLevel => "off would do with the plainer level",
+            Self::WithTheLevel if on => "off would do on the plainer level",
+            Self::WithTheLevel => "may stay off on the plainer level",
             Self::WouldDo => "would do",
             Self::TooPlain => "too plain",
             Self::NotThere => "not in this scene",
@@ -173,7 +174,8 @@ fn leave_out(bench: &mut Bench, switch: &Switch, change: &Change, whether: &Whet
     let (with, without) = (&bench.runs[*current], &bench.runs[less]);
     // the plainer level may not know the effect at all
     let same = with.changes == without.changes;
-    if !same && !(without.changes[FULL].is_within(limits) && !beyond) {
+    let may = same || !beyond && without.changes[FULL].is_within(limits);
+    if !may {
         return if beyond { Verdict::Needed } else { Verdict::NeededToo };
     }
     // what the scene does not have on is not put in to save time

@@ -1,0 +1,171 @@
+"""What solvers written by others need for the same equations, beside this program's own.
+
+    python compare.py LIBRARY FOLDER [--quick] [--cases a,b] [--reference CSV]
+
+LIBRARY is foreign-solvers as cargo built it. Writes FOLDER/foreign.csv and prints the table.
+"""
+
+import argparse
+import contextlib
+import csv
+import hashlib
+import os
+import statistics
+import sys
+from pathlib import Path
+
+# one core is compared with one core
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np  # noqa: E402
+from scipy.integrate import solve_ivp  # noqa: E402
+
+import solvers as all_of  # noqa: E402
+import table  # noqa: E402
+from library import Library, Run  # noqa: E402
+
+# case, level of the teeth, end [s], distance of the samples [s]
+CASES = {
+    "turn_equilibrium": ("turn_equilibrium", "tooth_impact", 0.5, 1e-2),
+    "turn_rolling": ("turn_rolling", "tooth_impact", 0.5, 1e-2),
+    "straight_rolling": ("straight_rolling", "tooth_impact", 0.5, 1e-2),
+    "clunk": ("clunk", "tooth_impact", 0.02, 1e-4),
+    "clunk, every 10 us": ("clunk", "tooth_impact", 0.02, 1e-5),
+    "turn, force along a line": ("turn_equilibrium", "tooth_line", 0.5, 1e-2),
+}
+QUICK = ("turn_equilibrium", "clunk")
+TOLERANCES = [10.0**-k for k in range(3, 12)]
+QUICK_TOLERANCES = [1e-4, 1e-6, 1e-8]
+REPEATS, SLOW_REPEATS = 11, 2
+# a solver that took longer than this is not asked for more [s]
+PATIENCE = 5.0
+REFERENCE_RTOL, REFERENCE_ATOL = 1e-13, 1e-13
+NAMES = ("left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force", "left.shaft_torque",
+         "right.shaft_torque")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("library", type=Path)
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--cases")
+    parser.add_argument("--ours", action="store_true", help="only this program and compiled solvers")
+    arguments = parser.parse_args()
+    arguments.folder.mkdir(parents=True, exist_ok=True)
+    library = Library(arguments.library)
+    names = arguments.cases.split(";") if arguments.cases else QUICK if arguments.quick else tuple(CASES)
+    solvers, missing = all_of.all_solvers(arguments.folder / "lsoda")
+    if arguments.ours:
+        solvers = [solver for solver in solvers if not solver.slow]
+    rows, checks = [], {}
+    for k, name in enumerate(names):
+        def tell(fraction, what, k=k, name=name):
+            print(f"progress {(k + fraction) / len(names):.4f} {name}: {what}", file=sys.stderr, flush=True)
+
+        rows += compare(library, name, solvers, arguments, tell, checks)
+        write(arguments.folder / "foreign.csv", rows)
+    print(table.markdown(rows, names, checks, missing), end="")
+
+
+def samples(run, end, step):
+    count = round(end / step)
+    times = np.arange(1, count + 1) * step
+    return times[times > run.t0 * (1.0 + 1e-9)]
+
+
+def reference(run, times, file):
+    """Outputs at `times` by scipy's DOP853 at the tightest tolerance; kept in `file` for as long as the equations stay."""
+    equations = fingerprint(run)
+    with contextlib.suppress(OSError, ValueError):
+        with file.open(encoding="utf-8") as known:
+            if known.readline().strip() == f"# equations {equations}":
+                kept = np.loadtxt(known, delimiter=",", skiprows=1, ndmin=2)
+                if kept.shape == (len(times), 7) and np.array_equal(kept[:, 0], times):
+                    return kept[:, 1:]
+    result = solve_ivp(run.python_rhs(), (run.t0, times[-1]), run.u0, method="DOP853", t_eval=times, rtol=REFERENCE_RTOL,
+                       atol=REFERENCE_ATOL)
+    outputs = run.outputs(result.y.T)
+    head = f"equations {equations}\n" + ",".join(["time", *NAMES])
+    np.savetxt(file, np.column_stack((times, outputs)), delimiter=",", fmt="%.17g", header=head)
+    return outputs
+
+
+def fingerprint(run):
+    """Rates at a few places round the start: equations that agree there are the same."""
+    rhs, hashed = run.python_rhs(), hashlib.sha256(run.u0.tobytes())
+    for k in range(1, 9):
+        # digits of the golden ratio: anywhere, but always the same
+        place = run.u0 + 2.0 * (np.arange(1, run.size + 1) * k * 0.6180339887498949 % 1.0) - 1.0
+        hashed.update(rhs(0.0, place).tobytes())
+    return hashed.hexdigest()[:16]
+
+
+def compare(library, name, solvers, arguments, tell, checks):
+    quick = arguments.quick
+    case, level, end, step = CASES[name]
+    run = Run(library, case, level)
+    times = samples(run, end, step)
+    tell(0.0, "reference by DOP853")
+    exact = reference(run, times, arguments.folder / f"reference_{name.replace(' ', '_').replace(',', '')}.csv")
+    wanted = QUICK_TOLERANCES if quick else TOLERANCES
+    runs = {}
+    jobs = []
+    for solver in solvers:
+        for tolerance in wanted:
+            key = (solver.own_method, tolerance) if solver.own_method else None
+            if key and key not in runs:
+                runs[key] = Run(library, case, level, *key)
+            jobs.append((solver, tolerance, runs.get(key, run)))
+    outcomes, tired = {}, set()
+    rounds = 1 if quick else REPEATS
+    for k in range(rounds):
+        for i, (solver, tolerance, on) in enumerate(jobs):
+            if (solver.slow and k >= SLOW_REPEATS) or solver.label in tired:
+                continue
+            outcome = solver.integrate(on, times, tolerance)
+            outcomes.setdefault((solver.label, tolerance), []).append(outcome)
+            if outcome.cost > PATIENCE:
+                tired.add(solver.label)
+            # the slow ones come in the first rounds
+            share = (min(k, SLOW_REPEATS) + i / len(jobs)) / min(rounds, SLOW_REPEATS + 1)
+            tell(min(share, 1.0), f"{solver.label}, {tolerance:.0e}")
+    rows = [row(name, solver, tolerance, outcomes[solver.label, tolerance], exact)
+            for solver, tolerance, _ in jobs if (solver.label, tolerance) in outcomes]
+    # how far the closest solver of a different family stays from the reference, without this program
+    others = [r for r in rows if not r["solver"].startswith(all_of.OURS) and r["status"] == 0]
+    checks[name] = min((max(r["speed_error"], r["force_error"]) for r in others), default=float("nan"))
+    for on in {run, *runs.values()}:
+        on.close()
+    # prepared memories belong to runs that are gone
+    return rows
+
+
+def row(name, solver, tolerance, outcomes, exact):
+    costs = [outcome.cost for outcome in outcomes]
+    first = outcomes[0]
+    speed, force = errors(first.outputs, exact)
+    good = first.status == 0 and np.isfinite(speed) and np.isfinite(force)
+    return {"case": name, "solver": solver.label, "tolerance": tolerance, "cpu_s": statistics.median(costs),
+            "cpu_s_low": min(costs), "cpu_s_high": max(costs), "speed_error": speed, "force_error": force,
+            "rhs_calls": first.calls, "jacobians": first.jacobians, "status": 0 if good else first.status or 1,
+            "message": first.message, "name": solver.name}
+
+
+def errors(outputs, exact):
+    """Largest over the samples: of the side gears' speeds and of the normal forces, relative to the largest of the run."""
+    def one(columns):
+        return np.max(np.abs(outputs[:, columns] - exact[:, columns])) / np.max(np.abs(exact[:, columns]))
+
+    return one(slice(0, 2)), one(slice(2, 4))
+
+
+def write(path, rows):
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, [key for key in rows[0] if key != "name"], extrasaction="ignore")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

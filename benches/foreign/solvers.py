@@ -1,0 +1,176 @@
+"""The solvers that are compared: each has a name, variants, and a way to run."""
+
+import time
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.integrate import odeint, solve_ivp
+
+import lsoda
+import sundials
+
+# shares of a solver's tolerance that go to what grows with the solution and to what does not: for every solver the error
+# allowed is rtol·|u| + atol, u in units of its natural magnitude. "absolute" is what this program's own control does.
+SHARES = {"absolute": (0.0, 1.0), "relative": (1.0, 1.0)}
+# the smallest relative tolerance that every solver takes without a remark
+LEAST_RTOL = 1e-13
+OURS = "this program"
+
+
+@dataclass
+class Outcome:
+    """What one run gave."""
+
+    cost: float
+    outputs: np.ndarray
+    calls: int
+    jacobians: int
+    status: int
+    message: str = ""
+
+
+@dataclass
+class Solver:
+    """A solver in one variant; `run(run, times, tolerance)` integrates."""
+
+    name: str
+    variant: str
+    integrate: object
+    own_method: str = ""
+    slow: bool = False
+    costs: dict = field(default_factory=dict)
+
+    @property
+    def label(self):
+        return f"{self.name}, {self.variant}" if self.variant else self.name
+
+
+def all_solvers(folder):
+    """The solvers that can be had, and what is missing."""
+    found = [Solver(OURS, "", own, own_method="adaptive"), Solver(f"{OURS}, method radau", "", own, own_method="radau"),
+             Solver(f"{OURS}, method rodas4", "", own, own_method="rodas4")]
+    missing = []
+    try:
+        library = sundials.Sundials()
+        for name, method in (("CVODE BDF", sundials.BDF), ("CVODE Adams", sundials.ADAMS)):
+            for jacobian in ("exact Jacobian", "differences"):
+                for share in SHARES:
+                    found.append(Solver(f"{name}, compiled", f"{jacobian}, {share}",
+                                        cvode(library, method, jacobian.startswith("exact"), share)))
+    except OSError as problem:
+        missing.append(f"CVODE: {problem}")
+    try:
+        library = lsoda.Lsoda(folder)
+        for share in SHARES:
+            found.append(Solver("LSODA, compiled", share, compiled_lsoda(library, share)))
+    except OSError as problem:
+        missing.append(f"compiled LSODA: {problem}")
+    for share in SHARES:
+        for exact in (True, False):
+            variant = f"{'exact Jacobian' if exact else 'differences'}, {share}"
+            found.append(Solver("scipy odeint (LSODA)", variant, scipy_odeint(exact, share), slow=True))
+            for method in ("LSODA", "Radau"):
+                found.append(Solver(f"scipy solve_ivp {method}", variant, scipy_ivp(method, exact, share), slow=True))
+    try:
+        from sksundae.cvode import CVODE
+
+        for share in SHARES:
+            found.append(Solver("scikit-SUNDAE CVODE BDF", f"exact Jacobian, {share}", sundae(CVODE, share), slow=True))
+    except ImportError as problem:
+        missing.append(f"scikit-SUNDAE: {problem}")
+    return found, missing
+
+
+def tolerances(share, tolerance):
+    relative, absolute = SHARES[share]
+    return max(LEAST_RTOL, relative * tolerance), absolute * tolerance
+
+
+def own(run, times, tolerance):
+    cost, outputs, status, account = run.own(times)
+    calls, jacobians = run.counts()
+    return Outcome(cost, outputs, calls, jacobians, status, account)
+
+
+def cvode(library, method, exact, share):
+    prepared = {}
+
+    def integrate(run, times, tolerance):
+        if run not in prepared:
+            prepared[run] = sundials.Cvode(library, run, method, exact)
+        run.counts()
+        cost, states, status, steps = prepared[run].solve(times, *tolerances(share, tolerance))
+        return Outcome(cost, run.outputs(states), *run.counts(), status, f"{steps} steps")
+
+    return integrate
+
+
+def compiled_lsoda(library, share):
+    def integrate(run, times, tolerance):
+        run.counts()
+        cost, states, status = library.solve(run, times, *tolerances(share, tolerance))
+        return Outcome(cost, run.outputs(states), *run.counts(), status)
+
+    return integrate
+
+
+def scipy_ivp(method, exact, share):
+    def integrate(run, times, tolerance):
+        rtol, atol = tolerances(share, tolerance)
+        rhs, jacobian = run.python_rhs(), run.python_jacobian() if exact else None
+        run.counts()
+        begin = time.thread_time()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            result = solve_ivp(rhs, (run.t0, times[-1]), run.u0, method=method, t_eval=times, rtol=rtol, atol=atol,
+                               jac=jacobian)
+        cost = time.thread_time() - begin
+        counts = run.counts()
+        complete = result.success and len(result.t) == len(times)
+        outputs = run.outputs(result.y.T) if complete else np.full((len(times), 6), np.nan)
+        return Outcome(cost, outputs, *counts, 0 if complete else 1, "" if complete else result.message)
+
+    return integrate
+
+
+def scipy_odeint(exact, share):
+    def integrate(run, times, tolerance):
+        rtol, atol = tolerances(share, tolerance)
+        rhs, jacobian = run.python_rhs(), run.python_jacobian() if exact else None
+        at = np.concatenate(([run.t0], times))
+        run.counts()
+        begin = time.thread_time()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            states, told = odeint(rhs, run.u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=10_000_000,
+                                  full_output=True)
+        cost = time.thread_time() - begin
+        counts = run.counts()
+        return Outcome(cost, run.outputs(states[1:]), *counts, 0 if "successful" in told["message"] else 1)
+
+    return integrate
+
+
+def sundae(solver, share):
+    def integrate(run, times, tolerance):
+        rtol, atol = tolerances(share, tolerance)
+        rhs, jacobian = run.python_rhs(), run.python_jacobian()
+
+        def rates(t, u, rate):
+            rate[:] = rhs(t, u)
+
+        def slopes(t, u, rate, matrix):
+            matrix[:, :] = jacobian(t, u)
+
+        at = np.concatenate(([run.t0], times))
+        run.counts()
+        begin = time.thread_time()
+        result = solver(rates, rtol=rtol, atol=atol, method="BDF", jacfn=slopes, max_num_steps=10_000_000).solve(at, run.u0)
+        cost = time.thread_time() - begin
+        complete = result.success and len(result.t) == len(at)
+        counts = run.counts()
+        outputs = run.outputs(result.y[1:]) if complete else np.full((len(times), 6), np.nan)
+        return Outcome(cost, outputs, *counts, 0 if complete else 1, "" if complete else str(result.message))
+
+    return integrate
