@@ -129,8 +129,9 @@ def counts_figure(folder, machine, rows):
     finish(figure, grid, "evaluations of forces, or Jacobians", "error in speed of the side gears", titles=False)
     caption(figure, "The same in numbers that hold on any machine: error in the speed of the side gears against evaluations of "
             "the forces (three columns) and against Jacobians (right column; dormand_prince has none). The explicit method "
-            "takes the same number of evaluations at any tolerance: not accuracy but the stiffness of the teeth dictates "
-            f"its steps. Ring: the default. {machine}.")
+            "takes the same number of evaluations at any tolerance in the turns: not accuracy but the stiffness of loaded teeth "
+            "dictates its steps. In the clunk teeth fly most of the time, and it keeps up. Ring: the default. *: this program's "
+            f"own methods stand in as reference. {machine}.")
     save(figure, folder, "work_precision_counts")
 
 
@@ -238,7 +239,7 @@ def effects(folder):
     caption(figure, f"Which effects a scene calls for at an accuracy of {accuracy:g} %. Each effect is switched in the scene with all "
             "effects on that it allows; a cell is the largest change of an output's mean, rms, minimum or maximum, on that "
             "output's scale (darker: more). Red: called for, or a level of contact too plain for the scene. Green: may stay off. "
-            "Grey or –: not allowed in this scene. ×: the scene fails without. Effects that the scene sets off, and those that are "
+            "Grey or –: not allowed in this scene. ×: the scene fails without. Cost of a level: the scene's over the plainer one. Effects that the scene sets off, and those that are "
             f"part of the question (limited slip, a broken tooth, the final drive), are not shown. {machine}.")
     save(figure, folder, "effects")
 
