@@ -20,9 +20,6 @@ const SAME: f64 = 1e-9;
 /// Columns of a file that are compared, as `Sample` has them.
 const COLUMNS: [&str; 4] = ["left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force"];
 
-/// The source where nothing has to be solved.
-pub const CLOSED_FORM: &str = "closed form";
-
 /// A solution to compare with.
 pub struct Reference {
     /// At the times of the case.
@@ -62,7 +59,7 @@ fn closed_form(case: &Case) -> Result<Reference> {
     let [mean, half] = [case.then.carrier_speed, ratio * case.then.planet_spin];
     let force = simulation.clone().forces().mesh[0].map(|mesh| mesh.normal);
     let sample = Sample { speed: [mean + half, mean - half], force };
-    Ok(Reference::new(vec![sample; case.times.len()], CLOSED_FORM.into(), [0.0; 2]))
+    Ok(Reference::new(vec![sample; case.times.len()], "closed form".into(), [0.0; 2]))
 }
 
 fn from_file(case: &Case, name: String) -> Result<Reference> {
