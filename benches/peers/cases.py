@@ -72,6 +72,7 @@ def measures(case, time, speeds, angles, forces, cpu):
         "ripple": np.ptp(deviation, axis=0).tolist(),
         "ripple_rms": np.std(deviation, axis=0).tolist(),
         "slip": np.degrees([left - carrier - rolled, right - carrier + rolled]).tolist(),
+        "planet": float(np.degrees(planet)),
         "force": np.nanmean(forces[round(case.settled / STEP):], axis=0).tolist(),
     }
 

@@ -8,7 +8,7 @@ import cases
 import gears
 
 # Project Chrono (C++, millimetres) with the exact IMPACT law, C = 50 N·s/mm, step 2e-6 s: CPU seconds per simulated
-# second, straight ahead. From an earlier measurement on two cores of this kind; not run here.
+# second, straight ahead. From an earlier measurement on a machine with two cores; not run here.
 CHRONO = 122.0
 # more than this [deg] is a skipped tooth; half the play and what the teeth give way come to a third of a degree
 SKIPPED = 10.0

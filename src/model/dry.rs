@@ -189,12 +189,10 @@ impl Clamp {
     fn overshoot(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> f64 {
         match hold.mode {
             Mode::Stuck => {
-                let (torque, limit) = (self.torque(hold, turn, by), self.breakaway(by));
                 // a spring past its limit that is being unwound is cut back, it does not slide
-                if torque * turn.speed <= 0.0 {
-                    return -1.0;
-                }
-                (torque.abs() - limit) / (LIMIT_TOLERANCE * limit + NOTHING)
+                let torque = self.torque(hold, turn, by) * turn.speed.signum();
+                let limit = self.breakaway(by);
+                (torque - limit) / (LIMIT_TOLERANCE * limit + NOTHING)
             }
             mode => {
                 let direction = if mode == Mode::Forward { 1.0 } else { -1.0 };

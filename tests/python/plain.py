@@ -1,4 +1,4 @@
-"""The `tooth` model in plain Python: slow, in SI, written from the equations of docs/theory.md and not from the program.
+"""The `tooth` model in plain Python: slow, in SI, written from the equations of docs/theory.md, not from the program.
 
 Spherical involute gears, the law of MSC Adams (IMPACT), every planet, both flanks, every pair of teeth, half-shafts.
 Friction and errors of teeth are left out. § names a section of docs/theory.md."""
@@ -47,8 +47,8 @@ class Gears:
         return arc / self.lever[gear] - atan2(tan(arc), self.lever[gear])
 
     def gap(self, gear, past):
-        """Arc by which the mate's flank is clear of the tip corner of `gear`, `past` beyond the end of the path, and its
-        slope (§2). Axes at a right angle: the mate's is x, the gear's z."""
+        """Arc by which the mate's flank is clear of the tip corner of `gear`, `past` beyond the end of the path, and
+        its slope (§2). Axes at a right angle: the mate's is x, the gear's z."""
         mate, tip = MATE[gear], self.tip[gear]
         azimuths = [atan2(tan(arc), self.lever[gear]) for arc in (self.pitch_arc[gear], self.tip_arc[gear])]
         turned = azimuths[1] - azimuths[0] + past / self.lever[gear]
@@ -94,7 +94,7 @@ class Mesh:
 
 
 class Differential:
-    """State: α of both sides, ω of both, ω_c, ψ of all planets, their ψ̇; with shafts also both twists, both end speeds.
+    """State: α of both sides, ω of both, ω_c, ψ of all planets, their ψ̇; with shafts also both twists, both ends' ω.
 
     α and ψ are relative to the carrier, ω absolute."""
 
@@ -197,7 +197,7 @@ class Differential:
         return state
 
     def equilibrium(self):
-        """Planets as assembled, side gears where their teeth bear the loads; α̇ follows an imposed spin quasi-statically
+        """Planets as assembled, side gears where their teeth bear the loads; α̇ follows an imposed spin as in statics
         (§12). Refused where planets would not stay so."""
         scene = self.scene
 

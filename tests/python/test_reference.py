@@ -1,4 +1,4 @@
-"""The packaged FMU against solutions that the program did not make: plain.py, integrated by scipy (make_reference.py)."""
+"""The packaged FMU against solutions that the program did not make: plain.py, integrated by scipy."""
 
 from math import atan2, cos, sin, tan
 
@@ -9,8 +9,8 @@ from make_reference import CASES
 from plain import MATE, Gears
 from scipy.optimize import brentq
 
-# Asked of the default tolerance: speeds relative to the fastest, forces to the mean. A transient of damped teeth is over
-# by SETTLED, thousands of their time constants.
+# Asked of the default tolerance: speeds relative to the fastest, forces to the mean. A transient of damped teeth is
+# over by SETTLED, thousands of their time constants.
 SPEED_ERROR, FORCE_ERROR, SETTLED = 1e-6, 1e-3, 0.01
 # Of the files integrated again by the tests [s]; the blows of a rolling start and of the clunk are in it.
 STRETCH = 3e-3
@@ -18,8 +18,8 @@ STRETCH = 3e-3
 
 @pytest.fixture
 def errors(open_fmu):
-    """errors(case, tolerance, at): times, and by name of the output the error of the FMU there. Communication points are
-    the rows `at`, or all, of the file."""
+    """errors(case, tolerance, at): times, and by name of the output the error of the FMU there. Communication points
+    are the rows `at`, or all, of the file."""
 
     def compared(name, tolerance=None, at=slice(None)):
         case = CASES[name]
@@ -75,25 +75,26 @@ def test_the_study_follows_the_reference_once_the_blows_of_a_rolling_start_are_o
     assert largest(found, ("force", "torque", "error"), late) <= (FORCE_ERROR, "")
 
 
-def test_the_blows_of_a_rolling_start_follow_the_reference(errors):
-    for case in ["straight_rolling", "turn_rolling"]:
-        _, found = errors(case)
-        assert largest(found, "speed") <= (1e2 * SPEED_ERROR, ""), case
-        assert largest(found, ("force", "torque", "error")) <= (10.0 * FORCE_ERROR, ""), case
+@pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
+def test_the_blows_of_a_rolling_start_follow_the_reference(errors, case):
+    # speeds pass through several times the settled ones within microseconds: ten times the error is theirs
+    _, found = errors(case)
+    assert largest(found, "speed") <= (10.0 * SPEED_ERROR, "")
+    assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
 
 
 def test_the_clunk_follows_the_reference(errors):
-    # undamped teeth chatter on, with what the light gears have got: torque in the shafts is what is asked for
+    # gears without weight chatter between undamped teeth and shafts; what is asked for is what a vehicle feels
     _, found = errors("clunk")
+    assert found["carrier.speed"].max() <= SPEED_ERROR
     assert largest(found, "shaft_torque") <= (FORCE_ERROR, "")
-    assert found["carrier.speed"].max() <= FORCE_ERROR
 
 
 @pytest.mark.parametrize("case", ["straight_rolling", "turn_equilibrium", "turn_rolling"])
 def test_the_fmu_draws_near_the_reference_as_its_tolerance_is_tightened(errors, case):
     # two solutions by methods, laws and hands that share nothing: at 1e-10 what is left is a few local errors
     worst = [max(np.max(error) for error in errors(case, tolerance)[1].values()) for tolerance in [1e-6, 1e-8, 1e-10]]
-    assert worst[2] < 1e-9 and worst[2] < 0.1 * worst[1] < 0.01 * worst[0], worst
+    assert worst[2] < 1e-9 and worst[2] < 0.1 * worst[1] and worst[1] < worst[0], worst
 
 
 @pytest.mark.parametrize("case", [*CASES])

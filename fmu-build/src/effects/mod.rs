@@ -30,9 +30,9 @@ use change::{Change, Scale};
 use switches::{Standing, Switch, Turned};
 use verdict::Verdict;
 
-/// Tolerances of further runs of the fullest scene, as parts of its own: how far they stray from it is what its outputs
-/// cannot tell.
-const TOLERANCES: [f64; 4] = [0.1, 0.5, 0.3, 0.2];
+/// Tolerances and fixed steps of further runs of the fullest scene, as parts of its own: how far they stray from it is
+/// what its outputs cannot tell.
+const FINER: [f64; 4] = [0.1, 0.5, 0.3, 0.2];
 /// The first of these will do where it strays by less than this part of the accuracy.
 const STEADY: f64 = 0.1;
 /// A run is given up after this many times the evaluations of the fullest scene.
@@ -52,7 +52,7 @@ pub struct Findings {
     pub as_written: bool,
     /// What 100 % of each output is.
     pub scales: Vec<Scale>,
-    /// How far each output of the fullest scene strays when the integrator's tolerance changes.
+    /// How far each output of the fullest scene strays when the integrator becomes finer.
     pub strays: Vec<f64>,
     /// What each output may change by: the accuracy, or what two runs stray.
     pub limits: Vec<f64>,
@@ -220,14 +220,15 @@ fn references(scene: &Scene, question: &Question, work: &mut Work) -> Result<(Be
     Ok((Bench::new(from, scene, written, &full, whole), refused))
 }
 
-/// How far outputs of the fullest scene stray when nothing but the tolerance changes.
+/// How far outputs of the fullest scene stray when nothing but the integrator becomes finer.
 fn strays(bench: &mut Bench, accuracy: f64, work: &mut Work) -> Vec<f64> {
     let mut strays = vec![0.0; bench.scales.len()];
-    for part in TOLERANCES {
+    for part in FINER {
         work.next("the integrator's own error");
         let mut scene = bench.runs[FULL].scene.clone();
-        scene.parameters.solver.relative_tolerance *= part;
-        // a tolerance below the range tells nothing
+        let solver = &mut scene.parameters.solver;
+        (solver.relative_tolerance, solver.fixed_step) = (part * solver.relative_tolerance, part * solver.fixed_step);
+        // what is below the ranges tells nothing
         let Ok(run) = bench.run(&scene) else { continue };
         for (stray, change) in strays.iter_mut().zip(&bench.change(run, FULL).outputs) {
             *stray = f64::max(*stray, change.by);

@@ -73,7 +73,7 @@ pub fn sentences(found: &Findings) -> Vec<String> {
         .collect();
     if !stray.is_empty() {
         out.push(format!(
-            "When nothing but solver.relative_tolerance is tightened, {} strays; no change below twice that can be told from it.",
+            "When nothing but the integrator becomes finer, outputs stray: {}; no change of them below twice that can be told.",
             stray.join(", ")
         ));
     }

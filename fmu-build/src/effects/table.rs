@@ -134,7 +134,7 @@ pub fn most(found: &Findings, change: &Change) -> String {
 }
 
 /// Name of a row; levels say so.
-pub fn name(row: &Finding) -> String {
+pub(crate) fn name(row: &Finding) -> String {
     match row.switch {
         Switch::Effect(_) => row.switch.name().to_owned(),
         Switch::Level(_) => format!("level {}", row.switch.name()),
@@ -151,7 +151,7 @@ pub(super) fn scene(standing: Standing, switch: &Switch) -> &'static str {
 }
 
 /// Runs with and without, of the comparison in the fullest scene.
-pub fn pair(row: &Finding, trial: &Trial) -> Option<[usize; 2]> {
+pub(crate) fn pair(row: &Finding, trial: &Trial) -> Option<[usize; 2]> {
     let run = trial.run.clone().ok()?;
     let on = match trial.reference {
         FULL => row.in_full,
