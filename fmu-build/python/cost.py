@@ -23,11 +23,15 @@ METHODS = {
     "dormand_prince": ("#b7791f", "v", "dormand_prince (explicit, order 5)"),
     "fixed_step": ("#7b5ea7", "D", "fixed_step (order 2, steps instead of tolerances)"),
 }
-FOREIGN = ["-", "--", ":", "-."]
+# solvers of others: line styles and marks; this program among them, and cases that are the same
+FOREIGN, FOREIGN_MARKS, OURS = ["-", "--", ":", "-."], ["o", "s", "^", "v", "D", "P", "X"], "this program"
+FOREIGN_CASES = {"turn_equilibrium": "turn/impact", "turn, force along a line": "turn/line"}
 MOTIONS = {"turn": "turn, one tooth, 0.18 s", "blow": "turn from mid-gap:\nteeth strike, 20 ms",
            "clunk": "clunk: lash crossed,\nshafts wind up, 20 ms"}
 FIDELITIES = {"ideal": "ideal: no teeth", "lumped": "lumped: a spring per mesh",
               "impact": "tooth pairs, law impact", "line": "tooth pairs, law line"}
+# communication steps of the ladder's turn
+TURN_STEPS = 360
 # errors below this are drawn here: rounding
 FLOOR = 1.5e-13
 
@@ -50,10 +54,23 @@ def read(path):
 
 
 def foreign_solvers(folder):
-    """Rows of solvers of others on the same cases, if they were measured."""
+    """Solvers of others on cases that are here too, if they were measured: by case, then by solver, rows with their cost.
+
+    Costs are over that of this program in the same file, as the runs there are longer."""
     path = folder / "foreign.csv"
-    rows = read(path)[1] if path.is_file() else []
-    return [row for row in rows if "case" in row and "solver" in row]
+    found = {}
+    for row in read(path)[1] if path.is_file() else []:
+        case = FOREIGN_CASES.get(row["case"])
+        if case and row["status"] in (0.0, "ok"):
+            found.setdefault(case, {}).setdefault(row["solver"], []).append(row)
+    for solvers in found.values():
+        default = next((row for row in solvers.get(OURS, []) if np.isclose(row["tolerance"], 1e-6)), None)
+        for rows in solvers.values():
+            for row in rows:
+                row["cost"] = row["cpu_s"] / default["cpu_s"] if default else np.nan
+    # of a solver's variants the first, with the exact Jacobian where it takes one
+    return {case: {name.split(",")[0]: rows for name, rows in reversed(solvers.items()) if not name.startswith(OURS)}
+            for case, solvers in found.items()}
 
 
 def number(text):
@@ -66,9 +83,8 @@ def number(text):
 def work_precision(folder):
     machine, rows = read(folder / "work_precision.csv")
     foreign = foreign_solvers(folder)
-    unit = {row["case"]: row["cpu_s"] for row in rows
-            if row["method"] == "adaptive" and row["setting"] == 1e-6 and row["status"] == "ok"}
     costs = [row["cost"] for row in rows if row["status"] == "ok"]
+    costs += [row["cost"] for solvers in foreign.values() for theirs in solvers.values() for row in theirs]
     stand_in = any("own" in row["reference"] for row in rows)
     sources = ("References: the plain Python model of tests/python integrated by scipy at 1e-12"
                + (" where its file is there, else (marked *) this program's Radau and Rodas5P at 1e-11 against each other"
@@ -81,10 +97,10 @@ def work_precision(folder):
             own = [row for row in rows if row["case"] == case]
             span = (0.3 * min(costs), 5.0 * max(costs))
             draw_case(axes, own, lambda row: row["cost"], column, span, spread=True)
-            for style, solver in zip(FOREIGN, dict.fromkeys(row["solver"] for row in foreign)):
-                theirs = [row for row in foreign if (row["solver"], row["case"], row["status"]) == (solver, case, "ok")]
-                axes.plot([row["cpu_s"] / unit.get(case, np.nan) for row in theirs],
-                          [max(row[column], FLOOR) for row in theirs], color="#888888", ls=style, lw=1.3, label=solver)
+            for k, (solver, theirs) in enumerate(foreign.get(case, {}).items()):
+                axes.plot([row["cost"] for row in theirs], [max(row[column], FLOOR) for row in theirs], color="#888888",
+                          ls=FOREIGN[k % len(FOREIGN)], marker=FOREIGN_MARKS[k % len(FOREIGN_MARKS)], ms=3.5, mfc="white", lw=1.1,
+                          label=solver)
         finish(figure, grid, "time on the processor, × the default's (adaptive, 1e-6)", f"error in {what}")
         counts = sorted({int(row["runs"]) for row in rows if row["status"] == "ok"})
         caption(figure, f"What accuracy costs: error in the {what} (largest at any compared time, relative) against time; "
@@ -92,7 +108,7 @@ def work_precision(folder):
                 "default, adaptive at 1e-6, whose time is 1 in every panel. Crosses at the top: settings that fail. Grey "
                 f"band: below what the reference can tell. {sources}Results are compared every 10 ms (turn), or 1 ms and "
                 "more (blows), so that the host does not dictate the steps. Median of "
-                f"{counts[0]}–{counts[-1]} runs in turn, quartiles as bars. {machine}.")
+                f"{counts[0] if counts[0] == counts[-1] else f'{counts[0]} to {counts[-1]}'} runs in turn, quartiles as bars. {machine}.")
         save(figure, folder, name)
     counts_figure(folder, machine, rows)
 
@@ -113,8 +129,9 @@ def counts_figure(folder, machine, rows):
     finish(figure, grid, "evaluations of forces, or Jacobians", "error in speed of the side gears", titles=False)
     caption(figure, "The same in numbers that hold on any machine: error in the speed of the side gears against evaluations of "
             "the forces (three columns) and against Jacobians (right column; dormand_prince has none). The explicit method "
-            "takes the same number of evaluations at any tolerance: not accuracy but the stiffness of the teeth dictates "
-            f"its steps. Ring: the default. {machine}.")
+            "takes the same number of evaluations at any tolerance in the turns: not accuracy but the stiffness of loaded teeth "
+            "dictates its steps. In the clunk teeth fly most of the time, and it keeps up. Ring: the default. *: this program's "
+            f"own methods stand in as reference. {machine}.")
     save(figure, folder, "work_precision_counts")
 
 
@@ -136,7 +153,7 @@ def fidelity_ladder(folder):
                 row = cell[rung, quantity]
                 text = "failed" if row["status"] == "failed" else shown(row["error"])
                 if i == len(rungs) - 1:
-                    text = f"{row['richest']:.4g} {row['unit'] if row['unit'] != '1' else ''}"
+                    text = valued(row["richest"], row["unit"])
                 dark = errors[i, j] < 1e-3 or errors[i, j] >= 0.5
                 left.text(j, i, text, ha="center", va="center", fontsize=10.5, color="white" if dark else "#222222")
         adds = [cell[rung, quantities[0]]["adds"] for rung in rungs]
@@ -154,17 +171,18 @@ def fidelity_ladder(folder):
         for i, (c, row) in enumerate(zip(cost, firsts)):
             text = "failed" if row["status"] == "failed" else f"{two(c)} ×"
             right.text(c * 1.25 if np.isfinite(c) else 1.2, i, text, va="center", fontsize=10)
-        right.set(xscale="log", title="Cost, × ideal", xlabel="time on the processor, × that of ideal gears",
+        right.set(xscale="log", title="Cost", xlabel="time, × that of ideal gears",
                   yticks=range(len(rungs)), ylim=(len(rungs) - 0.5, -0.5),
-                  xlim=(0.5, 60 * np.nanmax(cost)))
+                  xlim=(0.5, 30 * np.nanmax(cost)))
         right.set_yticklabels([])
         right.grid(axis="y", visible=False)
-    by = {row["rung"]: row["cost"] for row in rows if row["scene"] == "clunk"}
+    ideal = next(row for row in rows if (row["scene"], row["rung"]) == ("turn", "ideal"))
     caption(figure, "What each level of fidelity gets right, and what it costs. Colours: error below 0.1 % (dark green), 1 %, 10 %, "
-            "50 %, and beyond (red); the bottom row has the values themselves. Mean speeds and mean forces need no teeth. "
-            "Ripple, deflection and peaks need the right stiffness: tooth pairs, and what stands in series with them. "
-            "Heat needs friction. In the turn ideal gears are a closed form, some ten nanoseconds a step; in the clunk half-shafts "
-            f"have to be integrated at every level. Default solver and tolerance, communication step 1 ms; medians with quartiles. {machine}.")
+            "50 %, and beyond (red); the bottom row has the values themselves. Mean speeds and mean forces need no teeth, peaks "
+            "of a clunk the play that a spring per mesh has. Ripple needs tooth pairs, deflection their stiffness, heat "
+            f"friction. In the turn ideal gears are a closed form, {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns a communication step "
+            "of 1 ms; in the clunk the half-shafts are integrated at every level. Friction that sticks is what costs most there. "
+            f"Default solver and tolerance; medians with quartiles. {machine}.")
     save(figure, folder, "fidelity_ladder")
 
 
@@ -200,7 +218,8 @@ def effects(folder):
         firsts = [cell[name, outputs[0]] for name in names]
         timed = np.isfinite([row["cost"] for row in firsts]).any()
         for i, row in enumerate(firsts):
-            kind = "refused" if row["status"] == "refused" else "kept" if row["kept"] == "true" else "left out"
+            called_for = row["kept"] == "true" or row["verdict"] == "too plain"
+            kind = "refused" if row["status"] == "refused" else "kept" if called_for else "left out"
             cost = row["cost"] if timed else row["evaluations"]
             if row["status"] == "ok" and np.isfinite(cost):
                 right.barh(i, cost - 1.0, left=1.0, xerr=row["cost_spread"] if timed else None, color=verdicts[kind], height=0.6,
@@ -212,14 +231,16 @@ def effects(folder):
         right.set(xscale="log", yticks=range(len(names)), ylim=(len(names) - 0.5, -0.5), title="Cost with / without, verdict",
                   xlabel="time with the effect / without" if timed else "evaluations with the effect / without")
         right.set_yticklabels([])
+        right.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=20))
         right.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         right.xaxis.set_minor_formatter(NullFormatter())
+        right.grid(axis="y", visible=False)
     accuracy = 100.0 * rows[0]["accuracy"]
-    caption(figure, "Which effects a scene calls for. Each effect is switched in the scene with all effects on that it allows; a cell "
-            "is the largest change of an output's mean, rms, minimum or maximum, on that output's scale (darker: more). Red: "
-            f"kept, an output would change by more than {accuracy:g} % without it. Green: may stay off. Grey or –: not allowed "
-            "in this scene. × fails without. Levels are plainer contact in place of the scene's. Effects that the scene sets off, and such as belong to the "
-            f"question (limited slip, a broken tooth), are not shown. {machine}.")
+    caption(figure, f"Which effects a scene calls for at an accuracy of {accuracy:g} %. Each effect is switched in the scene with all "
+            "effects on that it allows; a cell is the largest change of an output's mean, rms, minimum or maximum, on that "
+            "output's scale (darker: more). Red: called for, or a level of contact too plain for the scene. Green: may stay off. "
+            "Grey or –: not allowed in this scene. ×: the scene fails without. Cost of a level: the scene's over the plainer one. Effects that the scene sets off, and those that are "
+            f"part of the question (limited slip, a broken tooth, the final drive), are not shown. {machine}.")
     save(figure, folder, "effects")
 
 
@@ -231,6 +252,16 @@ def shown(error):
     if percent < 1e-3:
         return "0 %" if percent < 1e-9 else "< 0.001 %"
     return f"{percent:.2g} %" if percent < 99.5 else f"{percent:.0f} %"
+
+
+def valued(value, unit):
+    """A value with its unit, in numbers that one can read."""
+    if unit == 1.0:
+        return f"{100.0 * value:.3g} %"
+    for small, factor, name in [("m", 1e6, "µm"), ("s", 1e3, "ms"), ("J", 1e3, "mJ")]:
+        if unit == small and abs(value) < 0.1:
+            return f"{factor * value:.4g} {name}"
+    return f"{value:,.0f} {unit}".replace(",", " ") if abs(value) >= 1e3 else f"{value:.4g} {unit}"
 
 
 def two(value):
@@ -319,9 +350,8 @@ def draw_case(axes, rows, work, column, span, spread=False):
         axes.text(0.5, 0.5, "no teeth that could strike", transform=axes.transAxes, ha="center", color="#777777")
         return
     if all(row[column] < 1e-14 for row in rows if row["status"] == "ok"):
-        best = next(row for row in rows if row["method"] == "adaptive" and row["status"] == "ok")
-        axes.text(0.5, 0.5, f"closed form:\nno error at any setting,\n{1e9 * best['cpu_s'] / 18:.0f} ns a "
-                  "communication step", transform=axes.transAxes, ha="center", va="center", color="#444444")
+        axes.text(0.5, 0.5, "closed form:\nno error at any setting", transform=axes.transAxes, ha="center", va="center",
+                  color="#444444")
         return
     floor = rows[0]["reference_" + column]
     if floor > 0.0:

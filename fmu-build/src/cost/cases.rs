@@ -199,7 +199,8 @@ impl Case {
         for &time in &self.times {
             simulation.advance(time).map_err(|failure| failure.to_string())?;
             visit(&mut simulation);
-            if begun.elapsed().as_secs_f64() > patience {
+            // asking a clock takes longer than a step in closed form
+            if patience.is_finite() && begun.elapsed().as_secs_f64() > patience {
                 return Err(format!("given up at {time} s, after {patience} s on the processor"));
             }
         }

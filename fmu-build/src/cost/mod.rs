@@ -137,6 +137,7 @@ fn left(seconds: f64, done: f64) -> String {
 }
 
 fn save(folder: &Path, name: &str, text: &str) -> Result<()> {
+    csv::ensure_whole(name, text)?;
     fs::write(folder.join(name), text).with_context(|| format!("{} cannot be written", folder.join(name).display()))
 }
 

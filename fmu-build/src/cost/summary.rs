@@ -7,6 +7,9 @@ use super::work_precision::{Measured, Row, WorkPrecision, name};
 /// Errors of speed that are asked for.
 const WANTED: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
+/// Errors below this are rounding.
+const AT_REST: f64 = 1e-12;
+
 /// A table with a title.
 pub struct Table {
     /// What it shows.
@@ -24,6 +27,12 @@ fn measured(row: &Row) -> Option<&Measured> {
     row.outcome.as_ref().ok()
 }
 
+/// Whether there is anything to solve: at rest, and in closed form, no tolerance makes an error.
+fn is_solved(found: &WorkPrecision, case: usize) -> bool {
+    let mut own = found.rows.iter().filter(|row| row.case == case && row.setting.method == Method::Adaptive);
+    own.any(|row| measured(row).is_none_or(|m| m.errors[0] > AT_REST))
+}
+
 /// Default method: errors and cost by tolerance.
 fn by_tolerance(found: &WorkPrecision) -> Table {
     let mut tolerances: Vec<f64> = Vec::new();
@@ -34,7 +43,7 @@ fn by_tolerance(found: &WorkPrecision) -> Table {
     }
     let mut rows =
         vec![["case".to_owned()].into_iter().chain(tolerances.iter().map(|t| format!("{t:.0e}"))).collect::<Vec<_>>()];
-    for (i, (case, _)) in found.cases.iter().enumerate() {
+    for (i, (case, _)) in found.cases.iter().enumerate().filter(|(i, _)| is_solved(found, *i)) {
         let cell = |tolerance: &f64| {
             let row = found
                 .rows
@@ -58,7 +67,7 @@ fn by_tolerance(found: &WorkPrecision) -> Table {
 /// Cheapest method for an error of speed.
 fn cheapest(found: &WorkPrecision) -> Table {
     let mut rows = vec![["case".to_owned()].into_iter().chain(WANTED.map(|w| format!("{w:.0e}"))).collect::<Vec<_>>()];
-    for (i, (case, _)) in found.cases.iter().enumerate() {
+    for (i, (case, _)) in found.cases.iter().enumerate().filter(|(i, _)| is_solved(found, *i)) {
         let best = |wanted: f64, of: &dyn Fn(Method) -> bool| {
             let rows = found.rows.iter().filter(|row| row.case == i && of(row.setting.method));
             let good = rows.filter_map(|row| Some((row, measured(row)?))).filter(|(_, m)| m.errors[0] <= wanted);
