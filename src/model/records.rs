@@ -196,9 +196,12 @@ struct Cycle {
     pitch: f64,
 }
 
+/// Tells a cycle gone through, one, from a return to its begin, none.
+const HALF: f64 = 0.5;
+
 impl Cycle {
     /// Adds the impulses `torque` [N·m·s] of a step of size `h` in which the planet went from one position to another.
-    fn add(&self, bias: &mut super::state::Bias, position: [f64; 2], h: f64, torque: [f64; 2]) {
+    fn add(&self, bias: &mut Bias, position: [f64; 2], h: f64, torque: [f64; 2]) {
         let place = position.map(|q| q / self.pitch);
         let cycle = place.map(libm::floor);
         let mut left = 1.0;
@@ -208,11 +211,15 @@ impl Cycle {
             let part = ((boundary - place[0]) / (place[1] - place[0])).clamp(0.0, 1.0);
             let time = bias.time + part * h;
             let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
-            if bias.whole && time > 0.0 {
+            // who comes back to where the cycle began has not been through it
+            if bias.whole && (bias.rolled + boundary - place[0]).abs() > HALF {
                 bias.last = Some((sum.map(|x| x / time), time));
             }
-            *bias = super::state::Bias { sum: [0.0; 2], time: 0.0, whole: true, last: bias.last };
+            *bias = Bias { whole: true, last: bias.last, ..Bias::default() };
+            bias.rolled = place[1] - boundary;
             left = 1.0 - part;
+        } else {
+            bias.rolled += place[1] - place[0];
         }
         bias.time += left * h;
         for s in 0..2 {

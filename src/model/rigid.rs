@@ -39,7 +39,8 @@ pub struct Rigid {
     /// Dry friction that is always there.
     pub grips: Vec<Grip>,
     lock: Option<Grip>,
-    half_shaft: HalfShaftSpec,
+    /// The half-shafts.
+    pub half_shaft: HalfShaftSpec,
     /// Whether there are effects; without any, a lock may still be commanded.
     pub always: bool,
 }

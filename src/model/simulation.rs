@@ -126,12 +126,15 @@ impl Simulation {
         let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
-        if let Gears::Teeth(teeth) = &model.gears
-            && parameters.scene.start == Start::Equilibrium
-        {
-            let full = teeth.full.acts(state);
-            by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
-                .map_err(|problem| vec![problem])?;
+        if parameters.scene.start == Start::Equilibrium {
+            match &model.gears {
+                Gears::Rigid(rigid) => start::wind(model, rigid.half_shaft.stiffness, inputs, state),
+                Gears::Teeth(teeth) => {
+                    let full = teeth.full.acts(state);
+                    by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
+                        .map_err(|problem| vec![problem])?;
+                }
+            }
         }
         commands::apply(&simulation.model, inputs, &mut simulation.state);
         catch_holds(&simulation.model, inputs, &mut simulation.state);

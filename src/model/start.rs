@@ -80,6 +80,15 @@ fn loads(model: &Model, ideal: &Ideal, inputs: &Inputs) -> [f64; 2] {
     }
 }
 
+/// Winds the half-shafts of an ideal differential up.
+pub fn wind(model: &Model, stiffness: [f64; 2], inputs: &Inputs, state: &mut State) {
+    let carried = loads(model, &model.ideal, inputs);
+    let plan = &model.ideal.plan;
+    for s in (0..2).filter(|&s| plan.shafts[s]) {
+        state.q[plan.layout().end(s)] = carried[s] / stiffness[s];
+    }
+}
+
 /// Presses the meshes together until tooth torques balance the loads, and winds the half-shafts up.
 ///
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along

@@ -72,6 +72,8 @@ pub struct Bias {
     pub time: f64,
     /// Whether it was seen to begin.
     pub whole: bool,
+    /// Cycles rolled since it began, backward negative.
+    pub rolled: f64,
     /// Means over the last whole mesh cycle [N·m], and how long it took [s].
     pub last: Option<([f64; 2], f64)>,
 }
