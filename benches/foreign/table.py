@@ -42,7 +42,7 @@ def markdown(rows, names, checks, missing):
         solvers = list(dict.fromkeys(row["name"] for row in of_case))
         by_solver = {solver: [row for row in of_case if row["name"] == solver] for solver in solvers}
         ours = {level: cost_at(level, by_solver[OURS]) for level in LEVELS}
-        lines = [[name, *(f"{level:.0e}" for level in LEVELS)]]
+        lines = [[name.replace("_", " ") + ", ms", *(f"{level:.0e}" for level in LEVELS)]]
         for solver in solvers:
             cells = [solver]
             for level in LEVELS:
