@@ -49,7 +49,7 @@ def markdown(rows, names, checks, missing):
                 cost = cost_at(level, by_solver[solver])
                 text = "–" if cost is None else f"{1e3 * cost:.3g}"
                 if cost is not None and ours[level] is not None and solver != OURS:
-                    text += f" ({cost / ours[level]:.2g}×)"
+                    text += f" ({float(f'{cost / ours[level]:.2g}'):g}×)"
                 cells.append(text)
             lines.append(cells)
         parts.append("\n".join(aligned(lines)))
