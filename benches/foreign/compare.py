@@ -34,11 +34,11 @@ CASES = {
     "turn, force along a line": ("turn_equilibrium", "tooth_line", 0.5, 1e-2),
 }
 QUICK = ("turn_equilibrium", "clunk")
-TOLERANCES = [10.0**-k for k in range(3, 12)]
+TOLERANCES = [10.0**-k for k in range(3, 14)]
 QUICK_TOLERANCES = [1e-4, 1e-6, 1e-8]
 REPEATS, SLOW_REPEATS = 11, 2
 # a solver that took longer than this is not asked for more [s]
-PATIENCE = 5.0
+PATIENCE = 2.0
 REFERENCE_RTOL, REFERENCE_ATOL = 1e-13, 1e-13
 NAMES = ("left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force", "left.shaft_torque",
          "right.shaft_torque")
@@ -63,7 +63,9 @@ def main():
         def tell(fraction, what, k=k, name=name):
             print(f"progress {(k + fraction) / len(names):.4f} {name}: {what}", file=sys.stderr, flush=True)
 
-        rows += compare(library, name, solvers, arguments, tell, checks)
+        # what Python's calls cost is the same everywhere
+        wanted = [solver for solver in solvers if name in QUICK or not solver.slow]
+        rows += compare(library, name, wanted, arguments, tell, checks)
         write(arguments.folder / "foreign.csv", rows)
     print(table.markdown(rows, names, checks, missing), end="")
 

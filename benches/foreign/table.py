@@ -42,14 +42,14 @@ def markdown(rows, names, checks, missing):
         solvers = list(dict.fromkeys(row["name"] for row in of_case))
         by_solver = {solver: [row for row in of_case if row["name"] == solver] for solver in solvers}
         ours = {level: cost_at(level, by_solver[OURS]) for level in LEVELS}
-        lines = [[name, *(f"{level:.0e}" for level in LEVELS)]]
+        lines = [[name.replace("_", " ") + ", ms", *(f"{level:.0e}" for level in LEVELS)]]
         for solver in solvers:
             cells = [solver]
             for level in LEVELS:
                 cost = cost_at(level, by_solver[solver])
                 text = "–" if cost is None else f"{1e3 * cost:.3g}"
                 if cost is not None and ours[level] is not None and solver != OURS:
-                    text += f" ({cost / ours[level]:.2g}×)"
+                    text += f" ({float(f'{cost / ours[level]:.2g}'):g}×)"
                 cells.append(text)
             lines.append(cells)
         parts.append("\n".join(aligned(lines)))
