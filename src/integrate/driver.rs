@@ -17,12 +17,16 @@ pub struct Control {
     pub last: f64,
     /// Error of the last accepted step, as a fraction of the tolerance.
     pub last_error: f64,
+    /// Whether the last accepted step ended on a kink.
+    pub on_kink: bool,
+    /// Size of step [s] that was right after the last kink: what follows a kink is faster than what came before.
+    pub after_kink: f64,
 }
 
 impl Control {
     /// A controller whose first step is tried with `first` [s].
     pub fn new(first: f64) -> Self {
-        Self { next: first, last: 0.0, last_error: 1.0 }
+        Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX }
     }
 }
 
@@ -90,11 +94,13 @@ const LONGEST_FIT: f64 = 1.1;
 /// Steps before the end of an interval that are made equal.
 const LAST_STEPS: f64 = 3.0;
 const LARGEST_GROWTH: f64 = 6.0;
+/// Growth of the step that is tried after kinks, from one kink to the next.
+const AFTER_KINK_GROWTH: f64 = 4.0;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// How many times the tolerance the ledger of a step may be off, relative to the energy that the step dealt with: heat is
 /// a quadrature beside the motion, and kinks in it are felt less by the motion.
-const LEDGER: f64 = 20.0;
+const LEDGER: f64 = 10.0;
 /// Times in a row that a step is shortened for its ledger alone; what still does not close is no matter of step size.
 const UNBALANCED: u32 = 8;
 /// An error remembered as smaller would make the predictive controller timid.
@@ -134,11 +140,13 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     loop {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let remaining = until - *time;
-        let (mut h, mut cut) = fit(control.next.max(resolution), remaining);
+        let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
+        let (mut h, mut cut) = fit(wanted.max(resolution), remaining);
+        let mut to_kink = false;
         if h > switch_at {
             (h, cut) = (switch_at, true);
         } else if let Some(fraction) = system.kink(point, h) {
-            (h, cut) = (h * fraction, true);
+            (h, cut, to_kink) = (h * fraction, true, true);
         }
         let aim = Aim { weights: system.weights(point), tolerance };
         let trial = method.step(system, point, &lin, h, &aim, statistics);
@@ -170,6 +178,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 unbalanced = 0;
                 energy = energies[1];
                 control.accept::<M>(h, cut, error, just_rejected);
+                control.on_kink = to_kink;
                 just_rejected = false;
                 statistics.accepted += 1;
                 let start = *point;
@@ -241,6 +250,9 @@ impl Control {
         let mut next = h / factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);
         if just_rejected {
             next = next.min(h);
+        }
+        if self.on_kink {
+            self.after_kink = if cut { next.max(self.after_kink) } else { h.max(next.min(h * AFTER_KINK_GROWTH)) };
         }
         self.next = if cut { next.max(self.next) } else { next };
         self.last = h;

@@ -156,5 +156,6 @@ impl State {
             && self.control.next > 0.0
             && self.control.next.is_finite()
             && self.control.last >= 0.0
+            && self.control.after_kink > 0.0
     }
 }
