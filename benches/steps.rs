@@ -1,11 +1,12 @@
 //! Takes communication steps of a scene and prints the bits of what it reads: for comparing builds that leave effects
 //! out, and for counting instructions.
 //!
-//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "unread" leaves the
-//! forces at the end unread, so that nothing but steps is counted.
+//! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
+//! "reversal" of the loads every 50 steps, "fixed_step=SIZE"; "unread" leaves the forces at the end unread, so that nothing
+//! but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{Effects, Inputs, Parameters, PlanetSpin, Simulation};
+use bevel_differential::model::{Effects, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
 
 fn switch(p: &mut Parameters, name: &str) {
     let e: &mut Effects = &mut p.effects;
@@ -37,6 +38,12 @@ fn switch(p: &mut Parameters, name: &str) {
     }
 }
 
+/// A function of its own, so that its instructions can be counted.
+#[inline(never)]
+fn one_communication_step(simulation: &mut Simulation, until: f64) {
+    simulation.advance(until).expect("the step succeeds");
+}
+
 fn main() {
     // `cargo bench` calls every bench with this
     if std::env::args().any(|a| a == "--bench") {
@@ -52,14 +59,25 @@ fn main() {
     for name in effects {
         match name.as_str() {
             "lock" => i.lock = 1.0,
-            "unread" => {}
-            name => switch(&mut p, name),
+            "unread" | "reversal" => {}
+            "rolling" => p.scene.start = Start::Rolling,
+            name => match name.split_once('=') {
+                Some(("fixed_step", size)) => {
+                    (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
+                }
+                _ => switch(&mut p, name),
+            },
         }
     }
     let mut simulation = Simulation::start(&p, &i, 0.0).expect("the scene starts");
+    let reversal = effects.iter().any(|e| e == "reversal");
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for k in 1..=steps.parse::<u32>().expect("a number of steps") {
-        simulation.advance(f64::from(k) * 1e-3).expect("the step succeeds");
+        if reversal && k % 50 == 0 {
+            i.load_torque = i.load_torque.map(|torque| -torque);
+            simulation.set_inputs(&i);
+        }
+        one_communication_step(&mut simulation, f64::from(k) * 1e-3);
         let m = simulation.motion();
         for value in m.side_speed.iter().chain(&m.side_angle).chain(&m.spin_angle).chain([&m.carrier_angle]) {
             hash = (hash ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3);

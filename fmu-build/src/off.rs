@@ -2,14 +2,13 @@
 //! bit and instruction by instruction.
 
 use std::fmt::Write as _;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 
 use crate::progress::Progress;
-use crate::{marked, places};
+use crate::{marked, stepping};
 
 /// Every effect with a file of its own, by the name of its cargo feature.
 pub const EFFECTS: [&str; 11] = [
@@ -44,13 +43,13 @@ struct Run {
 /// into docs/effects.md; fails if anything differs.
 pub fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("building with all effects");
-    let full = build(&EFFECTS, "full")?;
+    let full = stepping::build(&EFFECTS, "full")?;
     let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
     let mut rows = String::new();
     let mut different = Vec::new();
     let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
         progress.tell(&format!("building without {what}"));
-        let without = build(kept, "less")?;
+        let without = stepping::build(kept, "less")?;
         let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
         if runs != off {
             different.push(format!("{what}: {runs:?} left out, {off:?} off"));
@@ -88,46 +87,14 @@ pub fn run(quick: bool, write: bool) -> Result<()> {
     Ok(())
 }
 
-/// Builds the stepping program with the effects `kept` alone and returns a copy of it.
-fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
-    let target = places::target().join("off");
-    let output = Command::new(env!("CARGO"))
-        .current_dir(places::workspace())
-        .args(["build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench", "--quiet"])
-        .args(["--no-default-features", "--features", &kept.join(","), "--message-format", "json"])
-        .arg("--target-dir")
-        .arg(&target)
-        .output()
-        .context("cargo did not start")?;
-    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let executable = String::from_utf8_lossy(&output.stdout)
-        .lines()
-        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
-        .filter(|message| message["target"]["name"] == "steps")
-        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
-        .context("cargo named no executable")?;
-    // the next build takes the place of this one; names are of one length, as they move the stack and with it what
-    // filling memory costs
-    let copy = target.join(name);
-    fs::copy(executable, &copy)?;
-    Ok(copy)
-}
-
 fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
     let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
     ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
     let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
     let mut counts = [0.0; 2];
     for (count, steps) in counts.iter_mut().zip(STEPS) {
-        let output = Command::new("valgrind")
-            .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-            .arg(program)
-            .args([scene, &steps.to_string(), "unread"])
-            .args(effects)
-            .output()
-            .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
-        let told = String::from_utf8_lossy(&output.stderr);
-        ensure!(output.status.success(), "{scene} {effects:?}: {told}");
+        let steps = steps.to_string();
+        let told = stepping::callgrind(program, &[], &[&[scene, &steps, "unread"], effects].concat())?;
         *count = told
             .lines()
             .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
