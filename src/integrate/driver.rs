@@ -100,7 +100,7 @@ const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
 /// How many times the tolerance the ledger of a step may be off, relative to the energy that the step dealt with: heat is
 /// a quadrature beside the motion, and kinks in it are felt less by the motion.
-const LEDGER: f64 = 10.0;
+const LEDGER: f64 = 4.0;
 /// Times in a row that a step is shortened for its ledger alone; what still does not close is no matter of step size.
 const UNBALANCED: u32 = 8;
 /// An error remembered as smaller would make the predictive controller timid.
