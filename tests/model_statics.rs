@@ -3,7 +3,7 @@
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::model::{Inputs, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
 
 const LOAD: f64 = 835.0;
 
@@ -211,4 +211,23 @@ fn an_imposed_spin_starts_quasi_statically() {
     assert!(
         (m.side_speed[0] / expected_left - 1.0).abs() < 1e-9 && (m.side_speed[1] / expected_right - 1.0).abs() < 1e-9
     );
+}
+
+#[test]
+fn half_shafts_start_wound_on_every_level_and_rest() {
+    for level in [GearContact::Ideal, GearContact::Lumped, GearContact::Tooth] {
+        let mut p = Parameters::default();
+        p.scene.gear_contact = level;
+        p.effects.half_shaft = true;
+        (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
+        let mut s = started(&p, &Inputs::default());
+        let stiffness = p.specs.half_shaft.stiffness;
+        for k in 0..20 {
+            let f = *s.forces();
+            for side in 0..2 {
+                assert!((f.twist[side] * stiffness[side] / LOAD - 1.0).abs() < 1e-6, "{level:?}: {:?}", f.twist);
+            }
+            s.advance(1e-3 * f64::from(k + 1)).unwrap();
+        }
+    }
 }

@@ -6,6 +6,7 @@ mod causes;
 mod combinations;
 mod commands;
 mod constants;
+mod cycle;
 mod dry;
 mod effect_specs;
 mod effects;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::causes::{CAUSES, Cause};
 use super::constants::Model;
+use super::cycle::Cycle;
 use super::dry::Hold;
 use super::equations::Equations;
 use super::layout::HOLDS;
@@ -187,43 +188,4 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: boo
         }
     }
     strength.count(fatigue, &spin, roll, &loads, &members);
-}
-
-/// Watches planets pass from one mesh cycle to the next, and keeps the means of shaft torques over whole ones.
-///
-/// Wrapping takes out whole pitches, so that the boundaries of cycles stay where they are.
-struct Cycle {
-    pitch: f64,
-}
-
-/// Tells a cycle gone through, one, from a return to its begin, none.
-const HALF: f64 = 0.5;
-
-impl Cycle {
-    /// Adds the impulses `torque` [N·m·s] of a step of size `h` in which the planet went from one position to another.
-    fn add(&self, bias: &mut Bias, position: [f64; 2], h: f64, torque: [f64; 2]) {
-        let place = position.map(|q| q / self.pitch);
-        let cycle = place.map(libm::floor);
-        let mut left = 1.0;
-        if cycle[0] != cycle[1] {
-            // the part of the step before the boundary belongs to the cycle that ends
-            let boundary = cycle[0].max(cycle[1]);
-            let part = ((boundary - place[0]) / (place[1] - place[0])).clamp(0.0, 1.0);
-            let time = bias.time + part * h;
-            let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
-            // who comes back to where the cycle began has not been through it
-            if bias.whole && (bias.rolled + boundary - place[0]).abs() > HALF {
-                bias.last = Some((sum.map(|x| x / time), time));
-            }
-            *bias = Bias { whole: true, last: bias.last, ..Bias::default() };
-            bias.rolled = place[1] - boundary;
-            left = 1.0 - part;
-        } else {
-            bias.rolled += place[1] - place[0];
-        }
-        bias.time += left * h;
-        for s in 0..2 {
-            bias.sum[s] += left * torque[s];
-        }
-    }
 }
