@@ -11,8 +11,8 @@
 //! The first stage is the evaluation that the driver makes at the start of a step for the ledger, so that the last stage
 //! need not be handed on from step to step.
 
-use super::driver::Statistics;
 use super::method::{Aim, Method, Trial, combine};
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// The method.

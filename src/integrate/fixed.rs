@@ -14,8 +14,9 @@
 //! other, and has to be linearised where it ends. The system shortens an iteration (θ < 1) that would leap deep into a
 //! contact which the linearisation does not know of yet.
 
-use super::driver::{Failure, Flow, Statistics, Step};
+use super::driver::{Failure, Flow, Step};
 use super::linear::Factors;
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// γ = 1 − 1/√2.

@@ -1,6 +1,6 @@
 //! What a one-step method does, whatever its kind: the driver, the step-size control and the tests know no more of it.
 
-use super::driver::Statistics;
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Result of a step that may still be rejected.

@@ -12,14 +12,16 @@ mod radau;
 mod rodas4;
 mod rodas5p;
 mod rosenbrock;
+mod statistics;
 mod system;
 
 pub use dormand_prince::DormandPrince;
-pub use driver::{Control, Effort, Failure, Flow, Statistics, Step, advance};
+pub use driver::{Control, Effort, Failure, Flow, Step, advance};
 pub use erased::{Erased, Object};
 pub use fixed::advance_fixed;
 pub use method::{Aim, Method, Trial};
 pub use radau::Radau;
 pub use rodas4::Rodas4;
 pub use rodas5p::Rodas5P;
+pub use statistics::Statistics;
 pub use system::{Linearisation, Matrix, Point, SecondOrder, in_pairs};

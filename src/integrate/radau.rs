@@ -16,8 +16,8 @@
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
-use super::driver::Statistics;
 use super::method::{Aim, Method, Trial, combine};
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// The method.

@@ -4,9 +4,9 @@
 //! coefficients and the continuous extension (of order 3) of their code RODAS, first set. The error estimate is the
 //! difference to the embedded solution. Smooth stiff forcing (Prothero–Robinson) lowers its order, which Rodas5P mends.
 
-use super::driver::Statistics;
 use super::method::{Aim, Method, Trial};
 use super::rosenbrock::{self, Tableau};
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// The method.

@@ -4,9 +4,9 @@
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
 //! smooth forcing (Prothero–Robinson), which is what a damped mesh rolling through its tooth cycle is.
 
-use super::driver::Statistics;
 use super::method::{Aim, Method, Trial};
 use super::rosenbrock::{self, Tableau};
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// The method.

@@ -8,8 +8,8 @@ use anyhow::Result;
 use super::measure::number;
 use super::{Form, csv};
 use crate::effects::switches::Standing;
-use crate::effects::table::{name, pair};
 use crate::effects::verdict::Verdict;
+use crate::effects::words::{name, pair};
 use crate::effects::{Finding, Findings, Question, examine};
 use crate::scene;
 

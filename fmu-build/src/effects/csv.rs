@@ -5,7 +5,7 @@ use std::io::Write;
 use anyhow::{Context, Result};
 
 use super::change::{Scale, Statistic};
-use super::table::{name, pair, scene};
+use super::words::{name, pair, scene};
 use super::{Finding, Findings, Trial};
 
 /// Writes a line for each effect or level, comparison and output: changes, statistics with and without, costs, verdict.

@@ -21,6 +21,7 @@ pub mod sentences;
 pub mod switches;
 pub mod table;
 pub mod verdict;
+pub mod words;
 
 use anyhow::{Result, anyhow};
 

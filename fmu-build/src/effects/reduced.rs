@@ -8,7 +8,7 @@ use toml_edit::{DocumentMut, InlineTable, Item, Table, Value};
 
 use super::sentences::{accuracy, reduction};
 use super::switches::{Standing, Switch, level_name, level_variable};
-use super::table::{most, percent};
+use super::words::{most, percent};
 use super::{Finding, Findings};
 use crate::places;
 use crate::scene::{Scene, load};

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use super::bench::{FULL, Ratio, WRITTEN};
 use super::change::Change;
 use super::switches::{Standing, Switch, level_name};
-use super::table::{most, percent, three};
 use super::verdict::Verdict;
+use super::words::{most, percent, three};
 use super::{Finding, Findings};
 use crate::scene::units;
 

@@ -1,0 +1,22 @@
+//! What an integrator did.
+
+use serde::{Deserialize, Serialize};
+
+/// Counts of what the integrator did, by cause.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Statistics {
+    /// Accepted steps.
+    pub accepted: u64,
+    /// Steps rejected because the local error was too large.
+    pub rejected_error: u64,
+    /// Steps rejected because a value was not finite or the matrix singular.
+    pub rejected_invalid: u64,
+    /// Steps rejected because their ledger did not close.
+    pub rejected_ledger: u64,
+    /// Steps shortened because the equations switched within them.
+    pub rejected_switch: u64,
+    /// Evaluations of the right-hand side, those of linearisations and of the ledger included.
+    pub evaluations: u64,
+    /// Evaluations of the Jacobian, each with its factorisation.
+    pub jacobians: u64,
+}
