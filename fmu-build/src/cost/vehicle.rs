@@ -2,7 +2,9 @@
 //!
 //! Wheels stand on the shafts of the differential; the tyres' forces, the car's speed and the drive torque are the host's:
 //!
-//!     F = μN tanh(C κ/μN),  κ = (ω r − v)/v,   m v̇ = F_L + F_R,   T_c = T₀ + (T₁ − T₀) sin²(π t/2t₁)
+//! ```text
+//! F = μN tanh(C κ/μN),  κ = (ω r − v)/v,   m v̇ = F_L + F_R,   T_c = T₀ + (T₁ − T₀) sin²(π t/2t₁)
+//! ```
 //!
 //! A tyre that grips is a damper of C r²/v between wheel and car, by far the stiffest thing that crosses the interface; the
 //! teeth do not.
