@@ -145,3 +145,14 @@ fn one_long_step_equals_many_short_ones() {
         }
     }
 }
+
+#[test]
+fn pairs_that_come_and_go_abruptly_leave_the_energy_balanced() {
+    let (mut p, inputs) = turn();
+    p.effects.corner_contact = false;
+    let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
+    s.advance(0.5).unwrap();
+    // each jump is of some tenths of a joule, and there are a dozen of them
+    let residual = s.books().energy_residual;
+    assert!(residual.abs() < 1e-3, "{residual} J");
+}

@@ -155,8 +155,10 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             for s in 0..2 {
                 let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [end[0] - start[0], end[1] - start[1]];
+                // steps may be so short there that a part of one is lost in rounding
+                let at_once = AT_ONCE.max(RESOLVED / change[1].abs());
                 self.teeth.mesh.engagement.jumps(start, change, |t| {
-                    let [before, after] = [t - AT_ONCE, t + AT_ONCE].map(|t| self.mesh_energy(&between(t), g, s));
+                    let [before, after] = [t - at_once, t + at_once].map(|t| self.mesh_energy(&between(t), g, s));
                     energy += self.members(g) * (after - before);
                 });
             }
@@ -167,6 +169,8 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
 /// Part of a step within which a pair that comes or goes has come or gone.
 const AT_ONCE: f64 = 1e-9;
+/// Arc along the line of action that rounding leaves intact [rad].
+const RESOLVED: f64 = 1e-13;
 
 /// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
 #[inline(never)]
