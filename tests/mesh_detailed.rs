@@ -217,7 +217,7 @@ fn without_effects_it_is_the_plain_mesh() {
                         assert!(off < 1e-12, "{kind:?} {damping:?} {state:?} axis {axis}: off {off:e}");
                     }
                     assert!((load.heat[0] - plain.heat).abs() < 1e-12 * scale && load.heat[1] == 0.0);
-                    let energy = both.plain.energy(resting.position);
+                    let energy = both.plain.energy(&resting);
                     assert!((both.energy(None, &state) - energy).abs() < 1e-12 * energy);
                     let mut normal = 0.0;
                     both.plain.loaded(&plain_state(&state), |p, force| {

@@ -28,6 +28,10 @@ fn impact_meshes(damping: f64, corner_contact: bool) -> Vec<(Mesh, Pair)> {
 /// Laws besides IMPACT.
 const OTHERS: [Kind; 4] = [Kind::Power, Kind::Line, Kind::LineWeber, Kind::Lumped];
 
+fn at(position: [f64; 2]) -> MeshState {
+    MeshState { position, ..MeshState::default() }
+}
+
 fn random_state(random: &mut Lcg, pair: &Pair) -> MeshState {
     let depth = random.between(1e-5, DEEPEST);
     let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
@@ -103,7 +107,7 @@ fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)], has_pairs: bool) {
             let scale = force[0].abs();
             let allowed = if smooth(mesh, &state, h, false) { 1e-8 } else { 1e-4 };
             for axis in 0..2 {
-                let gradient = difference(&state, axis, h, false, |s| mesh.energy(s.position));
+                let gradient = difference(&state, axis, h, false, |s| mesh.energy(s));
                 let off = (force[axis] + gradient).abs() / scale;
                 if allowed < 1e-5 {
                     worst = worst.max(off);
@@ -145,7 +149,7 @@ fn force_stays_the_gradient_across_the_ends(meshes: &[(Mesh, Pair)]) {
                         let force = mesh.force(&state).force;
                         let h = 1e-3 * depth;
                         for axis in 0..2 {
-                            let gradient = difference(&state, axis, h, false, |s| mesh.energy(s.position));
+                            let gradient = difference(&state, axis, h, false, |s| mesh.energy(s));
                             // g″ jumps at the end: there the difference is off by g″h/6 times the pair's force, and
                             // next to it by little more
                             let off = (force[axis] + gradient).abs() / force[0].abs();
@@ -296,9 +300,8 @@ fn power_plus_heat_is_what_the_energy_loses(meshes: &[(Mesh, Pair)]) {
             hot += usize::from(load.heat > 0.0);
             let depth = state.position[0].abs() - pair.normal_backlash / 2.0;
             let h = 1e-3 * depth;
-            let gained: f64 = (0..2)
-                .map(|axis| difference(&state, axis, h, false, |s| mesh.energy(s.position)) * state.rate[axis])
-                .sum();
+            let gained: f64 =
+                (0..2).map(|axis| difference(&state, axis, h, false, |s| mesh.energy(s)) * state.rate[axis]).sum();
             let power = load.force[0] * state.rate[0] + load.force[1] * state.rate[1];
             let scale = mesh.force(&MeshState { rate: [0.0; 2], ..state }).force[0].abs() + load.force[0].abs();
             let off = (power + load.heat + gained).abs() / scale;
@@ -340,7 +343,7 @@ fn coasting_is_the_mirror_image_of_driving() {
                 let ((a, da), (b, db)) = (mesh.linearise(&state), mesh.linearise(&mirror));
                 assert_eq!(a.force, b.force.map(|f| -f), "{state:?}");
                 assert_eq!((a.heat, da.by_position, da.by_rate), (b.heat, db.by_position, db.by_rate), "{state:?}");
-                assert_eq!(mesh.energy(state.position), mesh.energy(mirror.position));
+                assert_eq!(mesh.energy(&state), mesh.energy(&mirror));
             }
         }
     }
@@ -353,7 +356,7 @@ fn energy_is_the_same_a_base_pitch_further() {
     for (mesh, pair) in impact_meshes(0.0, true).into_iter().chain(others) {
         for _ in 0..STATES {
             let [q, x] = random_state(&mut random, &pair).position;
-            let (here, next) = (mesh.energy([q, x]), mesh.energy([q, x + pair.base_pitch]));
+            let (here, next) = (mesh.energy(&at([q, x])), mesh.energy(&at([q, x + pair.base_pitch])));
             assert!((here - next).abs() <= 1e-11 * here, "{q} {x}: {here} {next}");
         }
     }
@@ -373,7 +376,7 @@ fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
                 (-20..=20).filter(|&k| (low..=high).contains(&(start + f64::from(k) * pair.base_pitch))).count();
             let Law::Impact(law) = &mesh.law else { panic!("IMPACT was asked for") };
             let expected = count as f64 * law.energy(mesh.cone * approach);
-            let energy = mesh.energy([q, x]);
+            let energy = mesh.energy(&at([q, x]));
             assert!((energy - expected).abs() <= 1e-12 * expected, "{q} {x}: {energy} {expected}");
             // straight along the path: no force by x
             assert_eq!(mesh.force(&MeshState { position: [q, x], rate: [0.0; 2] }).force[1], 0.0);

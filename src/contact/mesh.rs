@@ -7,6 +7,7 @@ use super::damping::Damping;
 use super::impact::{Force, Impact};
 use super::law::{Face, Lumped, PairLaw, Power, Response};
 use super::pairs::{Engagement, Flank, ToothPair};
+use super::solid::mesh::SolidMesh;
 use super::stiffness::{Line, LineWeber};
 use crate::geometry::Pair;
 
@@ -17,6 +18,8 @@ pub struct MeshState {
     pub position: [f64; 2],
     /// Their rates [rad/s].
     pub rate: [f64; 2],
+    /// Planet and side, 0 left and 1 right: solid teeth may be placed differently in each mesh.
+    pub which: [usize; 2],
 }
 
 /// Forces of a mesh conjugate to (q, x) [N·m per rad on the unit sphere], and heat.
@@ -50,11 +53,14 @@ pub enum Law {
     LineWeber(Face<LineWeber>),
     /// One spring per mesh.
     Lumped(Lumped),
+    /// Solid teeth.
+    Solid(Box<SolidMesh>),
 }
 
-/// Evaluates an expression with `law` bound to the law in use and `single` telling whether it knows no tooth pairs.
+/// Evaluates an expression with `law` bound to the law in use and `single` telling whether it knows no tooth pairs, or
+/// another with `solid` bound to a mesh of solid teeth.
 macro_rules! with_law {
-    ($of:expr, $law:ident, $single:ident => $body:expr) => {
+    ($of:expr, $law:ident, $single:ident => $body:expr, $solid:ident => $other:expr) => {
         match $of {
             Law::Impact($law) => {
                 const $single: bool = false;
@@ -76,6 +82,7 @@ macro_rules! with_law {
                 const $single: bool = true;
                 $body
             }
+            Law::Solid($solid) => $other,
         }
     };
 }
@@ -90,6 +97,7 @@ impl Law {
             (Law::Line(law), _) => law.damping = new,
             (Law::LineWeber(law), _) => law.damping = new,
             (Law::Lumped(law), _) => law.damping = new,
+            (Law::Solid(law), _) => law.damping = new,
         }
     }
 }
@@ -138,6 +146,10 @@ impl Mesh {
     /// knows no tooth pairs has one where flanks touch or part.
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
+        // between facets the force of solid teeth is smooth enough to be stepped over
+        if matches!(self.law, Law::Solid(_)) {
+            return None;
+        }
         self.engagement.kink(state.position, state.rate.map(|rate| h * rate))
     }
 
@@ -160,11 +172,11 @@ impl Mesh {
         (rate, law.respond(self.cone * pair.depth, rate, pair.s))
     }
 
-    /// Calls `visit` with each loaded pair and its force.
+    /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth know no such pairs.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
         with_law!(&self.law, law, SINGLE => {
             self.visit::<SINGLE>(state.position, |pair| visit(pair, &self.respond(law, pair, state).1.force));
-        });
+        }, _solid => {});
     }
 
     /// Adds the force of a pair.
@@ -189,7 +201,7 @@ impl Mesh {
                 self.add(law, &mut sum, pair, rate, &response);
             });
             sum
-        })
+        }, solid => solid.force(state))
     }
 
     /// Forces, heat and the forces' exact derivatives.
@@ -222,15 +234,15 @@ impl Mesh {
                 }
             });
             (sum, jacobian)
-        })
+        }, solid => solid.linearise(state))
     }
 
-    /// Elastic energy V [J] at position (q, x).
-    pub fn energy(&self, position: [f64; 2]) -> f64 {
+    /// Elastic energy V [J] at the position of `state`.
+    pub fn energy(&self, state: &MeshState) -> f64 {
         with_law!(&self.law, law, SINGLE => {
             let mut energy = 0.0;
-            self.visit::<SINGLE>(position, |pair| energy += PairLaw::energy(law, self.cone * pair.depth, pair.s));
+            self.visit::<SINGLE>(state.position, |pair| energy += PairLaw::energy(law, self.cone * pair.depth, pair.s));
             energy
-        })
+        }, solid => solid.energy(state.which, state.position))
     }
 }

@@ -11,6 +11,7 @@ mod kinks;
 pub mod law;
 pub mod mesh;
 pub mod pairs;
+pub mod solid;
 mod spec;
 pub mod spring;
 pub mod stiffness;

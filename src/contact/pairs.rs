@@ -140,6 +140,17 @@ impl Engagement {
         self.corner_contact
     }
 
+    /// Kind of contact and place of it, as in [`ToothPair`], of rigid teeth at `s` by the planet's rotation [rad].
+    pub fn rigid_spot(&self, s: f64) -> (Spot, f64) {
+        if s > self.high {
+            (Spot::PlanetTip, s - self.high)
+        } else if s < self.low {
+            (Spot::SideTip, self.low - s)
+        } else {
+            (Spot::Path, s)
+        }
+    }
+
     /// Half the normal backlash [rad].
     #[inline(always)]
     pub fn half_backlash(&self) -> f64 {

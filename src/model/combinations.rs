@@ -2,6 +2,7 @@
 
 use super::effects::left_out;
 use super::parameters::{CarrierDrive, GearContact, Parameters, PlanetSpin, SideDrive};
+use super::solid;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
 use crate::problem::Problem;
@@ -73,7 +74,9 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
         }
     };
     let e = &p.effects;
-    if scene.gear_contact != GearContact::Tooth {
+    if scene.gear_contact == GearContact::Solid {
+        solid::problems(p, &mut needs);
+    } else if scene.gear_contact != GearContact::Tooth {
         let what = "acts on single tooth pairs: it needs scene.gear_contact = tooth";
         needs(e.tooth_errors, "effects.tooth_errors", what);
         needs(e.tooth_fault, "effects.tooth_fault", what);

@@ -84,7 +84,7 @@ impl Model {
         let setting = Setting { parameters, pair: &pair, plan: &plan };
         let gears = match plan.contact {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&setting, &ideal))),
-            GearContact::Lumped | GearContact::Tooth => {
+            GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
                 let laws = Laws::new(parameters, &pair, tooth.slices()).map_err(|p| vec![p])?;
                 Gears::Teeth(Box::new(teeth(&setting, &inertia, laws, tooth)))
             }

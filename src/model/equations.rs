@@ -96,6 +96,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         MeshState {
             position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
             rate: [side * speed - travel_rate, travel_rate],
+            which: [self.teeth.plan.group(g).planet, s],
         }
     }
 
@@ -265,7 +266,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     /// Elastic energy of all meshes [J].
     pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
         in_pairs(G, |g| {
-            let of = |s| self.teeth.mesh.energy(self.mesh_state(at, g, s).position);
+            let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
             self.members(g) * (of(0) + of(1))
         })
     }

@@ -404,7 +404,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     pub(super) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
         let full = &self.teeth.full;
         if !(FULL && full.in_detail) {
-            return self.teeth.mesh.energy(self.mesh_state(at, g, s).position);
+            return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
         }
         let state = self.detailed_state(at, g, s);
         let names = (self.teeth.plan.group(g).planet, s);

@@ -1,6 +1,7 @@
 //! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
 
 use super::parameters::{GearContact, Parameters};
+use super::solid;
 use crate::contact::any_spring::AnySpring;
 use crate::contact::damping::{self, Damping};
 use crate::contact::detailed::Slice;
@@ -50,6 +51,15 @@ impl Laws {
                 spring: AnySpring::Linear(k, centroid),
                 slices: whole(centroid, 1.0),
                 cone: centroid,
+            });
+        }
+        if p.scene.gear_contact == GearContact::Solid {
+            let impact = impact(p, pair);
+            return Ok(Self {
+                law: Law::Solid(Box::new(solid::mesh(p, pair, impact, damping))),
+                spring: AnySpring::Power(impact, pair.mean_cone),
+                slices: whole(pair.mean_cone, 1.0),
+                cone: pair.mean_cone,
             });
         }
         let face = || if slices > 1 { gauss_slices(inner, outer) } else { whole(centroid, moment) };
@@ -125,7 +135,7 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 
 /// Slices of the face by Gauss's rule, weights times R².
-fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
+pub(super) fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
     let (middle, half) = (0.5 * (outer + inner), 0.5 * (outer - inner));
     let points = GAUSS.iter().rev().map(|&(x, w)| (-x, w)).chain(GAUSS);
     points

@@ -5,7 +5,7 @@
 //! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
 
 use super::equations::Equations;
-use crate::contact::mesh::Mesh;
+use crate::contact::mesh::{Law, Mesh};
 use crate::contact::pairs::{Flank, Spot, ToothPair};
 use crate::geometry::Pair;
 use crate::geometry::action::{Action, Contact, Where};
@@ -121,6 +121,28 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     normal: slice.normal,
                     friction: slice.friction,
                     parts: slice.parts,
+                });
+            });
+            return;
+        }
+        if let Law::Solid(solid) = &mesh.law {
+            solid.loaded(&self.mesh_state(at, g, s), |load| {
+                let (spot, place) = mesh.engagement.rigid_spot(load.s);
+                visit(&ToothLoad {
+                    planet,
+                    side: s,
+                    flank: load.flank,
+                    spot,
+                    place,
+                    teeth: teeth(load.flank, load.number),
+                    s: load.s,
+                    cone: load.slice.cone,
+                    share: load.slice.share,
+                    line_load: load.force.total / load.slice.width,
+                    depth: load.depth * load.slice.cone,
+                    normal: load.force.total,
+                    friction: 0.0,
+                    parts: load.parts(),
                 });
             });
             return;

@@ -28,6 +28,7 @@ mod resultants;
 mod rigid;
 mod run;
 mod simulation;
+mod solid;
 mod start;
 mod state;
 #[cfg(feature = "strength")]
@@ -49,7 +50,7 @@ pub use layout::MAX_PLANETS;
 pub use loads::ToothLoad;
 pub use parameters::{
     CarrierDrive, Effects, GearContact, InertiaSpec, Inputs, Material, Method, Parameters, PlanetSpin, Scene,
-    SideDrive, SolverSpec, Start,
+    SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use plan::{Group, Plan};
 pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};

@@ -76,6 +76,8 @@ pub enum GearContact {
     Lumped = 2,
     /// Tooth pair by tooth pair along the path of contact.
     Tooth = 3,
+    /// Solids with faceted flanks, found and pressed together by geometry alone.
+    Solid = 4,
 }
 
 /// State at the start time.
@@ -172,6 +174,15 @@ impl Effects {
     }
 }
 
+/// How solid teeth are cut into facets.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SolidTeeth {
+    /// Facets on the involute of each flank.
+    pub facets: i32,
+    /// Width of the patch over which the greatest overlap is taken, as a multiple of the one that follows from the facets.
+    pub smoothing: f64,
+}
+
 /// Integration method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
@@ -216,6 +227,8 @@ pub struct Parameters {
     pub scene: Scene,
     /// Effects.
     pub effects: Effects,
+    /// Facets of solid teeth.
+    pub solid: SolidTeeth,
     /// Errors of the teeth.
     pub tooth_errors: ToothErrorSpec,
     /// The broken tooth.
@@ -251,6 +264,7 @@ impl Default for Parameters {
                 start: Start::Equilibrium,
             },
             effects: Effects::TEETH,
+            solid: SolidTeeth { facets: 32, smoothing: 1.0 },
             tooth_errors: ToothErrorSpec::default(),
             tooth_fault: ToothFaultSpec {
                 gear: FaultyGear::Planet,

@@ -171,6 +171,7 @@ impl Plan {
             GearContact::Ideal => "ideal gears",
             GearContact::Lumped => "lumped mesh stiffness",
             GearContact::Tooth => "tooth contact",
+            GearContact::Solid => "solid teeth",
         };
         let drive = |imposed| if imposed { "imposed" } else { "free" };
         let side = |s: usize| match (self.side_imposed[s], self.shafts[s]) {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::parameters::Parameters;
+use super::parameters::{GearContact, Parameters};
 use crate::contact::gaps::FlankGaps;
 use crate::contact::tooth_friction::ToothFriction;
 use crate::geometry::Pair;
@@ -25,6 +25,9 @@ pub struct ToothEffects {
 impl ToothEffects {
     /// Effects of the scene.
     pub fn new(p: &Parameters, pair: &Pair) -> Result<Self, Problem> {
+        if p.scene.gear_contact == GearContact::Solid {
+            return Ok(Self { gaps: [None, None], individual: super::solid::is_individual(p), sliced: false });
+        }
         let mut this = Self { gaps: [None, None], individual: false, sliced: p.effects.pin_compliance };
         let _ = (&mut this, pair);
         #[cfg(feature = "tooth_errors")]

@@ -11,5 +11,7 @@ pub fn frac(x: f64) -> f64 {
 
 mod jet;
 mod scalar;
+mod smooth;
 pub use jet::Jet;
 pub use scalar::{Dual, Scalar};
+pub use smooth::{Curved, Partials, Smooth};

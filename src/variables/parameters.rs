@@ -3,6 +3,7 @@
 use super::declare::{integer, real, switch};
 use super::row::{Variability, Variable};
 use super::units;
+use crate::contact::solid::overlap::MOST_FACETS;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::AddendumSystem;
 use crate::model::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
@@ -277,7 +278,8 @@ pub fn rows() -> Vec<Variable> {
         choice!("scene.gear_contact", "GearContact", scene.gear_contact, "Representation of tooth contact",
             GearContact::Ideal => "ideal" "no teeth: Willis' equation as a constraint",
             GearContact::Lumped => "lumped" "one spring per mesh",
-            GearContact::Tooth => "tooth" "tooth pair by tooth pair along the path of contact"),
+            GearContact::Tooth => "tooth" "tooth pair by tooth pair along the path of contact",
+            GearContact::Solid => "solid" "solids with faceted flanks, pressed together by geometry alone"),
         choice!("scene.start", "Start", scene.start, "State at the start time",
             Start::Equilibrium => "equilibrium" "meshes preloaded by the loads at the start time",
             Start::Rolling => "rolling" "speeds by Willis' equation, teeth in mid-gap, unloaded",
@@ -327,6 +329,21 @@ pub fn rows() -> Vec<Variable> {
             (1e-7, 1e-2),
             |p| &mut p.solver.fixed_step,
             "Longest step of the method with fixed steps; a communication step is divided into equal ones",
+        ),
+        integer(
+            "solid.facets",
+            (2, MOST_FACETS as i32),
+            |p| &mut p.solid.facets,
+            "Facets on the involute of each flank of solid teeth",
+        ),
+        real(
+            "solid.smoothing",
+            units::ONE,
+            None,
+            (0.02, 10.0),
+            |p| &mut p.solid.smoothing,
+            "Width of the patch over which the greatest overlap of solid teeth is taken: 1 follows the facets, less comes \
+             near to the deepest point alone",
         ),
         switch(
             "solver.merge_planets",

@@ -1,0 +1,81 @@
+//! Faceted flanks of one pair: drive flanks, the coast ones being their mirror images.
+//!
+//! Directions are those of a tooth of its own gear: first away from the gear's axis along the middle of the tooth, second
+//! the way in which the carrier turns forward, third along the axis from apex to heel. A facet spans the angle between two
+//! neighbouring rays; all rays of a gear meet in its apex, so that a section at any cone distance is the same polygon.
+
+use nalgebra::Vector3;
+
+use crate::geometry::Pair;
+use crate::geometry::involute::Gear;
+use crate::numeric::{PI, cos, sin};
+
+/// A ray of a flank.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray {
+    /// Its direction.
+    pub direction: Vector3<f64>,
+    /// Unit normal of the flank there, from the planet into the side gear.
+    pub normal: Vector3<f64>,
+}
+
+/// Flanks of a pair.
+#[derive(Clone, Debug)]
+pub struct Flanks {
+    /// Rays of planet and side gear; along both the planet's root and the side gear's tip come last.
+    pub rays: [Vec<Ray>; 2],
+    /// Greatest height of the flanks' arcs over their facets, planet and side gear [rad].
+    pub sagitta: [f64; 2],
+}
+
+impl Flanks {
+    /// Flanks of `pair` with `facets` on each involute.
+    pub fn new(pair: &Pair, facets: usize) -> Self {
+        let [p, s] = &pair.gears;
+        let planet = polars(p, facets).into_iter().rev().map(|polar| ray(p, polar, 1.0)).collect();
+        let into_side = |r: Ray| Ray { normal: -r.normal, ..r };
+        let side = polars(s, facets).into_iter().map(|polar| into_side(ray(s, polar, -1.0))).collect();
+        Self { rays: [planet, side], sagitta: [sagitta(p, facets, 1.0), sagitta(s, facets, -1.0)] }
+    }
+}
+
+/// Polar angles of the rays of a flank from its root to its tip [rad]: equal steps of roll on the involute, and one facet
+/// below the base circle.
+fn polars(gear: &Gear, facets: usize) -> Vec<f64> {
+    let (start, end) = (gear.action_arc(gear.root), gear.action_arc(gear.tip));
+    let step = (end - start) / facets as f64;
+    let below = (gear.root < gear.base).then_some(gear.root);
+    below.into_iter().chain((0..=facets).map(|i| gear.polar_at(start + step * i as f64))).collect()
+}
+
+/// Ray of the flank that looks forward (`side` = 1) or backward (−1), its normal out of the material.
+fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
+    let direction = gear.flank_point(polar, side);
+    // below the base circle the flank is a meridian
+    let normal = if polar < gear.base {
+        let azimuth = side * gear.half_angle(polar);
+        Vector3::new(-sin(azimuth), cos(azimuth), 0.0) * side
+    } else {
+        gear.flank_normal(polar, side)
+    };
+    Ray { direction, normal }
+}
+
+/// Greatest height of the involute over its facets [rad].
+fn sagitta(gear: &Gear, facets: usize, side: f64) -> f64 {
+    let (start, end) = (gear.action_arc(gear.root), gear.action_arc(gear.tip));
+    let step = (end - start) / facets as f64;
+    let point = |i: f64| gear.flank_point(gear.polar_at(start + step * i), side);
+    (0..facets)
+        .map(|i| {
+            let i = i as f64;
+            let normal = point(i).cross(&point(i + 1.0)).normalize();
+            normal.dot(&point(i + 0.5)).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Angle from the middle of a gap to the middle of the tooth ahead [rad].
+pub fn half_pitch(gear: &Gear) -> f64 {
+    PI / f64::from(gear.teeth)
+}

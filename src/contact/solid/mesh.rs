@@ -1,0 +1,309 @@
+//! A mesh of solid teeth: the potential of all pairs and sections that overlap.
+//!
+//!   V(q, x) = Σ_k Σ_j ω_j U(R_m p_kj(q, x)),   Σ_j ω_j = 1
+//!
+//! over pairs k and sections j across the face, p the overlap of a section as an arc ([`super::overlap`]) and U of the
+//! law of a pair (IMPACT): slices of a straight bevel tooth are similar, so that the load per width depends on the arc
+//! alone. With ω_j ∝ R_j aligned flanks load the face evenly; then the resultant acts at R_m and V is that of tooth pairs
+//! on the path of contact. Of misaligned or crowned flanks every section carries what its own overlap calls for.
+
+use nalgebra::Vector3;
+
+use super::candidates::Candidates;
+use super::flank::Flanks;
+use super::overlap::{Section, Softness};
+use super::pose::{Displacement, Placement};
+use crate::contact::damping::Damping;
+use crate::contact::impact::{Force, Impact};
+use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
+use crate::contact::pairs::Flank;
+use crate::geometry::Pair;
+use crate::numeric::{Curved, Dual, Smooth, TAU, sqrt, tan};
+
+/// A section across the face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slice {
+    /// Cone distance R_j [m].
+    pub cone: f64,
+    /// ω_j.
+    pub share: f64,
+    /// Width that it stands for [m].
+    pub width: f64,
+    /// Material missing there on the pair by crowning [m].
+    pub relief: f64,
+}
+
+/// What defines the solids.
+#[derive(Clone, Debug)]
+pub struct SolidSpec {
+    /// Facets per flank.
+    pub facets: usize,
+    /// Multiple of the usual softness.
+    pub smoothing: f64,
+    /// Sections across the face; one at R_m where all are alike.
+    pub slices: Vec<Slice>,
+    /// Displacement of each planet against the left and right side gear.
+    pub displaced: Vec<[Displacement; 2]>,
+}
+
+/// ε in heights of arc, so that the patch has the half-width of most of a facet and hands over from one to the next
+/// without a ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
+const SOFTNESS: f64 = 2.0;
+
+/// A loaded section of one pair.
+#[derive(Clone, Copy, Debug)]
+pub struct SolidLoad {
+    /// Flank of the planet.
+    pub flank: Flank,
+    /// Number of the pair, as tooth pairs on the path of contact are counted.
+    pub number: i64,
+    /// Place by the planet's rotation [rad].
+    pub s: f64,
+    /// The section.
+    pub slice: Slice,
+    /// Its overlap as an arc [rad].
+    pub depth: f64,
+    /// Force.
+    pub force: Force,
+    /// Where on the flank: unit vector in parts along the planet's axis, the side gear's and across.
+    pub point: [f64; 3],
+    /// Normal into the side gear, in the same parts.
+    pub normal: [f64; 3],
+}
+
+impl SolidLoad {
+    /// Parts of the normal as bearings see them: along the planet's axis and the side gear's, away from the apex, and along
+    /// the rotation.
+    pub fn parts(&self) -> [f64; 3] {
+        // the planet is pushed back, the side gear on
+        let [planet, side, across] = self.normal;
+        [-planet, side, across]
+    }
+}
+
+/// A mesh of solid teeth.
+#[derive(Clone, Debug)]
+pub struct SolidMesh {
+    elastic: Impact,
+    /// Damping.
+    pub damping: Damping,
+    cone: f64,
+    flanks: Flanks,
+    candidates: Candidates,
+    soft: Softness,
+    slices: Vec<Slice>,
+    /// Drive and mirrored coast flank of each planet with each side.
+    placements: Vec<[[Placement; 2]; 2]>,
+    half_backlash: f64,
+    base_pitch: f64,
+    centred: f64,
+    /// Approach, less than nothing, from which flanks can touch all the same [rad].
+    slack: f64,
+}
+
+impl SolidMesh {
+    /// Mesh of `pair` whose planets all may be displaced; `slack` [m] bounds what a displacement can close.
+    pub fn new(pair: &Pair, spec: &SolidSpec, elastic: Impact, damping: Damping, slack: f64) -> Self {
+        let flanks = Flanks::new(pair, spec.facets);
+        let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
+        let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
+        let soft = Softness { width, measure: sqrt(TAU * relative * width) };
+        let line = pair.line_of_action();
+        // what the soft maximum can exceed the greatest overlap by, at most
+        let ahead = width * libm::log(1.0 + line / soft.measure);
+        let placements = spec
+            .displaced
+            .iter()
+            .map(|sides| sides.map(|d| [Placement::new(pair, &d), Placement::new(pair, &d.mirrored())]))
+            .collect();
+        Self {
+            elastic,
+            damping,
+            cone: pair.mean_cone,
+            candidates: Candidates::new(pair, &flanks, slack + ahead * pair.outer_cone),
+            flanks,
+            soft,
+            slices: spec.slices.clone(),
+            placements,
+            half_backlash: pair.normal_backlash / 2.0,
+            base_pitch: pair.base_pitch,
+            centred: pair.centred_position(),
+            slack: slack / pair.inner_cone + ahead,
+        }
+    }
+
+    /// Softness ε of the greatest overlap [rad].
+    pub fn softness(&self) -> f64 {
+        self.soft.width
+    }
+
+    /// Visits each section of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
+    #[inline]
+    fn sections<T: Smooth>(
+        &self,
+        which: [usize; 2],
+        [q, x]: [f64; 2],
+        variable: impl Fn(f64, usize, f64) -> T,
+        mut visit: impl FnMut(&Near, &Slice, T),
+    ) {
+        for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
+            let (q, x) = (sign * q, sign * x);
+            if -q - self.half_backlash + self.slack <= 0.0 {
+                continue;
+            }
+            // gears that have turned on by whole pitches look the same
+            let turns = libm::round(x / self.base_pitch);
+            let x = x - turns * self.base_pitch;
+            let (tq, tx) = (variable(q, 0, sign), variable(x, 1, sign));
+            let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
+            self.candidates.near(placement.between(q, x), |k| {
+                let near = Near {
+                    flank,
+                    placement,
+                    number: (-turns as i64).saturating_add(i64::from(k)),
+                    s: self.centred + x + f64::from(k) * self.base_pitch,
+                    q,
+                    x,
+                    k,
+                };
+                let poses = placement.poses(tq, tx, k);
+                for slice in &self.slices {
+                    if let Some(depth) = self.section(placement, slice).depth(&poses, &self.soft) {
+                        visit(&near, slice, depth);
+                    }
+                }
+            });
+        }
+    }
+
+    fn section(&self, placement: &Placement, slice: &Slice) -> Section<'_> {
+        let [planet, side] = &self.flanks.rays;
+        Section {
+            rays: [planet, side],
+            relief: slice.relief / slice.cone,
+            offset: placement.offset().map(|w| w / slice.cone),
+        }
+    }
+
+    /// Force of a section that overlaps by `depth` [rad], as if the whole face were in its state.
+    fn respond(&self, depth: f64, rate: f64) -> Force {
+        let d = self.cone * depth;
+        let elastic = self.elastic.force(d, 0.0);
+        self.damping.apply(elastic.elastic, elastic.by_depth, d, self.cone * rate)
+    }
+
+    /// Forces and heat of the mesh of planet and side `state.which`.
+    pub fn force(&self, state: &MeshState) -> MeshForce {
+        let mut sum = MeshForce::default();
+        let [dq, dx] = state.rate;
+        self.sections(state.which, state.position, slope, |_, slice, p: Dual<2>| {
+            if p.v > 0.0 {
+                let rate = p.d[0] * dq + p.d[1] * dx;
+                let force = self.respond(p.v, rate);
+                let torque = slice.share * self.cone * force.total;
+                sum.force[0] -= torque * p.d[0];
+                sum.force[1] -= torque * p.d[1];
+                sum.heat += slice.share * (force.total - force.elastic) * self.cone * rate;
+            }
+        });
+        sum
+    }
+
+    /// Forces, heat and their exact derivatives.
+    pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+        let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
+        let [dq, dx] = state.rate;
+        self.sections(state.which, state.position, curve, |_, slice, p: Curved| {
+            if p.v <= 0.0 {
+                return;
+            }
+            let rate = p.d[0] * dq + p.d[1] * dx;
+            let f = self.respond(p.v, rate);
+            let r = self.cone;
+            let torque = slice.share * r * f.total;
+            sum.heat += slice.share * (f.total - f.elastic) * r * rate;
+            let hessian = [[p.dd[0], p.dd[1]], [p.dd[1], p.dd[2]]];
+            for b in 0..2 {
+                sum.force[b] -= torque * p.d[b];
+                let along = f.by_depth * p.d[b] + f.by_rate * (hessian[b][0] * dq + hessian[b][1] * dx);
+                for a in 0..2 {
+                    by.by_position[a][b] -= slice.share * r * (r * along * p.d[a] + f.total * hessian[a][b]);
+                    by.by_rate[a][b] -= slice.share * r * r * f.by_rate * p.d[a] * p.d[b];
+                }
+            }
+        });
+        (sum, by)
+    }
+
+    /// Elastic energy V [J] of the mesh `which` at position (q, x).
+    pub fn energy(&self, which: [usize; 2], position: [f64; 2]) -> f64 {
+        let mut energy = 0.0;
+        self.sections(
+            which,
+            position,
+            |v, _, _| v,
+            |_, slice, p: f64| {
+                if p > 0.0 {
+                    energy += slice.share * self.elastic.energy(self.cone * p);
+                }
+            },
+        );
+        energy
+    }
+
+    /// Shows every loaded section.
+    pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
+        let [dq, dx] = state.rate;
+        self.sections(state.which, state.position, slope, |near, slice, p: Dual<2>| {
+            if p.v <= 0.0 {
+                return;
+            }
+            let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
+            let force = Force { total: slice.share * whole.total, elastic: slice.share * whole.elastic, ..whole };
+            let poses = near.placement.poses(near.q, near.x, near.k);
+            if let Some(patch) = self.section(near.placement, slice).patch(&poses, &self.soft) {
+                let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
+                let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
+                let parts = |w: [f64; 3]| {
+                    let [planet, side, across] = near.placement.parts(w);
+                    [planet, side, sign * across]
+                };
+                visit(&SolidLoad {
+                    flank: near.flank,
+                    number: near.number,
+                    s: near.s,
+                    slice: *slice,
+                    depth: p.v,
+                    force,
+                    point: parts(point.into()),
+                    normal: parts(patch.normal),
+                });
+            }
+        });
+    }
+}
+
+/// A pair of flanks near each other, in the mirror image in which it is a drive flank.
+struct Near<'a> {
+    flank: Flank,
+    placement: &'a Placement,
+    number: i64,
+    s: f64,
+    q: f64,
+    x: f64,
+    k: i32,
+}
+
+/// Variable `i` with its slope.
+fn slope(v: f64, i: usize, slope: f64) -> Dual<2> {
+    let mut dual = Dual { v, d: [0.0; 2] };
+    dual.d[i] = slope;
+    dual
+}
+
+/// Variable `i` with its slope and no curvature.
+fn curve(v: f64, i: usize, slope: f64) -> Curved {
+    let mut curved = Curved::constant(v);
+    curved.d[i] = slope;
+    curved
+}
