@@ -1,7 +1,8 @@
 //! Surface of a whole gear: closed, of triangles that share their vertices, counter-clockwise seen from outside.
 //!
 //! The outline of each tooth is swept along the rays through the apex from R_i to R_e. Each end is closed down to the
-//! circle of the bore in the plane z = R cosδ_f, as the solids of `geometry::mass` are; without a bore, to the axis.
+//! circle of the bore in the plane z = R cosδ_f; without a bore, to the axis. Either straight from the outline, as the
+//! solids of `geometry::mass` are, or from the root circle, with the ends of the teeth on the back of the body.
 //! Lengthwise crowning takes C ((R − R_m)/(b/2))² off the flanks, along their normals (ISO 21771).
 
 use nalgebra::Vector3;
@@ -20,33 +21,60 @@ pub struct GearSolid {
     pub triangles: Vec<[u32; 3]>,
 }
 
+/// How the ends of a gear are closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ends {
+    /// Straight lines from the outline to the bore: the solid that inertias are taken from. A tooth goes on as a groove
+    /// down to the bore at the heel, as a ridge at the toe.
+    #[default]
+    Ruled,
+    /// Each tooth ends on the sphere, by straight lines down to the root circle; within that the end is flat.
+    Flat,
+}
+
+/// How finely a gear is drawn, and what of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Facets per flank across the tooth.
+    pub facets: usize,
+    /// Strips along the tooth.
+    pub strips: usize,
+    /// What is missing from the flanks at both ends of the face relative to its middle [m]: little beside the tip land's
+    /// width, and seen from four strips on.
+    pub crowning: f64,
+    /// How the ends are closed.
+    pub ends: Ends,
+}
+
 impl GearSolid {
     /// Gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, with `facets` per flank across the tooth and
-    /// `strips` along it. The pair must be free of `geometry::checks::errors`.
+    /// `strips` along it, not crowned and with ruled ends. The pair must be free of `geometry::checks::errors`.
     pub fn new(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize, strips: usize) -> Self {
-        Self::crowned(pair, spec, gear, facets, strips, 0.0)
+        Self::shaped(pair, spec, gear, &Shape { facets, strips, crowning: 0.0, ends: Ends::Ruled })
     }
 
-    /// The same with `crowning` [m] missing from the flanks at both ends of the face relative to its middle: little
-    /// beside the tip land's width, and seen from four strips on.
-    pub fn crowned(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize, strips: usize, crowning: f64) -> Self {
+    /// The same in another shape.
+    pub fn shaped(pair: &Pair, spec: &GearSpec, gear: usize, shape: &Shape) -> Self {
         let bore = [spec.planet_bore, spec.side_bore][gear];
-        let strips = strips.max(1);
+        let strips = shape.strips.max(1);
         let gear = &pair.gears[gear];
-        let outline = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, facets);
+        let outline = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, shape.facets);
         let rows: Vec<Row> = (0..=strips)
             .map(|k| {
                 let share = k as f64 / strips as f64;
                 let cone = pair.inner_cone + (pair.outer_cone - pair.inner_cone) * share;
-                Row { cone, missing: crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
+                Row { cone, missing: shape.crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
             })
             .collect();
-        build(gear, &outline, &rows, bore)
+        Surface::new(gear, &outline).build(&rows, bore, shape.ends)
     }
 }
 
 /// Share of a pitch within which nodes, one above the other on the outline, have one vertex of the hub between them.
 const UPRIGHT: f64 = 1e-5;
+
+/// Polar angle [rad] above the root circle up to which a node stands on it.
+const ROUNDING: f64 = 1e-9;
 
 /// Nodes of all teeth at one cone distance.
 struct Row {
@@ -70,73 +98,112 @@ impl Row {
     }
 }
 
-fn build(gear: &Gear, outline: &Outline, rows: &[Row], bore: f64) -> GearSolid {
-    // the last node of a tooth is the first one of the next
-    let nodes = &outline.nodes[..outline.nodes.len() - 1];
-    let teeth = gear.teeth as usize;
-    let around = (teeth * nodes.len()) as u32;
-    let mut vertices = Vec::with_capacity((rows.len() + 2) * around as usize);
-    for row in rows {
-        for tooth in 0..teeth {
-            // a node in the middle of a gap belongs to two flanks at once and stays
-            let whole = Row { missing: 0.0, ..*row };
-            let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
-            vertices.extend(nodes.iter().enumerate().map(place));
-        }
-    }
-    // nodes on a meridian, and at the foot of an involute, would make slivers with a vertex each
-    let mut azimuths: Vec<f64> = Vec::with_capacity(nodes.len());
-    let hub: Vec<u32> = nodes
-        .iter()
-        .map(|node| {
-            if azimuths.last().is_none_or(|last| node.azimuth - last > UPRIGHT * gear.tooth_pitch()) {
-                azimuths.push(node.azimuth);
+/// What a gear's surface is made from.
+struct Surface<'a> {
+    gear: &'a Gear,
+    /// Nodes of a tooth: its last one is the first of the next.
+    nodes: &'a [Node],
+    /// Azimuths of a tooth's vertices on the circles within the outline [rad], and the node on the root circle there.
+    columns: Vec<(f64, Option<u32>)>,
+    /// Column of each node.
+    column: Vec<u32>,
+}
+
+impl<'a> Surface<'a> {
+    fn new(gear: &'a Gear, outline: &'a Outline) -> Self {
+        let nodes = &outline.nodes[..outline.nodes.len() - 1];
+        // nodes on a meridian, and at the foot of an involute, would make slivers with a column each
+        let mut columns: Vec<(f64, Option<u32>)> = Vec::with_capacity(nodes.len());
+        let mut column = Vec::with_capacity(nodes.len());
+        for (i, node) in nodes.iter().enumerate() {
+            let root = (node.polar <= gear.root + ROUNDING).then_some(i as u32);
+            match columns.last_mut() {
+                Some((azimuth, own))
+                    if node.azimuth - *azimuth <= UPRIGHT * gear.tooth_pitch() && (own.is_none() || root.is_none()) =>
+                {
+                    *own = own.or(root);
+                }
+                _ => columns.push((node.azimuth, root)),
             }
-            azimuths.len() as u32 - 1
-        })
-        .collect();
-    let mut ring = |cone: f64| {
-        let (first, z) = (vertices.len() as u32, cone * cos(gear.root));
-        if bore <= 0.0 {
-            vertices.push(Vector3::new(0.0, 0.0, z));
-            return vec![first; around as usize];
+            column.push(columns.len() as u32 - 1);
         }
-        let per_tooth = azimuths.len() as u32;
+        Self { gear, nodes, columns, column }
+    }
+
+    fn build(&self, rows: &[Row], bore: f64, ends: Ends) -> GearSolid {
+        let (gear, teeth) = (self.gear, self.gear.teeth as usize);
+        let around = (teeth * self.nodes.len()) as u32;
+        let mut vertices = Vec::with_capacity((rows.len() + 4) * around as usize);
+        for row in rows {
+            for tooth in 0..teeth {
+                // a node in the middle of a gap belongs to two flanks at once and stays
+                let whole = Row { missing: 0.0, ..*row };
+                let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
+                vertices.extend(self.nodes.iter().enumerate().map(place));
+            }
+        }
+        let row = |k: usize| (0..around).map(|i| k as u32 * around + i).collect::<Vec<u32>>();
+        let last = rows.len() - 1;
+        let ends = [0, last].map(|k| {
+            let (cone, outline) = (rows[k].cone, row(k));
+            let collar = match ends {
+                Ends::Ruled => outline.clone(),
+                Ends::Flat => self.ring(&mut vertices, cone * sin(gear.root), cone, &outline),
+            };
+            (outline, collar, self.ring(&mut vertices, bore / 2.0, cone, &[]))
+        });
+        let mut triangles = Vec::with_capacity(2 * (rows.len() + 4) * around as usize);
+        for k in 1..rows.len() {
+            band(&mut triangles, &row(k), &row(k - 1));
+        }
+        let [(toe, toe_collar, toe_hub), (heel, heel_collar, heel_hub)] = ends;
+        band(&mut triangles, &heel_collar, &heel);
+        band(&mut triangles, &heel_hub, &heel_collar);
+        band(&mut triangles, &toe_collar, &toe_hub);
+        band(&mut triangles, &toe, &toe_collar);
+        if bore > 0.0 {
+            band(&mut triangles, &toe_hub, &heel_hub);
+        }
+        GearSolid { vertices, triangles }
+    }
+
+    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and tells its vertex for each node. Nodes of
+    /// `outline`, if it has any, that stand on the root circle are taken as they are. A circle of no radius is one vertex.
+    fn ring(&self, vertices: &mut Vec<Vector3<f64>>, radius: f64, cone: f64, outline: &[u32]) -> Vec<u32> {
+        let (gear, z) = (self.gear, cone * cos(self.gear.root));
+        let teeth = gear.teeth as usize;
+        if radius <= 0.0 {
+            vertices.push(Vector3::new(0.0, 0.0, z));
+            return vec![vertices.len() as u32 - 1; teeth * self.nodes.len()];
+        }
+        let mut ring = Vec::with_capacity(teeth * self.nodes.len());
         for tooth in 0..teeth {
             let turn = gear.tooth_pitch() * tooth as f64;
-            vertices.extend(azimuths.iter().map(|a| {
-                let a = a + turn;
-                Vector3::new(bore / 2.0 * cos(a), bore / 2.0 * sin(a), z)
-            }));
+            let own = |node: &u32| outline.get(tooth * self.nodes.len() + *node as usize).copied();
+            let numbers: Vec<u32> = self
+                .columns
+                .iter()
+                .map(|(azimuth, root)| {
+                    root.as_ref().and_then(own).unwrap_or_else(|| {
+                        let a = azimuth + turn;
+                        vertices.push(Vector3::new(radius * cos(a), radius * sin(a), z));
+                        vertices.len() as u32 - 1
+                    })
+                })
+                .collect();
+            ring.extend(self.column.iter().map(|&c| numbers[c as usize]));
         }
-        (0..teeth as u32).flat_map(|tooth| hub.iter().map(move |h| first + tooth * per_tooth + h)).collect()
-    };
-    let [toe_hub, heel_hub] = [0, rows.len() - 1].map(|end| ring(rows[end].cone));
-    let row = |k: usize| (0..around).map(|i| k as u32 * around + i).collect::<Vec<u32>>();
-    let mut triangles = Vec::with_capacity(2 * (rows.len() + 2) * around as usize);
-    for k in 1..rows.len() {
-        band(&mut triangles, &row(k), &row(k - 1));
+        ring
     }
-    band(&mut triangles, &heel_hub, &row(rows.len() - 1));
-    band(&mut triangles, &row(0), &toe_hub);
-    if bore > 0.0 {
-        band(&mut triangles, &toe_hub, &heel_hub);
-    }
-    GearSolid { vertices, triangles }
 }
 
 /// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
-/// Where neighbours on a ring are one and the same vertex, a triangle takes the place of two.
+/// Where two corners of a triangle are one and the same vertex there is none.
 fn band(triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
     for (i, (&u, &l)) in upper.iter().zip(lower).enumerate() {
         let next = (i + 1) % upper.len();
         let (u2, l2) = (upper[next], lower[next]);
-        let [first, second] = [[l, l2, u2], [l, u2, u]];
-        if l != l2 {
-            triangles.push(first);
-        }
-        if u != u2 {
-            triangles.push(second);
-        }
+        let pair = [[l, l2, u2], [l, u2, u]];
+        triangles.extend(pair.into_iter().filter(|&[a, b, c]| a != b && b != c && c != a));
     }
 }

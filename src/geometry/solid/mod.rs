@@ -6,7 +6,7 @@ pub mod outline;
 mod properties;
 
 pub use fillet::Foot;
-pub use manifold::GearSolid;
+pub use manifold::{Ends, GearSolid, Shape};
 pub use outline::{Node, Outline, Part};
 
 #[cfg(test)]

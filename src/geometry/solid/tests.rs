@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::{GearSolid, Outline, Part};
+use super::{Ends, GearSolid, Outline, Part, Shape};
 use crate::geometry::involute::{Gear, direction};
 use crate::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
@@ -61,9 +61,12 @@ fn every_surface_is_closed_consistently_oriented_and_without_degenerate_triangle
         for (gear, bore) in [spec.planet_bore, spec.side_bore].into_iter().enumerate() {
             for facets in [1, 2, 4, 7, 32] {
                 for strips in [1, 3] {
-                    for crowning in [0.0, 2e-5] {
-                        let solid = GearSolid::crowned(&pair, &spec, gear, facets, strips, crowning);
-                        check_manifold(&solid, bore > 0.0, &format!("{name} {gear} {facets} {strips} {crowning}"));
+                    for (crowning, ends) in
+                        [(0.0, Ends::Ruled), (2e-5, Ends::Ruled), (0.0, Ends::Flat), (2e-5, Ends::Flat)]
+                    {
+                        let shape = Shape { facets, strips, crowning, ends };
+                        let solid = GearSolid::shaped(&pair, &spec, gear, &shape);
+                        check_manifold(&solid, bore > 0.0, &format!("{name} {gear} {shape:?}"));
                     }
                 }
             }
@@ -205,14 +208,15 @@ fn ring(gear: &Gear, wanted: f64, f: &dyn Fn(f64) -> f64) -> f64 {
     2.0 * f64::from(gear.teeth) * (lands + flank + fillet)
 }
 
-/// Volume [m³] in closed form but for the integral over the outline: ends are ruled between bore and outline.
-fn volume(gear: &Gear, wanted: f64, inner: f64, outer: f64, bore: f64) -> f64 {
-    let height = gear.root.cos();
-    // between axis and outline a sixth of R³ h r², of which the hub takes what lies within the bore
+/// Volume [m³] in closed form but for the integral over the outline.
+fn volume(gear: &Gear, wanted: f64, [inner, outer]: [f64; 2], bore: f64, ends: Ends) -> f64 {
+    let (height, root) = (gear.root.cos(), gear.root.sin());
     let end = |cone: f64| {
-        let b = bore / 2.0 / cone;
-        let above = |r: f64| (r + b) * (height * r - b * (1.0 - r * r).sqrt());
-        cone.powi(3) / 6.0 * ring(gear, wanted, &above)
+        let hub = bore / 2.0 / cone;
+        // lines from the outline to the circle of radius b R at the height h R: seen from the apex (r + b)(h r − b z)/6
+        let ruled = |b: f64| ring(gear, wanted, &|r| (r + b) * (height * r - b * (1.0 - r * r).sqrt())) / 6.0;
+        let flat = std::f64::consts::PI / 3.0 * height * (root * root - hub * hub);
+        cone.powi(3) * if ends == Ends::Flat { ruled(root) + flat } else { ruled(hub) }
     };
     let wall = std::f64::consts::TAU / 3.0 * (bore / 2.0).powi(2) * height * (outer - inner);
     end(outer) - end(inner) - wall
@@ -223,13 +227,18 @@ fn volume_converges_with_second_order_to_the_integral_over_the_outline() {
     for (name, spec) in specs() {
         let pair = Pair::new(&spec);
         for (i, bore) in [spec.planet_bore, spec.side_bore].into_iter().enumerate() {
-            let gear = &pair.gears[i];
-            let exact = volume(gear, fillet(&spec, &pair), pair.inner_cone, pair.outer_cone, bore);
-            let error = |facets| GearSolid::new(&pair, &spec, i, facets, 1).volume() / exact - 1.0;
-            let (coarse, fine) = (error(32), error(64));
-            let order = (coarse / fine).log2();
-            assert!((1.8..2.2).contains(&order), "{name} {i}: order {order} {coarse:e} {fine:e}");
-            assert!(error(256).abs() < 2e-5, "{name} {i}: {:e}", error(256));
+            for ends in [Ends::Ruled, Ends::Flat] {
+                let cones = [pair.inner_cone, pair.outer_cone];
+                let exact = volume(&pair.gears[i], fillet(&spec, &pair), cones, bore, ends);
+                let error = |facets| {
+                    let shape = Shape { facets, strips: 1, crowning: 0.0, ends };
+                    GearSolid::shaped(&pair, &spec, i, &shape).volume() / exact - 1.0
+                };
+                let (coarse, fine) = (error(32), error(64));
+                let order = (coarse / fine).log2();
+                assert!((1.8..2.2).contains(&order), "{name} {i} {ends:?}: order {order} {coarse:e} {fine:e}");
+                assert!(error(256).abs() < 2e-5, "{name} {i} {ends:?}: {:e}", error(256));
+            }
         }
     }
 }
@@ -279,8 +288,8 @@ fn crowning_takes_the_parabola_off_the_flanks_and_leaves_their_middle() {
     let spec = GearSpec::default();
     let pair = Pair::new(&spec);
     let crowning = 2e-5;
-    let plain = GearSolid::new(&pair, &spec, 1, 8, 4);
-    let crowned = GearSolid::crowned(&pair, &spec, 1, 8, 4, crowning);
+    let shape = |crowning| Shape { facets: 8, strips: 4, crowning, ends: Ends::Flat };
+    let [plain, crowned] = [0.0, crowning].map(|c| GearSolid::shaped(&pair, &spec, 1, &shape(c)));
     assert_eq!(plain.triangles, crowned.triangles);
     let mut moved = 0;
     for (a, b) in plain.vertices.iter().zip(&crowned.vertices) {
