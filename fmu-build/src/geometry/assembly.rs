@@ -110,7 +110,6 @@ mod tests {
                 planet_teeth,
                 side_teeth,
                 planet_count,
-                root_fillet: 0.2,
                 ..GearSpec::default()
             })
             .to_vec()
@@ -188,7 +187,7 @@ mod tests {
 
     #[test]
     fn side_gears_that_do_not_follow_run_into_the_planets() {
-        let spec = GearSpec { root_fillet: 0.2, ..GearSpec::default() };
+        let spec = GearSpec::default();
         let pair = Pair::new(&spec);
         let outlines = [0, 1].map(|i| Outline::new(&pair.gears[i], 0.02, 200).nodes);
         for sign in [1.0, -1.0] {
