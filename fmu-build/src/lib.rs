@@ -9,6 +9,7 @@ pub mod documentation;
 pub mod effects;
 pub mod evaluation;
 pub mod foreign;
+pub mod geometry;
 pub mod marked;
 pub mod off;
 pub mod package;
