@@ -3,7 +3,6 @@
 use super::declare::{integer, real, switch};
 use super::row::{Variability, Variable};
 use super::units;
-use crate::contact::solid::overlap::MOST_FACETS;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::AddendumSystem;
 use crate::model::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
@@ -332,7 +331,7 @@ pub fn rows() -> Vec<Variable> {
         ),
         integer(
             "solid.facets",
-            (2, MOST_FACETS as i32),
+            (2, 1024),
             |p| &mut p.solid.facets,
             "Facets on the involute of each flank of solid teeth",
         ),

@@ -1,5 +1,10 @@
-//! Which teeth can touch: their flanks' boxes overlap. Both gears have a tree of boxes, in their own frame and in
-//! millimetres, through which pairs are looked for together.
+//! Which teeth can touch, and where on their flanks: boxes around pieces of both gears' flanks overlap.
+//!
+//! Both gears have a tree of such boxes in their own frame, through which pairs are looked for together. As flanks are
+//! made of rays through the apex, boxes are drawn around directions, on a sphere of one metre in millimetres: there a
+//! piece of a flank is short, whereas a box around it from toe to heel would hold half a tooth.
+
+use std::ops::RangeInclusive;
 
 use nalgebra::{Matrix3, Vector3};
 use parry3d_f64::bounding_volume::Aabb;
@@ -15,66 +20,95 @@ const MM: f64 = 1e3;
 
 /// Teeth on either side of the middle that are looked at, at most.
 const MOST: i32 = 6;
+const MOST_TEETH: usize = 2 * MOST as usize + 1;
+
+/// Pieces of a flank.
+const PIECES: usize = 12;
 
 /// Trees of both gears' drive flanks.
 #[derive(Clone)]
 pub struct Candidates {
     trees: [Bvh; 2],
-    /// Number of the first tooth.
-    first: i32,
+    /// Rays at the ends of the pieces.
+    cuts: [Vec<usize>; 2],
+    /// Number of the last tooth; the first one has its negative.
+    last: i32,
     margin: f64,
 }
 
+/// Pieces of both flanks that are near each other, first and last.
+type Pieces = [[usize; 2]; 2];
+
 impl std::fmt::Debug for Candidates {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.debug_struct("Candidates").field("first", &self.first).finish_non_exhaustive()
+        f.debug_struct("Candidates").field("last", &self.last).field("cuts", &self.cuts).finish_non_exhaustive()
     }
 }
 
 impl Candidates {
-    /// Trees of the flanks of `pair`, which count as near within `margin` [m].
+    /// Trees of the flanks of `pair`, whose pieces are near each other within `margin` [rad].
     pub fn new(pair: &Pair, flanks: &Flanks, margin: f64) -> Self {
-        let span = (pair.path.contact_ratio / 2.0) as i32 + 2;
-        let last = span.min(MOST);
+        let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MOST);
+        let cuts = [0, 1].map(|i| cuts(flanks.rays[i].len()));
         let tree = |i: usize, ahead: f64| {
             let gear = &pair.gears[i];
-            let boxes = (-last..=last).map(|k| {
+            let mut boxes = Vec::new();
+            for k in -last..=last {
                 let azimuth = f64::from(k) * gear.tooth_pitch() + ahead;
-                around(&flanks.rays[i], azimuth, [pair.inner_cone, pair.outer_cone])
-            });
-            let boxes: Vec<Aabb> = boxes.collect();
+                boxes.extend(cuts[i].windows(2).map(|cut| around(&flanks.rays[i][cut[0]..=cut[1]], azimuth)));
+            }
             Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
         };
-        Self { trees: [tree(0, 0.0), tree(1, half_pitch(&pair.gears[1]))], first: -last, margin: margin * MM }
+        Self { trees: [tree(0, 0.0), tree(1, half_pitch(&pair.gears[1]))], cuts, last, margin: margin * MM }
     }
 
-    /// Calls `visit` with the number of each pair of flanks that may touch, the planet lying at (turn, offset) in the side
-    /// gear's frame. A flank meets the one of the tooth ahead and no other: the tooth itself is in between.
+    /// Calls `visit` with the number of each pair of flanks that may touch and the rays of both that may, the planet being
+    /// turned by `turn` in the side gear's frame and its flanks up to `deep` [rad] inside those of the side gear. A flank meets the one of the tooth ahead and no other: the tooth itself is
+    /// in between.
     #[inline]
-    pub fn near(&self, (turn, offset): (Matrix3<f64>, Vector3<f64>), mut visit: impl FnMut(i32)) {
-        let (size, offset) = (turn.abs(), offset * MM);
+    pub fn near(&self, turn: Matrix3<f64>, deep: f64, mut visit: impl FnMut(i32, [RangeInclusive<usize>; 2])) {
+        let (size, margin) = (turn.abs(), self.margin + deep * MM);
         let check = |planet: &BvhNode, side: &BvhNode| {
             let middle = |n: &BvhNode| Vector3::from((n.mins() + n.maxs()).to_array()) * 0.5;
             let half = |n: &BvhNode| Vector3::from((n.maxs() - n.mins()).to_array()) * 0.5;
-            let apart = turn * middle(planet) + offset - middle(side);
+            let apart = turn * middle(planet) - middle(side);
             let reach = size * half(planet) + half(side);
-            (0..3).all(|i| apart[i].abs() <= reach[i] + self.margin)
+            (0..3).all(|i| apart[i].abs() <= reach[i] + margin)
         };
+        let pieces = [self.cuts[0].len() - 1, self.cuts[1].len() - 1];
+        let mut found: [Option<Pieces>; MOST_TEETH] = [None; MOST_TEETH];
         for (planet, side) in self.trees[0].leaf_pairs(&self.trees[1], check) {
-            if planet == side {
-                visit(self.first + planet as i32);
+            let (planet, side) = (planet as usize, side as usize);
+            let (tooth, here) = (planet / pieces[0], [planet % pieces[0], side % pieces[1]]);
+            if tooth == side / pieces[1] {
+                let known = found[tooth].get_or_insert(here.map(|p| [p, p]));
+                for (range, p) in known.iter_mut().zip(here) {
+                    *range = [range[0].min(p), range[1].max(p)];
+                }
+            }
+        }
+        for (tooth, pieces) in found.iter().enumerate() {
+            if let Some(pieces) = pieces {
+                let rays = [0, 1].map(|i| self.cuts[i][pieces[i][0]]..=self.cuts[i][pieces[i][1] + 1]);
+                visit(tooth as i32 - self.last, rays);
             }
         }
     }
 }
 
-/// Box around a flank at `azimuth` between two cone distances.
-fn around(rays: &[Ray], azimuth: f64, cones: [f64; 2]) -> Aabb {
+/// Cuts a flank of `rays` rays into pieces.
+fn cuts(rays: usize) -> Vec<usize> {
+    let facets = rays - 1;
+    let pieces = facets.min(PIECES);
+    (0..=pieces).map(|i| i * facets / pieces).collect()
+}
+
+/// Box around a piece of a flank at `azimuth`.
+fn around(rays: &[Ray], azimuth: f64) -> Aabb {
     let (s, c) = (sin(azimuth), cos(azimuth));
-    let points = rays.iter().flat_map(|r| {
+    let points = rays.iter().map(|r| {
         let r = r.direction;
-        let d = Vector::new(c * r.x - s * r.y, s * r.x + c * r.y, r.z);
-        cones.map(|cone| d * (cone * MM))
+        Vector::new(c * r.x - s * r.y, s * r.x + c * r.y, r.z) * MM
     });
     Aabb::from_points(points)
 }

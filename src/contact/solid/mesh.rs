@@ -7,6 +7,8 @@
 //! alone. With ω_j ∝ R_j aligned flanks load the face evenly; then the resultant acts at R_m and V is that of tooth pairs
 //! on the path of contact. Of misaligned or crowned flanks every section carries what its own overlap calls for.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::Vector3;
 
 use super::candidates::Candidates;
@@ -18,7 +20,7 @@ use crate::contact::impact::{Force, Impact};
 use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
 use crate::contact::pairs::Flank;
 use crate::geometry::Pair;
-use crate::numeric::{Curved, Dual, Smooth, TAU, sqrt, tan};
+use crate::numeric::{Curved, Dual, Smooth, tan};
 
 /// A section across the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,10 +109,8 @@ impl SolidMesh {
         let flanks = Flanks::new(pair, spec.facets);
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
         let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
-        let soft = Softness { width, measure: sqrt(TAU * relative * width) };
-        let line = pair.line_of_action();
-        // what the soft maximum can exceed the greatest overlap by, at most
-        let ahead = width * libm::log(1.0 + line / soft.measure);
+        let soft = Softness::new(width, relative, pair.line_of_action());
+        let ahead = soft.ahead;
         let placements = spec
             .displaced
             .iter()
@@ -120,7 +120,7 @@ impl SolidMesh {
             elastic,
             damping,
             cone: pair.mean_cone,
-            candidates: Candidates::new(pair, &flanks, slack + ahead * pair.outer_cone),
+            candidates: Candidates::new(pair, &flanks, slack / pair.inner_cone + soft.reach()),
             flanks,
             soft,
             slices: spec.slices.clone(),
@@ -148,7 +148,8 @@ impl SolidMesh {
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
-            if -q - self.half_backlash + self.slack <= 0.0 {
+            let deepest = -q - self.half_backlash + self.slack;
+            if deepest <= 0.0 {
                 continue;
             }
             // gears that have turned on by whole pitches look the same
@@ -156,8 +157,9 @@ impl SolidMesh {
             let x = x - turns * self.base_pitch;
             let (tq, tx) = (variable(q, 0, sign), variable(x, 1, sign));
             let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
-            self.candidates.near(placement.between(q, x), |k| {
+            self.candidates.near(placement.between(q, x), deepest, |k, rays| {
                 let near = Near {
+                    rays,
                     flank,
                     placement,
                     number: (-turns as i64).saturating_add(i64::from(k)),
@@ -168,7 +170,7 @@ impl SolidMesh {
                 };
                 let poses = placement.poses(tq, tx, k);
                 for slice in &self.slices {
-                    if let Some(depth) = self.section(placement, slice).depth(&poses, &self.soft) {
+                    if let Some(depth) = self.section(&near, slice).depth(&poses, &self.soft) {
                         visit(&near, slice, depth);
                     }
                 }
@@ -176,12 +178,13 @@ impl SolidMesh {
         }
     }
 
-    fn section(&self, placement: &Placement, slice: &Slice) -> Section<'_> {
+    fn section<'a>(&'a self, near: &Near, slice: &Slice) -> Section<'a> {
         let [planet, side] = &self.flanks.rays;
         Section {
-            rays: [planet, side],
+            rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],
+            tips: [&planet[0], &side[side.len() - 1]],
             relief: slice.relief / slice.cone,
-            offset: placement.offset().map(|w| w / slice.cone),
+            offset: near.placement.offset().map(|w| w / slice.cone),
         }
     }
 
@@ -261,7 +264,7 @@ impl SolidMesh {
             let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
             let force = Force { total: slice.share * whole.total, elastic: slice.share * whole.elastic, ..whole };
             let poses = near.placement.poses(near.q, near.x, near.k);
-            if let Some(patch) = self.section(near.placement, slice).patch(&poses, &self.soft) {
+            if let Some(patch) = self.section(near, slice).patch(&poses, &self.soft) {
                 let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
                 let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
                 let parts = |w: [f64; 3]| {
@@ -287,6 +290,8 @@ impl SolidMesh {
 struct Near<'a> {
     flank: Flank,
     placement: &'a Placement,
+    /// Rays of planet and side gear.
+    rays: [RangeInclusive<usize>; 2],
     number: i64,
     s: f64,
     q: f64,

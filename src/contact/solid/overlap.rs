@@ -22,12 +22,7 @@
 
 use super::flank::Ray;
 use super::pose::Pose;
-use crate::numeric::{Partials, Smooth, sqrt};
-
-/// Most facets of a flank.
-pub const MOST_FACETS: usize = 256;
-/// Most rays of a flank: both ends, and one below the base circle.
-const MOST_RAYS: usize = MOST_FACETS + 2;
+use crate::numeric::{Partials, Smooth, TAU, sqrt};
 
 /// Weights below e to this power are nothing in double precision.
 const NEGLIGIBLE: f64 = -40.0;
@@ -39,6 +34,21 @@ pub struct Softness {
     pub width: f64,
     /// √(2π ρ ε) [rad].
     pub measure: f64,
+    /// What the soft maximum can exceed the greatest overlap by, at most [rad].
+    pub ahead: f64,
+}
+
+impl Softness {
+    /// Distance of flanks, less than nothing their overlap, below which they matter where others touch [rad].
+    pub fn reach(&self) -> f64 {
+        self.ahead - NEGLIGIBLE * self.width
+    }
+
+    /// Softness ε of overlaps between flanks of relative radius of curvature ρ that face each other over `length`, all [rad].
+    pub fn new(width: f64, relative: f64, length: f64) -> Self {
+        let measure = sqrt(TAU * relative * width);
+        Self { width, measure, ahead: width * libm::log(1.0 + length / measure) }
+    }
 }
 
 /// A ray in the plane of projection.
@@ -50,18 +60,24 @@ struct Seen<T> {
     metric: T,
 }
 
+/// A ray's place u and height h in the plane of projection.
+#[inline(always)]
+fn project<T: Smooth>(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> [T; 2] {
+    let at = ray.direction - ray.normal * relief;
+    let [across, along, toward]: [T; 3] = std::array::from_fn(|i| {
+        let row = &pose[i];
+        row[0] * at.x + row[1] * at.y + row[2] * at.z + offset[i]
+    });
+    let per = toward.reciprocal();
+    [across * per, along * per]
+}
+
 impl<T: Smooth> Seen<T> {
+    #[inline(always)]
     fn new(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> Self {
-        let Ray { direction, normal } = ray;
-        let at = direction - normal * relief;
-        let [across, along, toward]: [T; 3] = std::array::from_fn(|i| {
-            let row = &pose[i];
-            row[0] * at.x + row[1] * at.y + row[2] * at.z + offset[i]
-        });
-        let row = &pose[1];
+        let [u, h] = project(ray, relief, pose, offset);
+        let (row, normal) = (&pose[1], &ray.normal);
         let part = row[0] * normal.x + row[1] * normal.y + row[2] * normal.z;
-        let per = toward.reciprocal();
-        let (u, h) = (across * per, along * per);
         let square = u * u + h * h + 1.0;
         let root = sqrt(square.value());
         let root = square.through([root, 0.5 / root, -0.25 / (root * square.value())]);
@@ -84,10 +100,6 @@ struct Span<T> {
 }
 
 impl<T: Smooth> Span<T> {
-    fn new(planet_tip: T, side_tip: T) -> Self {
-        Self { low: planet_tip, per_length: (side_tip - planet_tip).reciprocal() }
-    }
-
     /// Overlap at `u` of the surfaces with height and metric of `planet` and `side`.
     #[inline(always)]
     fn overlap(&self, u: T, planet: [T; 2], side: [T; 2]) -> T {
@@ -101,7 +113,7 @@ impl<T: Smooth> Span<T> {
 #[derive(Clone, Copy, Default)]
 struct Stop {
     /// The last ray of planet and side gear at or before it.
-    after: [u16; 2],
+    after: [usize; 2],
     /// Whether it is the side gear's.
     of_side: bool,
     /// Overlap [rad].
@@ -119,8 +131,10 @@ pub struct Patch {
 
 /// A section of both flanks.
 pub struct Section<'a> {
-    /// Rays of planet and side gear.
+    /// Rays of planet and side gear that are near each other; along both the planet's root and the side gear's tip come last.
     pub rays: [&'a [Ray]; 2],
+    /// The rays at the tips.
+    pub tips: [&'a Ray; 2],
     /// Material missing on the planet's flank [rad].
     pub relief: f64,
     /// Displacement of the planet, in rows of a pose [rad].
@@ -138,57 +152,23 @@ impl Section<'_> {
         }
     }
 
-    /// The rays of a gear in the plane of projection, as far as they are in order: the first of them, and how many.
-    fn outline(&self, poses: &[Pose<f64>; 2], gear: usize, out: &mut [Seen<f64>; MOST_RAYS]) -> (usize, usize) {
-        let (mut first, mut n) = (0, 0);
-        for i in 0..self.rays[gear].len().min(MOST_RAYS) {
-            let seen = self.see(poses, gear, i);
-            let in_order = n == 0 || seen.u > out[n - 1].u;
-            if !(seen.u.is_finite() && seen.h.is_finite()) || !in_order && seen.u > 0.0 {
-                break;
-            }
-            if !in_order {
-                // far from the line of action a flank may still be turned away
-                (first, n) = (i, 0);
-            }
-            out[n] = seen;
-            n += 1;
-        }
-        (first, n)
+    /// The span between the tips.
+    fn span<T: Smooth>(&self, poses: &[Pose<T>; 2]) -> Span<T> {
+        let [planet, _] = project(self.tips[0], self.relief, &poses[0], self.offset);
+        let [side, _] = project(self.tips[1], 0.0, &poses[1], [0.0; 3]);
+        Span { low: planet, per_length: (side - planet).reciprocal() }
     }
 
-    /// The corners of both polygons where both are, in order, and the greatest overlap.
-    fn scan<T: Smooth>(&self, poses: &[Pose<T>; 2], stops: &mut Stops) -> Option<f64> {
-        let values = poses.map(|pose| pose.map(|row| row.map(Smooth::value)));
-        let mut seen = [[Seen::default(); MOST_RAYS]; 2];
-        let [(p0, p), (s0, s)] = [0, 1].map(|gear| self.outline(&values, gear, &mut seen[gear]));
-        let (planet, side) = (&seen[0][..p], &seen[1][..s]);
-        let span = Span::new(planet.first()?.u, side.last()?.u);
-        let (mut i, mut k, mut greatest) = (0, 0, f64::NEG_INFINITY);
-        while i < p && k < s {
-            let of_side = side[k].u < planet[i].u;
-            // a corner counts where the other polygon has begun
-            let found = if of_side {
-                (i > 0).then(|| {
-                    let Seen { u, h, metric } = side[k];
-                    ([i - 1, k], span.overlap(u, planet[i - 1].until(&planet[i], u), [h, metric]))
-                })
-            } else {
-                (k > 0).then(|| {
-                    let Seen { u, h, metric } = planet[i];
-                    ([i, k - 1], span.overlap(u, [h, metric], side[k - 1].until(&side[k], u)))
-                })
-            };
-            if let Some(([i, k], overlap)) = found {
-                let after = [(p0 + i) as u16, (s0 + k) as u16];
-                stops.list[stops.count] = Stop { after, of_side, overlap };
-                stops.count += 1;
-                stops.ends = [p0, s0 + s - 1];
-                greatest = greatest.max(overlap);
-            }
-            if of_side { k += 1 } else { i += 1 }
+    /// The corners of both polygons where both are, in order.
+    fn corners<'w>(&'w self, poses: &'w [Pose<f64>; 2]) -> Corners<'w> {
+        Corners {
+            section: self,
+            poses,
+            index: [0; 2],
+            last: [None; 2],
+            next: [0, 1].map(|gear| self.rays[gear].first().map(|_| self.see(poses, gear, 0))),
+            span: self.span(poses),
         }
-        (stops.count > 1).then_some(greatest)
     }
 
     /// Calls `visit` with each stretch between corners whose overlap comes up to `floor`: the corners, with place and overlap
@@ -197,12 +177,11 @@ impl Section<'_> {
     fn stretches<T: Smooth>(
         &self,
         poses: &[Pose<T>; 2],
-        stops: &Stops,
+        near: &Near,
         floor: f64,
         mut visit: impl FnMut([&Stop; 2], [(T, T); 2]),
     ) {
-        let [tip, other] = [0, 1].map(|gear| self.see(poses, gear, stops.ends[gear]).u);
-        let span = Span::new(tip, other);
+        let span = self.span(poses);
         // the facets that the place lies on, the rays before and after it
         let mut facets: [Option<(usize, [Seen<T>; 2])>; 2] = [None; 2];
         let mut facet = |gear: usize, i: usize| match facets[gear] {
@@ -218,7 +197,7 @@ impl Section<'_> {
             }
         };
         let mut place = |stop: &Stop| {
-            let [i, k] = stop.after.map(usize::from);
+            let [i, k] = stop.after;
             let (own, mate) = if stop.of_side { ((1, k), (0, i)) } else { ((0, i), (1, k)) };
             // the last ray has no facet after it
             let at =
@@ -228,51 +207,59 @@ impl Section<'_> {
             let (planet, side) = if stop.of_side { (there, here) } else { (here, there) };
             (at.u, span.overlap(at.u, planet, side))
         };
+        let mut corners = self.corners(&near.values);
+        let Some(mut before) = corners.next() else { return };
         let mut last = None;
-        for pair in stops.as_slice().windows(2) {
-            if pair[0].overlap.max(pair[1].overlap) < floor {
+        for stop in corners {
+            if before.overlap.max(stop.overlap) < floor {
                 last = None;
-                continue;
+            } else {
+                let from = match last {
+                    Some(from) => from,
+                    None => place(&before),
+                };
+                let to = place(&stop);
+                visit([&before, &stop], [from, to]);
+                last = Some(to);
             }
-            let from = match last {
-                Some(from) => from,
-                None => place(&pair[0]),
-            };
-            let to = place(&pair[1]);
-            visit([&pair[0], &pair[1]], [from, to]);
-            last = Some(to);
+            before = stop;
         }
     }
 
-    /// Depth p [rad], negative where the flanks stand apart; none where they do not face each other.
+    /// Values of `poses` and the greatest overlap, where the flanks are near each other.
+    fn look<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<Near> {
+        let values = poses.map(|pose| pose.map(|row| row.map(Smooth::value)));
+        let greatest = self.corners(&values).map(|stop| stop.overlap).reduce(f64::max)?;
+        (greatest > -soft.ahead).then_some(Near { values, greatest })
+    }
+
+    /// Depth p [rad] where it is more than nothing, and some way below.
     pub fn depth<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<T> {
-        let mut stops = Stops { list: [Stop::default(); 2 * MOST_RAYS], count: 0, ends: [0; 2] };
-        let greatest = self.scan(poses, &mut stops)?;
+        let near = self.look(poses, soft)?;
         let per = 1.0 / soft.width;
         let mut sum = T::constant(0.0);
-        self.stretches(poses, &stops, greatest + NEGLIGIBLE * soft.width, |_, [(u0, d0), (u1, d1)]| {
-            let (a, b) = ((d0 - greatest) * per, (d1 - greatest) * per);
+        self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |_, [(u0, d0), (u1, d1)]| {
+            let (a, b) = ((d0 - near.greatest) * per, (d1 - near.greatest) * per);
             sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential(a.value(), b.value()));
         });
         (sum.value() > 0.0).then(|| {
             let r = 1.0 / sum.value();
-            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + greatest
+            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + near.greatest
         })
     }
 
     /// Where the patch lies.
     pub fn patch(&self, poses: &[Pose<f64>; 2], soft: &Softness) -> Option<Patch> {
-        let mut stops = Stops { list: [Stop::default(); 2 * MOST_RAYS], count: 0, ends: [0; 2] };
-        let greatest = self.scan(poses, &mut stops)?;
+        let near = self.look(poses, soft)?;
         let (mut sum, mut out) = (0.0, Patch::default());
-        self.stretches(poses, &stops, greatest + NEGLIGIBLE * soft.width, |ends, at| {
-            let [a, b] = at.map(|(_, d)| (d - greatest) / soft.width);
+        self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |ends, at| {
+            let [a, b] = at.map(|(_, d)| (d - near.greatest) / soft.width);
             let weight = (at[1].0 - at[0].0) * mean_exponential(a, b).v;
             sum += weight;
             for (stop, (u, _)) in ends.into_iter().zip(at) {
                 // the flank that the corner is pressed into
                 let mate = usize::from(!stop.of_side);
-                let i = usize::from(stop.after[mate]);
+                let i = stop.after[mate];
                 let seen = self.see(poses, mate, i);
                 let normal = self.rays[mate][i].normal;
                 out.place[0] += 0.5 * weight * u;
@@ -289,17 +276,49 @@ impl Section<'_> {
     }
 }
 
-/// Corners of both polygons.
-struct Stops {
-    list: [Stop; 2 * MOST_RAYS],
-    count: usize,
-    /// The rays at the planet's tip and the side gear's.
-    ends: [usize; 2],
+/// Flanks that are near each other.
+struct Near {
+    values: [Pose<f64>; 2],
+    /// Greatest overlap [rad].
+    greatest: f64,
 }
 
-impl Stops {
-    fn as_slice(&self) -> &[Stop] {
-        &self.list[..self.count]
+/// Walks along both polygons.
+struct Corners<'a> {
+    section: &'a Section<'a>,
+    poses: &'a [Pose<f64>; 2],
+    /// Rays that come next.
+    index: [usize; 2],
+    last: [Option<Seen<f64>>; 2],
+    next: [Option<Seen<f64>>; 2],
+    span: Span<f64>,
+}
+
+impl Iterator for Corners<'_> {
+    type Item = Stop;
+
+    fn next(&mut self) -> Option<Stop> {
+        loop {
+            let [Some(planet), Some(side)] = self.next else { return None };
+            let of_side = side.u < planet.u;
+            let (own, at, to) = if of_side { (1, side, planet) } else { (0, planet, side) };
+            // a corner counts where the other polygon has begun
+            let stop = self.last[1 - own].map(|from| {
+                let (here, there) = ([at.h, at.metric], from.until(&to, at.u));
+                let (planet, side) = if of_side { (there, here) } else { (here, there) };
+                let mut after = self.index;
+                after[1 - own] -= 1;
+                Stop { after, of_side, overlap: self.span.overlap(at.u, planet, side) }
+            });
+            self.index[own] += 1;
+            let i = self.index[own];
+            let next = self.section.rays[own].get(i).map(|_| self.section.see(self.poses, own, i));
+            self.last[own] = Some(at);
+            self.next[own] = next.filter(|next| next.u > at.u);
+            if stop.is_some() {
+                return stop;
+            }
+        }
     }
 }
 

@@ -106,11 +106,10 @@ impl Placement {
         })
     }
 
-    /// From the planet's frame, turned with its tooth 0, to the side gear's, turned with its gap 0: turn and offset [m].
-    pub fn between(&self, q: f64, x: f64) -> (Matrix3<f64>, Vector3<f64>) {
+    /// From the planet's frame, turned with its tooth 0, to the side gear's, turned with its gap 0.
+    pub fn between(&self, q: f64, x: f64) -> Matrix3<f64> {
         let [planet, side] = [x / self.lever[0], (q + x) / self.lever[1]];
-        let back = about_axis(-side) * self.frames[1].transpose();
-        (back * self.frames[0] * about_axis(planet), back * self.offset)
+        about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
     }
 
     /// A vector in rows of a pose in parts along a_p, a_s and t.
