@@ -23,7 +23,7 @@ const MOST: i32 = 6;
 const MOST_TEETH: usize = 2 * MOST as usize + 1;
 
 /// Pieces of a flank.
-const PIECES: usize = 12;
+const PIECES: usize = 8;
 
 /// Trees of both gears' drive flanks.
 #[derive(Clone)]

@@ -25,7 +25,7 @@ use super::pose::Pose;
 use crate::numeric::{Partials, Smooth, TAU, sqrt};
 
 /// Weights below e to this power are nothing in double precision.
-const NEGLIGIBLE: f64 = -40.0;
+const NEGLIGIBLE: f64 = -36.0;
 
 /// How softly the greatest overlap is taken.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +116,7 @@ struct Stop {
     after: [usize; 2],
     /// Whether it is the side gear's.
     of_side: bool,
-    /// Overlap [rad].
+    /// Overlap without regard to slopes [rad].
     overlap: f64,
 }
 
@@ -161,14 +161,9 @@ impl Section<'_> {
 
     /// The corners of both polygons where both are, in order.
     fn corners<'w>(&'w self, poses: &'w [Pose<f64>; 2]) -> Corners<'w> {
-        Corners {
-            section: self,
-            poses,
-            index: [0; 2],
-            last: [None; 2],
-            next: [0, 1].map(|gear| self.rays[gear].first().map(|_| self.see(poses, gear, 0))),
-            span: self.span(poses),
-        }
+        let mut corners = Corners { section: self, poses, index: [0; 2], last: [None; 2], next: [None; 2] };
+        corners.next = [corners.place(0, 0), corners.place(1, 0)];
+        corners
     }
 
     /// Calls `visit` with each stretch between corners whose overlap comes up to `floor`: the corners, with place and overlap
@@ -211,9 +206,7 @@ impl Section<'_> {
         let Some(mut before) = corners.next() else { return };
         let mut last = None;
         for stop in corners {
-            if before.overlap.max(stop.overlap) < floor {
-                last = None;
-            } else {
+            if before.overlap.max(stop.overlap) >= floor {
                 let from = match last {
                     Some(from) => from,
                     None => place(&before),
@@ -221,6 +214,9 @@ impl Section<'_> {
                 let to = place(&stop);
                 visit([&before, &stop], [from, to]);
                 last = Some(to);
+            } else if last.is_some() {
+                // between convex flanks the overlap has but one hill
+                break;
             }
             before = stop;
         }
@@ -229,7 +225,13 @@ impl Section<'_> {
     /// Values of `poses` and the greatest overlap, where the flanks are near each other.
     fn look<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<Near> {
         let values = poses.map(|pose| pose.map(|row| row.map(Smooth::value)));
-        let greatest = self.corners(&values).map(|stop| stop.overlap).reduce(f64::max)?;
+        let mut greatest = f64::NEG_INFINITY;
+        for stop in self.corners(&values) {
+            if stop.overlap < greatest + NEGLIGIBLE * soft.width {
+                break;
+            }
+            greatest = greatest.max(stop.overlap);
+        }
         (greatest > -soft.ahead).then_some(Near { values, greatest })
     }
 
@@ -238,9 +240,14 @@ impl Section<'_> {
         let near = self.look(poses, soft)?;
         let per = 1.0 / soft.width;
         let mut sum = T::constant(0.0);
+        // where the last stretch ended, and the exponential there
+        let (mut place, mut known) = (f64::NAN, 0.0);
         self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |_, [(u0, d0), (u1, d1)]| {
             let (a, b) = ((d0 - near.greatest) * per, (d1 - near.greatest) * per);
-            sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential(a.value(), b.value()));
+            let from = if u0.value() == place { known } else { libm::exp(a.value()) };
+            let to = libm::exp(b.value());
+            (place, known) = (u1.value(), to);
+            sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential([a.value(), b.value()], [from, to]));
         });
         (sum.value() > 0.0).then(|| {
             let r = 1.0 / sum.value();
@@ -254,7 +261,7 @@ impl Section<'_> {
         let (mut sum, mut out) = (0.0, Patch::default());
         self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |ends, at| {
             let [a, b] = at.map(|(_, d)| (d - near.greatest) / soft.width);
-            let weight = (at[1].0 - at[0].0) * mean_exponential(a, b).v;
+            let weight = (at[1].0 - at[0].0) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
             sum += weight;
             for (stop, (u, _)) in ends.into_iter().zip(at) {
                 // the flank that the corner is pressed into
@@ -279,42 +286,48 @@ impl Section<'_> {
 /// Flanks that are near each other.
 struct Near {
     values: [Pose<f64>; 2],
-    /// Greatest overlap [rad].
+    /// Greatest overlap without regard to slopes [rad].
     greatest: f64,
 }
 
-/// Walks along both polygons.
+/// Walks along both polygons, looking at heights alone.
 struct Corners<'a> {
     section: &'a Section<'a>,
     poses: &'a [Pose<f64>; 2],
     /// Rays that come next.
     index: [usize; 2],
-    last: [Option<Seen<f64>>; 2],
-    next: [Option<Seen<f64>>; 2],
-    span: Span<f64>,
+    last: [Option<[f64; 2]>; 2],
+    next: [Option<[f64; 2]>; 2],
+}
+
+impl Corners<'_> {
+    #[inline(always)]
+    fn place(&self, gear: usize, i: usize) -> Option<[f64; 2]> {
+        let section = self.section;
+        let (relief, offset) = if gear == 0 { (section.relief, section.offset) } else { (0.0, [0.0; 3]) };
+        section.rays[gear].get(i).map(|ray| project(ray, relief, &self.poses[gear], offset))
+    }
 }
 
 impl Iterator for Corners<'_> {
     type Item = Stop;
 
+    #[inline(always)]
     fn next(&mut self) -> Option<Stop> {
         loop {
             let [Some(planet), Some(side)] = self.next else { return None };
-            let of_side = side.u < planet.u;
+            let of_side = side[0] < planet[0];
             let (own, at, to) = if of_side { (1, side, planet) } else { (0, planet, side) };
             // a corner counts where the other polygon has begun
             let stop = self.last[1 - own].map(|from| {
-                let (here, there) = ([at.h, at.metric], from.until(&to, at.u));
-                let (planet, side) = if of_side { (there, here) } else { (here, there) };
+                let there = from[1] + (at[0] - from[0]) * (to[1] - from[1]) / (to[0] - from[0]);
                 let mut after = self.index;
                 after[1 - own] -= 1;
-                Stop { after, of_side, overlap: self.span.overlap(at.u, planet, side) }
+                Stop { after, of_side, overlap: if of_side { there - at[1] } else { at[1] - there } }
             });
             self.index[own] += 1;
-            let i = self.index[own];
-            let next = self.section.rays[own].get(i).map(|_| self.section.see(self.poses, own, i));
             self.last[own] = Some(at);
-            self.next[own] = next.filter(|next| next.u > at.u);
+            self.next[own] = self.place(own, self.index[own]).filter(|next| next[0] > at[0]);
             if stop.is_some() {
                 return stop;
             }
@@ -322,21 +335,20 @@ impl Iterator for Corners<'_> {
     }
 }
 
-/// Mean of e^x for x from a to b, with its derivatives.
+/// Mean of e^x for x from a to b, with its derivatives, given e^a and e^b.
 #[inline(always)]
-fn mean_exponential(a: f64, b: f64) -> Partials {
+fn mean_exponential([a, b]: [f64; 2], [ea, eb]: [f64; 2]) -> Partials {
     // e^m f(z) with the middle m and half the difference z, f = sinh z / z
     let z = 0.5 * (b - a);
     let (f, f1, f2);
     if z.abs() < 0.5 {
-        let e = libm::exp(0.5 * (a + b));
+        let e = sqrt(ea * eb);
         let y = z * z;
         // Taylor series; the first term left out is 1e-16 of the sum
         f = e * (1.0 + y / 6.0 * (1.0 + y / 20.0 * (1.0 + y / 42.0 * (1.0 + y / 72.0 * (1.0 + y / 110.0)))));
         f1 = e * z / 3.0 * (1.0 + y / 10.0 * (1.0 + y / 28.0 * (1.0 + y / 54.0 * (1.0 + y / 88.0))));
         f2 = e / 3.0 * (1.0 + y * (0.3 + y * (5.0 / 280.0 + y * (7.0 / 15120.0 + y * (9.0 / 1_330_560.0)))));
     } else {
-        let (ea, eb) = (libm::exp(a), libm::exp(b));
         let cosh = 0.5 * (ea + eb);
         f = 0.5 * (eb - ea) / z;
         f1 = (cosh - f) / z;
@@ -375,7 +387,7 @@ mod tests {
             sum
         };
         for (a, b) in [(-1.0, -1.0), (-0.3, 0.0), (0.0, -0.99), (-1.01, 0.0), (0.0, -7.0), (-30.0, -2.0)] {
-            let got = mean_exponential(a, b);
+            let got = mean_exponential([a, b], [f64::exp(a), f64::exp(b)]);
             let exact = [
                 mean(a, b, &|_| 1.0),
                 mean(a, b, &|t| 1.0 - t),
