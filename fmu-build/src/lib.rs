@@ -2,6 +2,7 @@
 
 #![warn(missing_docs)]
 
+pub mod columns;
 pub mod comparison;
 pub mod cost;
 pub mod describe;
@@ -9,6 +10,7 @@ pub mod documentation;
 pub mod effects;
 pub mod evaluation;
 pub mod foreign;
+pub mod geometry;
 pub mod marked;
 pub mod off;
 pub mod package;
