@@ -155,3 +155,28 @@ fn virtual_gear() -> Group {
             |d, i| 1.0 - d.planar.teeth[i] * sin2_alpha(d) / 2.0;
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chord_and_height_are_those_of_the_points_on_the_flanks() -> anyhow::Result<()> {
+        let design = Design::new::<&str>(&[])?;
+        let rows: Vec<_> = groups().into_iter().flat_map(|group| group.rows).collect();
+        let of = |key: &str, i| rows.iter().find(|row| row.key == key).map_or(f64::NAN, |row| row.shown(&design, i));
+        for i in 0..2 {
+            let gear = &design.pair.gears[i];
+            let [left, right] =
+                [1.0, -1.0].map(|side| gear.flank_point(gear.pitch, side) * design.pair.outer_cone * 1e3);
+            assert!((of("outer_chordal_tooth_thickness_s_ec", i) - (left - right).norm()).abs() < 1e-12);
+            // the back cone's line through the middle of the tooth: from the pitch point by h_ae to the tip
+            let (s, c) = (sin(gear.pitch), cos(gear.pitch));
+            let (x, z) = (design.pair.outer_cone * s * 1e3, design.pair.outer_cone * c * 1e3);
+            let tip = [x + of("outer_addendum_h_ae", i) * c, z - of("outer_addendum_h_ae", i) * s];
+            let height = (tip[0] - left.x) * c - (tip[1] - left.z) * s;
+            assert!((of("outer_chordal_addendum_h_aec", i) - height).abs() < 1e-12);
+        }
+        Ok(())
+    }
+}
