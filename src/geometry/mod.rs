@@ -8,6 +8,7 @@ pub mod corner;
 pub mod involute;
 pub mod mass;
 pub mod pair;
+pub mod solid;
 mod spec;
 
 pub use pair::{Pair, Path, Tredgold};

@@ -1,0 +1,122 @@
+//! Foot of a tooth: the fillet between root circle and flank, on the unit sphere.
+//!
+//! A fillet of angular radius ρ is a small circle about a centre at polar angle c = δ_f + ρ, so that it touches the root
+//! circle from above. A parallel of a spherical involute is the same involute turned by ρ/sinδ_b, hence the centre lies on
+//! it at the arc ψ_c with cos c = cosδ_b cosψ_c, and the circle touches the flank at ψ = ψ_c − ρ. If that is negative it
+//! touches the meridian below the base circle, from which the centre stands off by the azimuth A:
+//! sinA = sinρ / sin c, and it touches at the polar angle tanφ = tan c cosA.
+
+use crate::geometry::involute::Gear;
+use crate::numeric::{asin, atan2, cos, sin, sqrt};
+
+/// Share of half a pitch, and angle [rad], below which a piece of the outline is left out.
+const SLIVER: f64 = 1e-7;
+/// Halvings in the search for the largest fillet: as many as a double has bits.
+const HALVINGS: usize = 53;
+
+/// Foot of a tooth at its side of positive azimuth, from the gap's floor to where the involute begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Half the angular pitch [rad]: azimuth of the gap's middle.
+    pub middle: f64,
+    /// Polar angle of the gap's floor [rad]: the root circle, or where both flanks meet above it.
+    pub floor: f64,
+    /// Angular radius ρ of the fillet [rad]; 0 = a sharp corner.
+    pub radius: f64,
+    /// Azimuth of the fillet's centre [rad], where the root land ends; its polar angle is floor + radius.
+    pub centre: f64,
+    /// Polar angle and azimuth of the fillet's upper end [rad].
+    pub end: [f64; 2],
+    /// Angle that the fillet sweeps about its centre [rad].
+    pub sweep: f64,
+    /// Arc ψ at which the involute begins [rad].
+    pub start_arc: f64,
+}
+
+impl Foot {
+    /// Foot of a tooth of `gear` with a fillet of the angular radius `wanted` [rad], or the largest that the gap has room
+    /// for and that ends below the pitch circle.
+    pub fn new(gear: &Gear, wanted: f64) -> Self {
+        let middle = gear.tooth_pitch() / 2.0;
+        let start = gear.root.max(gear.base);
+        if gear.half_angle(start) >= middle * (1.0 - SLIVER) {
+            return Self::closed(gear, middle, gear.action_arc(start));
+        }
+        let touch = |radius: f64| Touch::new(gear, radius);
+        let pitch_arc = gear.action_arc(gear.pitch);
+        let fits = |radius: f64| touch(radius).centre <= middle && touch(radius).arc <= pitch_arc;
+        let mut radius = wanted.max(0.0);
+        if !fits(radius) {
+            let (mut low, mut high) = (0.0, radius);
+            for _ in 0..HALVINGS {
+                let half = 0.5 * (low + high);
+                if fits(half) { low = half } else { high = half }
+            }
+            radius = low;
+        }
+        if radius < SLIVER {
+            radius = 0.0;
+        }
+        let Touch { mut centre, end: [polar, azimuth], arc } = touch(radius);
+        if middle - centre < SLIVER * middle {
+            // rounded out: both fillets of a gap meet in its middle
+            centre = middle;
+        }
+        let (c, apart) = (gear.root + radius, centre - azimuth);
+        // the end as seen from the centre, from the direction of the pole
+        let toward = cos(polar) * sin(c) - sin(polar) * cos(c) * cos(apart);
+        let sweep = if radius > 0.0 { atan2(sin(polar) * sin(apart), toward) } else { 0.0 };
+        Self { middle, floor: gear.root, radius, centre, end: [polar, azimuth], sweep, start_arc: arc.max(0.0) }
+    }
+
+    /// Foot where the flanks of neighbouring teeth meet above the root circle, at an arc beyond `low`.
+    fn closed(gear: &Gear, middle: f64, low: f64) -> Self {
+        let (mut low, mut high) = (low, gear.action_arc(gear.pitch));
+        for _ in 0..HALVINGS {
+            let half = 0.5 * (low + high);
+            if gear.half_angle(gear.polar_at(half)) > middle { low = half } else { high = half }
+        }
+        let floor = gear.polar_at(low);
+        Self { middle, floor, radius: 0.0, centre: middle, end: [floor, middle], sweep: 0.0, start_arc: low }
+    }
+
+    /// Polar angle and azimuth of the fillet at the share `u` of its sweep [rad]: 0 on the root circle, 1 at its end.
+    pub fn fillet_at(&self, u: f64) -> [f64; 2] {
+        let (c, beta) = (self.floor + self.radius, self.sweep * u);
+        let (sr, cr) = (sin(self.radius), cos(self.radius));
+        let across = sr * sin(beta);
+        let outward = cr * sin(c) - sr * cos(c) * cos(beta);
+        let polar = atan2(sqrt(across * across + outward * outward), cr * cos(c) + sr * sin(c) * cos(beta));
+        [polar, self.centre - atan2(across, outward)]
+    }
+
+    /// Whether a piece of the meridian is left between the fillet, or the floor, and the base circle of `gear`.
+    pub fn has_meridian(&self, gear: &Gear) -> bool {
+        self.start_arc <= 0.0 && gear.base - self.end[0] > SLIVER
+    }
+}
+
+/// Where a fillet touches the flank or the meridian.
+struct Touch {
+    /// Azimuth of its centre [rad].
+    centre: f64,
+    /// Polar angle and azimuth where it touches [rad].
+    end: [f64; 2],
+    /// Arc ψ where it touches the involute; 0 or less on the meridian [rad].
+    arc: f64,
+}
+
+impl Touch {
+    fn new(gear: &Gear, radius: f64) -> Self {
+        let c = gear.root + radius;
+        let arc = gear.action_arc(c) - radius;
+        let foot = gear.half_angle(gear.base);
+        if arc > 0.0 {
+            let centre = foot - gear.inv_of_arc(arc + radius) + radius / sin(gear.base);
+            return Self { centre, end: [gear.polar_at(arc), foot - gear.inv_of_arc(arc)], arc };
+        }
+        let apart = asin((sin(radius) / sin(c)).min(1.0));
+        let polar = atan2(sin(c) * cos(apart), cos(c)).min(gear.base);
+        Self { centre: foot + apart, end: [polar, foot], arc }
+    }
+}

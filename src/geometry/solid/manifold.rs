@@ -1,0 +1,209 @@
+//! Surface of a whole gear: closed, of triangles that share their vertices, counter-clockwise seen from outside.
+//!
+//! The outline of each tooth is swept along the rays through the apex from R_i to R_e. Each end is closed down to the
+//! circle of the bore in the plane z = R cosδ_f; without a bore, to the axis. Either straight from the outline, as the
+//! solids of `geometry::mass` are, or from the root circle, with the ends of the teeth on the back of the body.
+//! Lengthwise crowning takes C ((R − R_m)/(b/2))² off the flanks, along their normals (ISO 21771).
+
+use nalgebra::Vector3;
+
+use super::outline::{Node, Outline, Part};
+use crate::geometry::involute::{Gear, direction};
+use crate::geometry::{GearSpec, Pair};
+use crate::numeric::{cos, sin};
+
+/// Surface of a gear in its own frame: apex at the origin, z from apex to heel, tooth 0 centred on azimuth 0.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GearSolid {
+    /// Vertices [m].
+    pub vertices: Vec<Vector3<f64>>,
+    /// Triangles by the numbers of their vertices, counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// How the ends of a gear are closed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ends {
+    /// Straight lines from the outline to the bore: the solid that inertias are taken from. A tooth goes on as a groove
+    /// down to the bore at the heel, as a ridge at the toe.
+    #[default]
+    Ruled,
+    /// Each tooth ends on the sphere, by straight lines down to the root circle; within that the end is flat.
+    Flat,
+}
+
+/// How finely a gear is drawn, and what of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shape {
+    /// Facets per flank across the tooth.
+    pub facets: usize,
+    /// Strips along the tooth.
+    pub strips: usize,
+    /// What is missing from the flanks at both ends of the face relative to its middle [m]: little beside the tip land's
+    /// width, and seen from four strips on.
+    pub crowning: f64,
+    /// How the ends are closed.
+    pub ends: Ends,
+}
+
+impl GearSolid {
+    /// Gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, with `facets` per flank across the tooth and
+    /// `strips` along it, not crowned and with ruled ends. The pair must be free of `geometry::checks::errors`.
+    pub fn new(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize, strips: usize) -> Self {
+        Self::shaped(pair, spec, gear, &Shape { facets, strips, crowning: 0.0, ends: Ends::Ruled })
+    }
+
+    /// The same in another shape.
+    pub fn shaped(pair: &Pair, spec: &GearSpec, gear: usize, shape: &Shape) -> Self {
+        let bore = [spec.planet_bore, spec.side_bore][gear];
+        let strips = shape.strips.max(1);
+        let gear = &pair.gears[gear];
+        let outline = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, shape.facets);
+        let rows: Vec<Row> = (0..=strips)
+            .map(|k| {
+                let share = k as f64 / strips as f64;
+                let cone = pair.inner_cone + (pair.outer_cone - pair.inner_cone) * share;
+                Row { cone, missing: shape.crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
+            })
+            .collect();
+        Surface::new(gear, &outline).build(&rows, bore, shape.ends)
+    }
+}
+
+/// Share of a pitch within which nodes, one above the other on the outline, have one vertex of the hub between them.
+const UPRIGHT: f64 = 1e-5;
+
+/// Polar angle [rad] above the root circle up to which a node stands on it.
+const ROUNDING: f64 = 1e-9;
+
+/// Nodes of all teeth at one cone distance.
+struct Row {
+    /// Cone distance R [m].
+    cone: f64,
+    /// What crowning takes off the flanks there [m].
+    missing: f64,
+}
+
+impl Row {
+    /// Place of `node` of tooth number `tooth` [m].
+    fn place(&self, gear: &Gear, node: &Node, tooth: f64) -> Vector3<f64> {
+        let turn = gear.tooth_pitch() * tooth;
+        let point = direction(node.polar, node.azimuth + turn) * self.cone;
+        if self.missing == 0.0 || node.part != Part::Flank {
+            return point;
+        }
+        let n = gear.flank_normal(node.polar, node.azimuth.signum()) * self.missing;
+        let (c, s) = (cos(turn), sin(turn));
+        point - Vector3::new(c * n.x - s * n.y, s * n.x + c * n.y, n.z)
+    }
+}
+
+/// What a gear's surface is made from.
+struct Surface<'a> {
+    gear: &'a Gear,
+    /// Nodes of a tooth: its last one is the first of the next.
+    nodes: &'a [Node],
+    /// Azimuths of a tooth's vertices on the circles within the outline [rad], and the node on the root circle there.
+    columns: Vec<(f64, Option<u32>)>,
+    /// Column of each node.
+    column: Vec<u32>,
+}
+
+impl<'a> Surface<'a> {
+    fn new(gear: &'a Gear, outline: &'a Outline) -> Self {
+        let nodes = &outline.nodes[..outline.nodes.len() - 1];
+        // nodes on a meridian, and at the foot of an involute, would make slivers with a column each
+        let mut columns: Vec<(f64, Option<u32>)> = Vec::with_capacity(nodes.len());
+        let mut column = Vec::with_capacity(nodes.len());
+        for (i, node) in nodes.iter().enumerate() {
+            let root = (node.polar <= gear.root + ROUNDING).then_some(i as u32);
+            match columns.last_mut() {
+                Some((azimuth, own))
+                    if node.azimuth - *azimuth <= UPRIGHT * gear.tooth_pitch() && (own.is_none() || root.is_none()) =>
+                {
+                    *own = own.or(root);
+                }
+                _ => columns.push((node.azimuth, root)),
+            }
+            column.push(columns.len() as u32 - 1);
+        }
+        Self { gear, nodes, columns, column }
+    }
+
+    fn build(&self, rows: &[Row], bore: f64, ends: Ends) -> GearSolid {
+        let (gear, teeth) = (self.gear, self.gear.teeth as usize);
+        let around = (teeth * self.nodes.len()) as u32;
+        let mut vertices = Vec::with_capacity((rows.len() + 4) * around as usize);
+        for row in rows {
+            for tooth in 0..teeth {
+                // a node in the middle of a gap belongs to two flanks at once and stays
+                let whole = Row { missing: 0.0, ..*row };
+                let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
+                vertices.extend(self.nodes.iter().enumerate().map(place));
+            }
+        }
+        let row = |k: usize| (0..around).map(|i| k as u32 * around + i).collect::<Vec<u32>>();
+        let last = rows.len() - 1;
+        let ends = [0, last].map(|k| {
+            let (cone, outline) = (rows[k].cone, row(k));
+            let collar = match ends {
+                Ends::Ruled => outline.clone(),
+                Ends::Flat => self.ring(&mut vertices, cone * sin(gear.root), cone, &outline),
+            };
+            (outline, collar, self.ring(&mut vertices, bore / 2.0, cone, &[]))
+        });
+        let mut triangles = Vec::with_capacity(2 * (rows.len() + 4) * around as usize);
+        for k in 1..rows.len() {
+            band(&mut triangles, &row(k), &row(k - 1));
+        }
+        let [(toe, toe_collar, toe_hub), (heel, heel_collar, heel_hub)] = ends;
+        band(&mut triangles, &heel_collar, &heel);
+        band(&mut triangles, &heel_hub, &heel_collar);
+        band(&mut triangles, &toe_collar, &toe_hub);
+        band(&mut triangles, &toe, &toe_collar);
+        if bore > 0.0 {
+            band(&mut triangles, &toe_hub, &heel_hub);
+        }
+        GearSolid { vertices, triangles }
+    }
+
+    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and tells its vertex for each node. Nodes of
+    /// `outline`, if it has any, that stand on the root circle are taken as they are. A circle of no radius is one vertex.
+    fn ring(&self, vertices: &mut Vec<Vector3<f64>>, radius: f64, cone: f64, outline: &[u32]) -> Vec<u32> {
+        let (gear, z) = (self.gear, cone * cos(self.gear.root));
+        let teeth = gear.teeth as usize;
+        if radius <= 0.0 {
+            vertices.push(Vector3::new(0.0, 0.0, z));
+            return vec![vertices.len() as u32 - 1; teeth * self.nodes.len()];
+        }
+        let mut ring = Vec::with_capacity(teeth * self.nodes.len());
+        for tooth in 0..teeth {
+            let turn = gear.tooth_pitch() * tooth as f64;
+            let own = |node: &u32| outline.get(tooth * self.nodes.len() + *node as usize).copied();
+            let numbers: Vec<u32> = self
+                .columns
+                .iter()
+                .map(|(azimuth, root)| {
+                    root.as_ref().and_then(own).unwrap_or_else(|| {
+                        let a = azimuth + turn;
+                        vertices.push(Vector3::new(radius * cos(a), radius * sin(a), z));
+                        vertices.len() as u32 - 1
+                    })
+                })
+                .collect();
+            ring.extend(self.column.iter().map(|&c| numbers[c as usize]));
+        }
+        ring
+    }
+}
+
+/// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
+/// Where two corners of a triangle are one and the same vertex there is none.
+fn band(triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
+    for (i, (&u, &l)) in upper.iter().zip(lower).enumerate() {
+        let next = (i + 1) % upper.len();
+        let (u2, l2) = (upper[next], lower[next]);
+        let pair = [[l, l2, u2], [l, u2, u]];
+        triangles.extend(pair.into_iter().filter(|&[a, b, c]| a != b && b != c && c != a));
+    }
+}

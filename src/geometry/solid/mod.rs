@@ -1,0 +1,13 @@
+//! The gears as bodies: outlines of teeth with their fillets, closed surfaces of whole gears, and what these weigh.
+
+pub mod fillet;
+pub mod manifold;
+pub mod outline;
+mod properties;
+
+pub use fillet::Foot;
+pub use manifold::{Ends, GearSolid, Shape};
+pub use outline::{Node, Outline, Part};
+
+#[cfg(test)]
+mod tests;
