@@ -27,9 +27,11 @@ usage: cargo run --release [-- COMMAND]
   loads --scene FILE|NAME --out OUT.csv [--every TIME]
                          record the force of each loaded tooth pair, with its place on both gears, for FEA; every
                          communication step, or every TIME such as 0.1ms
-  geometry [--set NAME=VALUE]... [--facets N] [--out DIR]
-                         derive all dimensions of the gears: table and JSON in target/geometry or DIR; --set: a parameter
-                         of the gears, such as geometry.module=4mm; --facets: per flank of solids and curves, 32
+  geometry [--set NAME=VALUE]... [--facets N] [--thicken LENGTH] [--out DIR]
+                         derive all dimensions of the gears, make curves and solids for CAD, and look for interference
+                         while they turn: files in target/geometry or DIR; --set: a parameter of the gears, such as
+                         geometry.module=4mm; --facets: per flank of solids and curves, 32; --thicken: look for
+                         interference of teeth thicker by this, such as 0.15mm
   effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]
                          run a scene with each effect on and off: what each changes and costs, and which the scene calls
                          for; --from: count outputs from TIME on; --as-written: only look what it can do without, not
@@ -108,6 +110,7 @@ fn parse() -> Result<Job> {
             (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
             (Long("set"), Some(Job::Geometry(geometry))) => geometry.set.push(arguments.value()?.string()?),
             (Long("facets"), Some(Job::Geometry(geometry))) => geometry.facets = Some(arguments.value()?.string()?),
+            (Long("thicken"), Some(Job::Geometry(geometry))) => geometry.thicken = Some(arguments.value()?.string()?),
             (Long("out"), Some(Job::Geometry(geometry))) => geometry.out = Some(arguments.value()?.into()),
             (Long("quick"), Some(Job::Cost(cost))) => cost.quick = true,
             (Long("write"), Some(Job::Cost(cost))) => cost.write = true,

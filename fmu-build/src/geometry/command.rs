@@ -6,21 +6,26 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, anyhow, bail};
 
 use super::design::Design;
-use super::{json, text};
+use super::interference::Check;
+use super::{json, models, text};
 use crate::places;
+use crate::progress::Progress;
+use crate::scene::set::{real, value, variable};
 
 /// Facets per flank unless told otherwise.
 const FACETS: usize = 32;
 /// Fewest and most facets per flank: fewer show no involute, more make files that no CAD program wants.
 const FACETS_RANGE: (usize, usize) = (2, 1000);
 
-/// `geometry [--set NAME=VALUE]... [--facets N] [--out DIR]`.
+/// `geometry [--set NAME=VALUE]... [--facets N] [--thicken LENGTH] [--out DIR]`.
 #[derive(Clone, Debug, Default)]
 pub struct Geometry {
     /// What to set, each `name=value`.
     pub set: Vec<String>,
     /// Facets per flank, as written.
     pub facets: Option<String>,
+    /// By how much teeth are thicker in the check of interference, as written.
+    pub thicken: Option<String>,
     /// Where to put the files.
     pub out: Option<PathBuf>,
 }
@@ -43,19 +48,26 @@ impl Made {
 impl Geometry {
     /// Does it.
     pub fn run(&self) -> Result<()> {
-        let (design, facets) = match (Design::new(&self.set), self.facets()) {
-            (Ok(design), Ok(facets)) => (design, facets),
-            (Err(problem), Ok(_)) | (Ok(_), Err(problem)) => return Err(problem),
-            (Err(problem), Err(other)) => bail!("{problem}\n{other}"),
+        let (design, facets, thicken) = match (Design::new(&self.set), self.facets(), self.thicken()) {
+            (Ok(design), Ok(facets), Ok(thicken)) => (design, facets, thicken),
+            (design, facets, thicken) => {
+                let problems = [design.err(), facets.err(), thicken.err()].into_iter().flatten();
+                bail!("{}", problems.map(|problem| problem.to_string()).collect::<Vec<_>>().join("\n"))
+            }
         };
-        let made = files(&design, facets)?;
+        let progress = Progress::start("turning the gears through a tooth pitch");
+        let check = Check::new(&design, thicken)?;
+        progress.tell("making curves and solids");
+        let made = files(&design, &check, facets)?;
+        progress.finish();
         let folder = self.out.clone().unwrap_or_else(|| places::target().join("geometry"));
         fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
         for file in &made {
             let path = folder.join(&file.name);
             fs::write(&path, &file.content).with_context(|| format!("{} cannot be written", path.display()))?;
         }
-        print!("{}\nfiles in {}\n{}", text::text(&design), places::shown(&folder), list(&made));
+        let (table, found) = (text::text(&design), check.text());
+        print!("{table}\n{found}\nfiles in {}\n{}", places::shown(&folder), list(&made));
         Ok(())
     }
 
@@ -65,13 +77,24 @@ impl Geometry {
         let number = text.parse().ok().filter(|number| (least..=most).contains(number));
         number.ok_or_else(|| anyhow!("--facets {text}: must be a whole number from {least} to {most}"))
     }
+
+    /// In metres, within the range that backlash has.
+    fn thicken(&self) -> Result<f64> {
+        let Some(text) = &self.thicken else { return Ok(0.0) };
+        let number = variable("geometry.backlash").and_then(|row| real(row, &value(text)));
+        number.map_err(|problem| anyhow!("--thicken {text}: {problem}"))
+    }
 }
 
-/// All files of `design`, with `facets` per flank where flanks are divided.
-pub fn files(design: &Design, facets: usize) -> Result<Vec<Made>> {
-    // flank curves, solids and scenes go here, each divided into `facets` per flank
-    let _ = facets;
-    Ok(vec![Made::text("dimensions.txt", text::text(design)), Made::text("dimensions.json", json::text(design)?)])
+/// All files of `design` and its `check`, with `facets` per flank where flanks are divided.
+pub fn files(design: &Design, check: &Check, facets: usize) -> Result<Vec<Made>> {
+    let mut made = vec![
+        Made::text("dimensions.txt", text::text(design)),
+        Made::text("dimensions.json", json::text(design, Some(check))?),
+        Made::text("interference.txt", check.text()),
+    ];
+    made.extend(models::files(design, facets)?);
+    Ok(made)
 }
 
 /// Names and sizes, a line each.

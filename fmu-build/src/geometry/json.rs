@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::design::{Design, parameters};
 use super::dimensions::{Group, Kind, Row, of_gears, of_pair};
+use super::interference::{Check, Told};
 use super::tredgold::{Comparison, comparisons};
 use crate::scene::set::literal;
 
@@ -50,11 +51,13 @@ struct Document {
     side_gear: Ordered,
     pair: Ordered,
     tredgold: Ordered,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interference: Option<Told>,
     warnings: Vec<Value>,
 }
 
-/// All of it.
-pub fn text(design: &Design) -> Result<String> {
+/// All of it, with what the check of interference found if it was made.
+pub fn text(design: &Design, check: Option<&Check>) -> Result<String> {
     let mut values = design.parameters;
     let warnings = design.warnings.iter();
     let document = Document {
@@ -63,6 +66,7 @@ pub fn text(design: &Design) -> Result<String> {
         side_gear: dimensions(of_gears(), design, 1),
         pair: dimensions(of_pair(), design, 0),
         tredgold: Ordered(comparisons(design).iter().map(|found| (found.key, comparison(found))).collect()),
+        interference: check.map(Check::told),
         warnings: warnings.map(|found| json!({"variable": found.variable, "message": found.message})).collect(),
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")

@@ -26,8 +26,14 @@ fn of(found: &Interference, parts: [Part; 2]) -> &Approach {
 fn teeth_in_the_middle_of_their_gaps_are_half_the_normal_backlash_apart() {
     for (planet_teeth, side_teeth, bore) in [(10, 16, 0.0), (9, 14, 0.0), (10, 16, 0.012), (14, 14, 0.0)] {
         for planet_count in [2, 3, 4] {
-            let spec =
-                GearSpec { planet_teeth, side_teeth, planet_count, planet_bore: bore, side_bore: bore, ..GearSpec::default() };
+            let spec = GearSpec {
+                planet_teeth,
+                side_teeth,
+                planet_count,
+                planet_bore: bore,
+                side_bore: bore,
+                ..GearSpec::default()
+            };
             let (pair, found) = look(&spec, Stance::Middle);
             let worst = of(&found, [Part::Flank; 2]);
             assert!((worst.gap - pair.normal_backlash / 2.0).abs() < found.resolution, "{spec:?}: {worst:?}");
@@ -102,7 +108,11 @@ fn a_tip_beyond_the_limit_enters_the_flank_below_the_base_circle_once_the_play_i
         let lag = if stance == Stance::Driving { pair.normal_backlash / 2.0 / pair.lever()[1] } else { 0.0 };
         // turned by `lag` the one side, by the mirror image the other
         let exact = corner_to_meridian(&pair, lag).min(corner_to_meridian(&pair, -lag));
-        println!("{backlash} {stance:?}: {:.4} mm, exact {:.4} mm", corner.gap * pair.outer_cone * MM, exact * pair.outer_cone * MM);
+        println!(
+            "{backlash} {stance:?}: {:.4} mm, exact {:.4} mm",
+            corner.gap * pair.outer_cone * MM,
+            exact * pair.outer_cone * MM
+        );
         assert!((corner.gap - exact).abs() < found.resolution, "{stance:?}: {} {exact}", corner.gap);
         assert_eq!(found.any(), enters);
         assert_eq!(found.verdict(corner.gap) == Verdict::Interfering, enters);
@@ -164,7 +174,8 @@ fn the_verdict_is_that_of_the_whole_solids_facet_by_facet() {
             for turn in turns {
                 let ratio = f64::from(pair.gears[0].teeth) / f64::from(pair.gears[1].teeth);
                 let at = pose(&pair, turn, pair.gears[1].tooth_pitch() / 2.0 - turn * ratio);
-                any |= intersection_test(&Pose::IDENTITY, &meshes[0], &at, &meshes[1]).expect("both are meshes");
+                let met = intersection_test(&Pose::IDENTITY, &meshes[0], &at, &meshes[1]).expect("both are meshes");
+                any |= met.intersecting;
             }
             assert_eq!(any, teeth == Verdict::Interfering, "{name} {ends:?}: {:?}", found.approaches[0]);
         }

@@ -13,6 +13,6 @@ pub use manifold::{Ends, GearSolid, Shape};
 pub use outline::{Node, Outline, Part};
 
 #[cfg(test)]
-mod tests;
-#[cfg(test)]
 mod interference_tests;
+#[cfg(test)]
+mod tests;
