@@ -124,6 +124,7 @@ impl Check {
 
     fn driving(&self, found: &Interference) -> String {
         match found.worst() {
+            _ if self.spec.backlash <= 0.0 => "there is no play".into(),
             Some(worst) if found.verdict(worst.gap) == Verdict::Interfering => self.entered(found),
             _ => "no interference: flanks touch, and nothing enters anything".into(),
         }
@@ -262,8 +263,8 @@ fn sentence(a: &Approach) -> String {
 /// Where it is.
 fn place(a: &Approach) -> String {
     format!(
-        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both, when the \
-         planet is {:.2} deg past a tooth in that plane (its tooth {}, side gear's tooth {})",
+        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both, with the \
+         planet turned by {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})",
         a.polar[0].to_degrees(),
         a.polar[1].to_degrees(),
         a.azimuth.to_degrees(),

@@ -24,16 +24,12 @@ fn of(found: &Interference, parts: [Part; 2]) -> &Approach {
 
 #[test]
 fn teeth_in_the_middle_of_their_gaps_are_half_the_normal_backlash_apart() {
-    for (planet_teeth, side_teeth, bore) in [(10, 16, 0.0), (9, 14, 0.0), (10, 16, 0.012), (14, 14, 0.0)] {
-        for planet_count in [2, 3, 4] {
-            let spec = GearSpec {
-                planet_teeth,
-                side_teeth,
-                planet_count,
-                planet_bore: bore,
-                side_bore: bore,
-                ..GearSpec::default()
-            };
+    for (planet_teeth, side_teeth, bore, counts) in
+        [(10, 16, 0.0, &[2][..]), (9, 15, 0.012, &[3]), (14, 14, 0.0, &[2, 4])]
+    {
+        for &planet_count in counts {
+            let teeth = GearSpec { planet_teeth, side_teeth, planet_count, ..GearSpec::default() };
+            let spec = GearSpec { planet_bore: bore, side_bore: bore, ..teeth };
             let (pair, found) = look(&spec, Stance::Middle);
             let worst = of(&found, [Part::Flank; 2]);
             assert!((worst.gap - pair.normal_backlash / 2.0).abs() < found.resolution, "{spec:?}: {worst:?}");
@@ -145,7 +141,7 @@ fn a_tip_that_strikes_a_large_fillet_is_found() {
 
 /// The whole solid in parry3d's millimetres.
 fn mesh(pair: &Pair, spec: &GearSpec, i: usize, ends: Ends) -> TriMesh {
-    let solid = GearSolid::shaped(pair, spec, i, &Shape { facets: 64, strips: 1, crowning: 0.0, ends });
+    let solid = GearSolid::shaped(pair, spec, i, &Shape { facets: 32, strips: 1, crowning: 0.0, ends });
     let vertices = solid.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
     TriMesh::new(vertices, solid.triangles).expect("triangles")
 }
@@ -169,7 +165,7 @@ fn the_verdict_is_that_of_the_whole_solids_facet_by_facet() {
         for ends in [Ends::Ruled, Ends::Flat] {
             let meshes = [0, 1].map(|i| mesh(&pair, &spec, i, ends));
             let pitch = pair.gears[0].tooth_pitch();
-            let turns = (0..8).map(|k| pitch * f64::from(k) / 8.0).chain([found.approaches[0].turn]);
+            let turns = (0..3).map(|k| pitch * f64::from(k) / 3.0).chain([found.approaches[0].turn]);
             let mut any = false;
             for turn in turns {
                 let ratio = f64::from(pair.gears[0].teeth) / f64::from(pair.gears[1].teeth);
