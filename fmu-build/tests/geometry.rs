@@ -319,6 +319,11 @@ fn the_excerpt_in_the_documentation_is_what_the_program_prints() -> Result<()> {
     Ok(())
 }
 
+/// The text of a check without its line breaks.
+fn words(check: &Check) -> String {
+    check.text().split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 #[test]
 fn the_gears_of_the_study_turn_freely_and_thicker_ones_are_told_where_and_how_deep() -> Result<()> {
     let design = Design::new::<&str>(&[])?;
@@ -326,10 +331,12 @@ fn the_gears_of_the_study_turn_freely_and_thicker_ones_are_told_where_and_how_de
     let free = Check::new(&design, 0.0)?;
     assert!(!free.any() && free.text().contains("no interference"), "{}", free.text());
     assert_eq!(told(&free)?["interference"]["found"], Value::Bool(false));
+    let documentation = fs::read_to_string(workspace().join("docs").join("geometry.md"))?;
+    assert!(documentation.contains(&free.text()), "docs/geometry.md should have\n{}", free.text());
     // 0.1 mm of backlash, less 0.2 mm: half of 0.1 mm cos α at the heel
     let thick = Check::new(&design, 2e-4)?;
     let depth = 0.05 * 20f64.to_radians().cos();
-    assert!(thick.any() && thick.text().contains(&format!("by {depth:.4} mm at the heel")), "{}", thick.text());
+    assert!(thick.any() && words(&thick).contains(&format!("by {depth:.4} mm at the heel")), "{}", thick.text());
     let middle = &told(&thick)?["interference"]["middle"];
     let worst = &middle["approaches"][0];
     assert_eq!((&worst["planet"], &worst["side_gear"]), (&Value::from("flank"), &Value::from("flank")));
@@ -341,10 +348,10 @@ fn the_gears_of_the_study_turn_freely_and_thicker_ones_are_told_where_and_how_de
 #[test]
 fn a_tip_beyond_its_limit_is_told_by_gear_and_part() -> Result<()> {
     let check = Check::new(&Design::new(&["geometry.addendum_system=standard"])?, 0.0)?;
-    let text = check.text();
+    let text = words(&check);
     assert!(text.contains("the side gear's tip enters the planet's flank below the base circle by 0.0"), "{text}");
     let mitre = ["geometry.planet_teeth=14", "geometry.side_teeth=14", "geometry.planet_count=4"];
     let check = Check::new(&Design::new(&mitre)?, 0.0)?;
-    assert!(check.any() && check.text().contains("neighbouring planets"), "{}", check.text());
+    assert!(check.any() && words(&check).contains("tip cones of neighbouring planets overlap"), "{}", check.text());
     Ok(())
 }
