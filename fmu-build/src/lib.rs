@@ -2,6 +2,7 @@
 
 #![warn(missing_docs)]
 
+pub mod columns;
 pub mod comparison;
 pub mod cost;
 pub mod describe;

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
+use fmu_build::geometry::command::Geometry;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
@@ -26,6 +27,11 @@ usage: cargo run --release [-- COMMAND]
   loads --scene FILE|NAME --out OUT.csv [--every TIME]
                          record the force of each loaded tooth pair, with its place on both gears, for FEA; every
                          communication step, or every TIME such as 0.1ms
+  geometry [--set NAME=VALUE]... [--facets N] [--thicken LENGTH] [--out DIR]
+                         derive all dimensions of the gears, make curves and solids for CAD, and look for interference
+                         while they turn: files in target/geometry or DIR; --set: a parameter of the gears, such as
+                         geometry.module=4mm; --facets: per flank of solids and curves, 32; --thicken: look for
+                         interference of teeth thicker by this, such as 0.15mm
   effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]
                          run a scene with each effect on and off: what each changes and costs, and which the scene calls
                          for; --from: count outputs from TIME on; --as-written: only look what it can do without, not
@@ -51,6 +57,7 @@ enum Job {
     Describe { check: bool },
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
+    Geometry(Geometry),
     Effects(Effects),
     Cost(Cost),
     TestPython(Vec<OsString>),
@@ -101,6 +108,10 @@ fn parse() -> Result<Job> {
             (Long("scene"), Some(Job::Loads(loads))) => loads.scene = Some(arguments.value()?.string()?),
             (Long("out"), Some(Job::Loads(loads))) => loads.out = Some(arguments.value()?.into()),
             (Long("every"), Some(Job::Loads(loads))) => loads.every = Some(arguments.value()?.string()?),
+            (Long("set"), Some(Job::Geometry(geometry))) => geometry.set.push(arguments.value()?.string()?),
+            (Long("facets"), Some(Job::Geometry(geometry))) => geometry.facets = Some(arguments.value()?.string()?),
+            (Long("thicken"), Some(Job::Geometry(geometry))) => geometry.thicken = Some(arguments.value()?.string()?),
+            (Long("out"), Some(Job::Geometry(geometry))) => geometry.out = Some(arguments.value()?.into()),
             (Long("quick"), Some(Job::Cost(cost))) => cost.quick = true,
             (Long("write"), Some(Job::Cost(cost))) => cost.write = true,
             (Long("out"), Some(Job::Cost(cost))) => cost.out = Some(arguments.value()?.into()),
@@ -138,6 +149,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "describe" => Job::Describe { check: false },
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
+        "geometry" => Job::Geometry(Geometry::default()),
         "effects" => Job::Effects(Effects::default()),
         "cost" => Job::Cost(Cost::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
@@ -175,6 +187,7 @@ fn run(job: Job) -> Result<()> {
         }
         Job::Scene(scene) => scene.run()?,
         Job::Loads(loads) => loads.run()?,
+        Job::Geometry(geometry) => geometry.run()?,
         Job::Effects(effects) => effects.run()?,
         Job::Cost(cost) => cost.run()?,
         Job::TestPython(arguments) => {

@@ -18,6 +18,20 @@ const LEAST_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
 
+/// Why the pair makes no differential: the geometry of a pair holds for other angles too.
+pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
+    (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
+        Problem::new(
+            "geometry.shaft_angle",
+            format!(
+                "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
+                 small errors of assembly are not a nominal shaft angle",
+                spec.shaft_angle.to_degrees()
+            ),
+        )
+    })
+}
+
 /// Why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();

@@ -54,19 +54,9 @@ pub struct Model {
 impl Model {
     /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
     pub fn new(parameters: &Parameters) -> Result<Self, Vec<Problem>> {
-        let mut spec = parameters.geometry;
-        if !parameters.effects.backlash {
-            spec.backlash = 0.0;
-        }
-        if !Pair::is_right_angle(spec.shaft_angle) {
-            return Err(vec![Problem::new(
-                "geometry.shaft_angle",
-                format!(
-                    "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
-                     small errors of assembly are not a nominal shaft angle",
-                    spec.shaft_angle.to_degrees()
-                ),
-            )]);
+        let spec = parameters.gears();
+        if let Some(problem) = checks::shaft_angle(&spec) {
+            return Err(vec![problem]);
         }
         let pair = Pair::new(&spec);
         let mut problems = checks::errors(&spec, &pair);

@@ -317,6 +317,11 @@ impl Default for Inputs {
 }
 
 impl Parameters {
+    /// The gears as they mesh: without play where backlash is off.
+    pub fn gears(&self) -> GearSpec {
+        GearSpec { backlash: if self.effects.backlash { self.geometry.backlash } else { 0.0 }, ..self.geometry }
+    }
+
     /// `self` as far as it may be tuned while a simulation runs, `fixed` for the rest.
     pub fn with_tuned(&self, fixed: &Self) -> Self {
         let mut p = *fixed;

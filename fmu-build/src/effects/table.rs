@@ -1,7 +1,5 @@
 //! Findings as tables for the terminal.
 
-use std::fmt::Write as _;
-
 use super::bench::{Bench, Ratio};
 use super::change::Change;
 use super::sentences::sentences;
@@ -9,10 +7,9 @@ use super::switches::Switch;
 use super::verdict::Verdict;
 use super::words::{most, name, pair, percent, scene, three};
 use super::{Finding, Findings};
+use crate::columns::{aligned, wrapped};
 use crate::scene::units;
 
-/// Width of the sentences.
-const WIDTH: usize = 118;
 /// All of it.
 pub fn text(found: &Findings) -> String {
     let mut out = format!("{}: {}\n\n", found.scene.name, found.scene.description);
@@ -116,48 +113,6 @@ fn costs_in_evaluations(row: &Finding, bench: &Bench) -> Option<f64> {
 
 fn cost(ratio: Ratio) -> String {
     format!("{} ± {}", three(ratio.median), three(ratio.spread))
-}
-
-/// Columns in line, those of `left` to the left; a line under the head.
-fn aligned<R: AsRef<[String]>>(rows: &[R], left: &[usize]) -> String {
-    let columns = rows.first().map_or(0, |row| row.as_ref().len());
-    let width = |i: usize| rows.iter().map(|row| row.as_ref()[i].chars().count()).max().unwrap_or(0);
-    let widths: Vec<usize> = (0..columns).map(width).collect();
-    let mut out = String::new();
-    for (k, row) in rows.iter().enumerate() {
-        let cells = row.as_ref().iter().zip(&widths).enumerate();
-        let cells =
-            cells.map(|(i, (cell, &w))| if left.contains(&i) { format!("{cell:<w$}") } else { format!("{cell:>w$}") });
-        let line = cells.collect::<Vec<_>>().join("  ");
-        let _ = writeln!(out, "{}", line.trim_end());
-        if k == 0 {
-            // the verdicts are as long as they are
-            let shown = widths.iter().take(columns - 1).sum::<usize>() + 2 * (columns - 1);
-            let last = row.as_ref().last().map_or(0, |cell| cell.chars().count());
-            let _ = writeln!(
-                out,
-                "{}",
-                "-".repeat(shown + last.max(if left.contains(&(columns - 1)) { 24 } else { widths[columns - 1] }))
-            );
-        }
-    }
-    out
-}
-
-fn wrapped(text: &str) -> String {
-    let (mut out, mut line) = (String::new(), String::new());
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > WIDTH {
-            let _ = writeln!(out, "{line}");
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    let _ = writeln!(out, "{line}");
-    out
 }
 
 #[cfg(test)]

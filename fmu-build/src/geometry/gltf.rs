@@ -16,11 +16,16 @@ const BINARY_CHUNK: u32 = 0x004E_4942;
 const FLOAT: u32 = 5126;
 const ARRAY_BUFFER: u32 = 34962;
 
-/// Both gears, planet and side gear, placed as `bodies`.
+/// The gears among planet and side gear that are placed as `bodies`, so placed.
 pub fn binary(solids: &[GearSolid; 2], bodies: &[Body]) -> Vec<u8> {
     let mut buffer = Vec::new();
     let (mut views, mut accessors, mut meshes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut mesh = [0; 2];
     for (gear, solid) in solids.iter().enumerate() {
+        if !bodies.iter().any(|body| body.gear == gear) {
+            continue;
+        }
+        mesh[gear] = meshes.len();
         let (positions, normals) = corners(solid);
         let mut attribute = |values: &[[f32; 3]], bounds: bool| {
             let offset = buffer.len();
@@ -43,7 +48,7 @@ pub fn binary(solids: &[GearSolid; 2], bodies: &[Body]) -> Vec<u8> {
     }
     let nodes: Vec<Value> = bodies
         .iter()
-        .map(|body| json!({"name": body.name, "mesh": body.gear, "matrix": columns(&body.rotation)}))
+        .map(|body| json!({"name": body.name, "mesh": mesh[body.gear], "matrix": columns(&body.rotation)}))
         .collect();
     let document = json!({
         "asset": {"version": "2.0", "generator": "bevel-differential"},

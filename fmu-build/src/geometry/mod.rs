@@ -1,6 +1,17 @@
-//! The gears as files for CAD, printing and viewing.
+//! The gears on paper and in CAD: derived dimensions with the terms of ISO 23509, curves, solids, interference.
 
 pub mod assembly;
+pub mod command;
+pub mod design;
+pub mod dimensions;
+mod gear_rows;
 pub mod gltf;
+pub mod interference;
+pub mod json;
+pub mod models;
+mod pair_rows;
 pub mod stl;
+pub mod text;
+mod tooth_rows;
+pub mod tredgold;
 pub mod xyz;

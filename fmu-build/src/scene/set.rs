@@ -69,7 +69,9 @@ impl Setting {
 pub fn variable(name: &str) -> Result<&'static Variable, String> {
     let rows = &table().rows;
     rows.iter().find(|row| row.name == name).ok_or_else(|| {
-        let hint = closest(name, rows.iter().map(|row| row.name));
+        // its last part alone is a likely slip too
+        let last = rows.iter().find(|row| row.name.rsplit('.').next() == Some(name)).map(|row| row.name);
+        let hint = last.or_else(|| closest(name, rows.iter().map(|row| row.name)));
         format!("there is no variable \"{name}\"{}", hint.map_or(String::new(), |n| format!("; did you mean {n}?")))
     })
 }
@@ -115,13 +117,30 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
         Value::String(text) => units::parse(row, text)?,
         _ => return Err("must be a number, or a text like \"4.5 mm\"".into()),
     };
-    check_value(row, number).map_err(|problem| match (row.display, row.range) {
-        (Some(_), Some(range)) => {
-            format!("{} ([{}, {}])", problem.message, units::text(row, range.min), units::text(row, range.max))
+    check_value(row, number).map_err(|problem| {
+        // a text has named its unit, so that no other was meant
+        let message = match value {
+            Value::String(_) => problem.message.split("; did you mean").next().unwrap_or_default().to_owned(),
+            _ => problem.message,
+        };
+        match (row.display, row.range) {
+            (Some(_), Some(range)) => {
+                format!("{message} ([{}, {}])", units::text(row, range.min), units::text(row, range.max))
+            }
+            _ => message,
         }
-        _ => problem.message,
     })?;
     Ok(number)
+}
+
+/// The value that `text` on a command line stands for, as a file would have it.
+pub fn value(text: &str) -> Value {
+    match (text.parse(), text.parse(), text.parse()) {
+        (Ok(whole), _, _) => Value::Integer(whole),
+        (_, Ok(number), _) => Value::Float(number),
+        (_, _, Ok(truth)) => Value::Boolean(truth),
+        _ => Value::String(text.to_owned()),
+    }
 }
 
 /// A value as it stands in a file.

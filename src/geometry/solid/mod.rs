@@ -1,13 +1,18 @@
 //! The gears as bodies: outlines of teeth with their fillets, closed surfaces of whole gears, and what these weigh.
 
 pub mod fillet;
+pub mod interference;
 pub mod manifold;
 pub mod outline;
 mod properties;
+pub mod skin;
 
 pub use fillet::Foot;
+pub use interference::Interference;
 pub use manifold::{Ends, GearSolid, Shape};
 pub use outline::{Node, Outline, Part};
 
+#[cfg(test)]
+mod interference_tests;
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,217 @@
+//! Whether the teeth of planet and side gear get into one another while they turn, and how near they come.
+//!
+//! Both apexes are in one point and the gears turn as Willis' equation has it: a planet turned by θ from a tooth in the
+//! plane of both axes stands opposite a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass
+//! through these same positions, half a tooth pitch apart, and left and right mirror each other: one pair over one pitch
+//! is all there is to look at. It is looked at in two stances: teeth in the middle of their gaps, so that play is alike
+//! on both flanks, and all play taken up on one side, as gears run: then flanks touch there, and nothing else may.
+//!
+//! *Depth* is the distance of a ray of one gear that lies within the other from the nearest face of that other, along
+//! its normal. Rays of either gear are tried against the other: those through the nodes of its outline, corners of the
+//! tip among them. The gap of flanks that do not touch is found alike. As all faces are cones with one apex, depth and
+//! gap are proportional to the cone distance, and given per cone distance [rad]: deepest at the heel, nearest at the toe.
+//!
+//! Facets are chords of the exact faces. What is told is right to the *resolution*: twice the greatest distance of the
+//! facets from the faces, of both gears together, for the faces of one gear are hit between nodes of the other too.
+
+use nalgebra::Vector3;
+
+use super::outline::Part;
+use super::skin::Skin;
+use crate::geometry::involute::direction;
+use crate::geometry::{GearSpec, Pair};
+use crate::numeric::{TAU, acos, atan2, cos, sin};
+
+/// Facets per flank.
+pub const FACETS: usize = 128;
+/// Positions in a tooth pitch.
+pub const POSITIONS: usize = 24;
+/// Halvings of the step between positions about the worst.
+const HALVINGS: usize = 8;
+/// Rays farther than this beyond the mate's tip cone [rad] are not looked at.
+const REACH: f64 = 0.05;
+
+/// Where two parts of teeth come nearest in the whole cycle, or enter deepest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Approach {
+    /// Parts of planet and side gear.
+    pub parts: [Part; 2],
+    /// Distance per cone distance [rad]; negative is depth.
+    pub gap: f64,
+    /// Gear (0 planet, 1 side gear) whose ray it is; the distance is from a face of the other.
+    pub ray: usize,
+    /// Angle of the ray from the axes of planet and side gear [rad].
+    pub polar: [f64; 2],
+    /// Angle of the ray out of the plane of both axes, about the planet's axis [rad].
+    pub azimuth: f64,
+    /// Turn θ of the planet from a tooth in the plane of both axes [rad], within half a pitch.
+    pub turn: f64,
+    /// Tooth of either gear, counted from that in or next to the plane by rising azimuth about its own axis.
+    pub teeth: [i32; 2],
+}
+
+/// How teeth stand in their gaps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stance {
+    /// In the middle.
+    Middle,
+    /// At one flank, where there is play.
+    Driving,
+}
+
+/// What was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interference {
+    /// The nearest or deepest approach of each two parts, the worst first; flanks first among equals.
+    pub approaches: Vec<Approach>,
+    /// Accuracy of gaps and depths per cone distance [rad].
+    pub resolution: f64,
+    /// Angle between the tip cones of neighbouring planets, and of the two side gears [rad]; negative where they overlap.
+    pub between_tips: [f64; 2],
+}
+
+/// What it means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Nothing touches.
+    Clear,
+    /// Nothing touches or enters as far as the resolution goes.
+    Touching,
+    /// Something enters.
+    Interfering,
+}
+
+impl Interference {
+    /// Looks at `pair`, made from `spec`, in one stance; none if it has no surface to look at. Backlash may be negative.
+    pub fn new(pair: &Pair, spec: &GearSpec, stance: Stance) -> Option<Self> {
+        let skins = [Skin::new(pair, spec, 0, FACETS)?, Skin::new(pair, spec, 1, FACETS)?];
+        let resolution = 2.0 * skins.iter().map(|skin| skin.coarseness(pair, spec, FACETS)).sum::<f64>();
+        let nodes = [0, 1].map(|i| Vec::from_iter(skins[i].nodes.iter().map(|n| direction(n.polar, n.azimuth))));
+        let lag = match stance {
+            Stance::Middle => 0.0,
+            Stance::Driving => pair.normal_backlash.max(0.0) / 2.0 / sin(pair.gears[1].base),
+        };
+        let cycle = Cycle { pair, skins, nodes, lag };
+        let mut found = Vec::new();
+        let mut step = pair.gears[0].tooth_pitch() / POSITIONS as f64;
+        for k in 0..POSITIONS {
+            cycle.look(step * (k as f64 - (POSITIONS / 2) as f64), &mut found);
+        }
+        // where it is worst it may be worse still in between
+        for _ in 0..HALVINGS {
+            step /= 2.0;
+            let middle = worst(&found).map_or(0.0, |approach| approach.turn);
+            cycle.look(middle - step, &mut found);
+            cycle.look(middle + step, &mut found);
+        }
+        let rank = |a: &Approach| if a.parts == [Part::Flank; 2] { a.gap - resolution } else { a.gap };
+        found.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
+        let apart = [TAU / f64::from(spec.planet_count), TAU / 2.0];
+        let between_tips = [0, 1].map(|i| apart[i] - 2.0 * pair.gears[i].tip);
+        Some(Self { approaches: found, resolution, between_tips })
+    }
+
+    /// What `gap` means.
+    pub fn verdict(&self, gap: f64) -> Verdict {
+        match gap {
+            gap if gap > self.resolution => Verdict::Clear,
+            gap if gap < -self.resolution => Verdict::Interfering,
+            _ => Verdict::Touching,
+        }
+    }
+
+    /// The nearest or deepest of all approaches of teeth.
+    pub fn worst(&self) -> Option<&Approach> {
+        self.approaches.first()
+    }
+
+    /// Whether anything enters anything.
+    pub fn any(&self) -> bool {
+        let teeth = self.worst().is_some_and(|worst| self.verdict(worst.gap) == Verdict::Interfering);
+        teeth || self.between_tips.iter().any(|&angle| angle < 0.0)
+    }
+}
+
+fn worst(found: &[Approach]) -> Option<&Approach> {
+    found.iter().min_by(|a, b| a.gap.total_cmp(&b.gap))
+}
+
+/// Both gears, to be turned.
+struct Cycle<'a> {
+    pair: &'a Pair,
+    skins: [Skin; 2],
+    /// Rays of tooth 0 of either gear.
+    nodes: [Vec<Vector3<f64>>; 2],
+    /// Turn of the side gear from the middle of its play [rad].
+    lag: f64,
+}
+
+impl Cycle<'_> {
+    /// Turns of planet and side gear about their own axes when the planet is turned by `turn` [rad].
+    fn turns(&self, turn: f64) -> [f64; 2] {
+        let [planet, side] = &self.pair.gears;
+        [turn, self.lag + side.tooth_pitch() / 2.0 - turn * f64::from(planet.teeth) / f64::from(side.teeth)]
+    }
+
+    /// Looks at one position and keeps what is nearer than what was `found` before.
+    fn look(&self, turn: f64, found: &mut Vec<Approach>) {
+        let turns = self.turns(turn);
+        for own in 0..2 {
+            let mate = 1 - own;
+            let (skin, gear) = (&self.skins[own], &self.skins[own].gear);
+            let back = Turn::new(-turns[mate]);
+            let reach = cos(self.skins[mate].gear.tip + REACH);
+            for tooth in (0..gear.teeth).map(|k| k - gear.teeth / 2) {
+                let angle = Turn::new(turns[own] + gear.tooth_pitch() * f64::from(tooth));
+                for (node, ray) in skin.nodes.iter().zip(&self.nodes[own]) {
+                    let here = angle.of(ray);
+                    let there = across(&here, self.pair.shaft_angle);
+                    if there.z < reach {
+                        continue;
+                    }
+                    let nearest = self.skins[mate].nearest(&back.of(&there));
+                    let ordered = |mine: f64, others: f64| if own == 0 { [mine, others] } else { [others, mine] };
+                    let planets = if own == 0 { here } else { there };
+                    let new = Approach {
+                        parts: if own == 0 { [node.part, nearest.part] } else { [nearest.part, node.part] },
+                        gap: nearest.gap,
+                        ray: own,
+                        polar: ordered(node.polar, acos(there.z.clamp(-1.0, 1.0))),
+                        azimuth: atan2(planets.y, planets.x),
+                        turn,
+                        teeth: if own == 0 { [tooth, nearest.tooth] } else { [nearest.tooth, tooth] },
+                    };
+                    keep(found, new);
+                }
+            }
+        }
+    }
+}
+
+fn keep(found: &mut Vec<Approach>, new: Approach) {
+    match found.iter_mut().find(|known| known.parts == new.parts) {
+        Some(known) if new.gap < known.gap => *known = new,
+        Some(_) => {}
+        None => found.push(new),
+    }
+}
+
+/// A vector of one gear's frame in that of its mate, not turned yet: x of either points toward the other's axis, and both
+/// see the mate across the same plane y = 0, so that the way there is the way back.
+fn across(v: &Vector3<f64>, shaft_angle: f64) -> Vector3<f64> {
+    let (s, c) = (sin(shaft_angle), cos(shaft_angle));
+    Vector3::new(s * v.z - c * v.x, -v.y, s * v.x + c * v.z)
+}
+
+/// A turn about z, by its sine and cosine.
+struct Turn(f64, f64);
+
+impl Turn {
+    fn new(angle: f64) -> Self {
+        Self(sin(angle), cos(angle))
+    }
+
+    fn of(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        Vector3::new(self.1 * v.x - self.0 * v.y, self.0 * v.x + self.1 * v.y, v.z)
+    }
+}
