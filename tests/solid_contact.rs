@@ -1,63 +1,288 @@
-//! Solid teeth against the path of contact.
+//! Solid teeth against the path of contact: depth, force, derivatives, misalignment.
 
 use bevel_differential::contact::damping::Damping;
+use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothErrors};
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::MeshState;
-use bevel_differential::contact::pairs::{Engagement, Flank};
-use bevel_differential::contact::solid::mesh::{Slice, SolidMesh, SolidSpec};
+use bevel_differential::contact::pairs::{Engagement, Flank, Spot};
+use bevel_differential::contact::solid::mesh::{Slice, SolidLoad, SolidMesh, SolidSpec};
+use bevel_differential::contact::solid::pose::Displacement;
 use bevel_differential::geometry::{GearSpec, Pair};
 
 const IMPACT: Impact = Impact { stiffness: 1.82463e10, exponent: 1.5, damping: 5e4, per_full_depth: 1e4 };
 const DAMPING: Damping = Damping::Step { coefficient: 5e4, per_full_depth: 1e4 };
+/// Approach of the study's load, one pair carrying [m].
+const DEPTH: f64 = 0.1e-3;
 
-fn solid(pair: &Pair, facets: usize, smoothing: f64) -> SolidMesh {
-    let spec = SolidSpec {
-        facets,
-        smoothing,
-        slices: vec![Slice { cone: pair.mean_cone, share: 1.0, width: pair.outer_cone - pair.inner_cone, relief: 0.0 }],
-        displaced: vec![Default::default()],
-    };
-    SolidMesh::new(pair, &spec, IMPACT, DAMPING, 0.0)
+fn slice(pair: &Pair, cone: f64) -> Slice {
+    Slice { cone, share: 1.0, width: pair.outer_cone - pair.inner_cone, relief: 0.0 }
+}
+
+fn displaced(pair: &Pair, facets: usize, smoothing: f64, slices: Vec<Slice>, d: Displacement) -> SolidMesh {
+    let fillet = 0.4 * pair.module / pair.outer_cone;
+    let spec = SolidSpec { fillet, facets, smoothing, slices, displaced: vec![[d; 2]] };
+    SolidMesh::new(pair, &spec, IMPACT, DAMPING, 1e-3)
+}
+
+fn aligned(pair: &Pair, facets: usize, smoothing: f64) -> SolidMesh {
+    displaced(pair, facets, smoothing, vec![slice(pair, pair.mean_cone)], Displacement::default())
+}
+
+fn pairs_of_gears() -> Vec<Pair> {
+    [(10, 16, 20.0), (9, 14, 22.5), (14, 14, 25.0), (12, 18, 20.0)]
+        .map(|(z_p, z_s, alpha): (i32, i32, f64)| {
+            Pair::new(&GearSpec {
+                planet_teeth: z_p,
+                side_teeth: z_s,
+                pressure_angle: alpha.to_radians(),
+                ..GearSpec::default()
+            })
+        })
+        .to_vec()
+}
+
+fn loads(mesh: &SolidMesh, position: [f64; 2]) -> Vec<SolidLoad> {
+    let mut found = Vec::new();
+    mesh.loaded(&MeshState { position, ..MeshState::default() }, |load| found.push(*load));
+    found
+}
+
+/// Places over one pitch, and the relative position at which drive (−1) or coast (+1) flanks overlap by `depth` [m].
+fn sweep(pair: &Pair, flank: Flank, depth: f64, n: i32) -> Vec<[f64; 2]> {
+    let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
+    let q = sign * (depth / pair.mean_cone + pair.normal_backlash / 2.0);
+    (0..n).map(|i| [q, pair.base_pitch * (f64::from(i) + 0.37) / f64::from(n)]).collect()
+}
+
+/// Greatest difference of depth between solid teeth and the path of contact over one pitch [m].
+fn worst_depth(pair: &Pair, mesh: &SolidMesh, flank: Flank) -> f64 {
+    let engagement = Engagement::new(pair, true, 0.1);
+    let mut worst = 0.0f64;
+    for position in sweep(pair, flank, DEPTH, 60) {
+        let solid = loads(mesh, position);
+        engagement.pairs(position, |p| {
+            // below the base circle a flank is a meridian, of which the gap of tip corners knows nothing
+            if p.spot == Spot::Path {
+                let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
+                assert!(solid.iter().all(|l| l.flank == flank));
+                worst = worst.max((depth - p.depth).abs() * pair.mean_cone);
+            }
+        });
+    }
+    worst
 }
 
 #[test]
-fn explore() {
+fn depth_converges_with_the_square_of_the_facets_to_the_approach_on_the_path_of_contact() {
+    for pair in pairs_of_gears() {
+        for flank in [Flank::Drive, Flank::Coast] {
+            for smoothing in [1.0, 0.1] {
+                let at = |facets| worst_depth(&pair, &aligned(&pair, facets, smoothing), flank);
+                let (coarse, middle, fine) = (at(64), at(128), at(256));
+                for order in [(coarse / middle).log2(), (middle / fine).log2()] {
+                    assert!(order > 1.8, "{} {smoothing} {flank:?}: {coarse} {middle} {fine}", pair.gears[0].teeth);
+                }
+                assert!(fine < 0.2e-6, "{fine}");
+            }
+        }
+    }
+}
+
+#[test]
+fn both_tip_corners_reach_as_deep_as_spherical_trigonometry_says() {
     let pair = Pair::new(&GearSpec::default());
     let engagement = Engagement::new(&pair, true, 0.1);
-    for facets in [4, 8, 16, 32, 64, 128] {
-        for smoothing in [1.0, 0.05] {
-            let mesh = solid(&pair, facets, smoothing);
-            let a = 0.1e-3 / pair.mean_cone;
-            let q = -a - pair.normal_backlash / 2.0;
-            let (mut worst, mut place) = (0.0f64, 0.0);
-            let mut worst_path = 0.0f64;
-            let mut count = [0; 2];
-            for i in 0..400 {
-                let x = (f64::from(i) / 400.0 - 0.5) * pair.base_pitch;
-                let state = MeshState { position: [q, x], ..Default::default() };
-                let mut expected: Vec<(i64, f64, bool)> = Vec::new();
-                engagement.pairs([q, x], |p| expected.push((p.number, p.depth, p.place == p.s)));
-                count[0] += expected.len();
-                mesh.loaded(&state, |l| {
-                    count[1] += 1;
-                    assert_eq!(l.flank, Flank::Drive);
-                    let found = expected.iter().find(|e| e.0 == l.number);
-                    let (e, path) = found.map_or((0.0, false), |e| (e.1, e.2));
-                    let off = (l.depth - e) * pair.mean_cone * 1e6;
-                    if off.abs() > worst.abs() {
-                        (worst, place) = (off, l.s);
+    let mesh = aligned(&pair, 512, 0.1);
+    let mut corners = [0, 0];
+    for flank in [Flank::Drive, Flank::Coast] {
+        for position in sweep(&pair, flank, DEPTH, 200) {
+            let solid = loads(&mesh, position);
+            engagement.pairs(position, |p| {
+                let which = match p.spot {
+                    Spot::Path => return,
+                    Spot::PlanetTip => 0,
+                    // where the planet's flank has become a meridian, the closed form goes on along the involute
+                    Spot::SideTip if p.s < -pair.pitch_arc[0] + 0.005 => return,
+                    Spot::SideTip => 1,
+                };
+                let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
+                let off = (depth - p.depth) * pair.mean_cone;
+                // the patch at a corner lies on one side of it alone
+                assert!(off.abs() < 0.2e-6, "{:?} {} off by {off} m of {}", p.spot, p.place, p.depth * pair.mean_cone);
+                corners[which] += 1;
+            });
+        }
+    }
+    assert!(corners.iter().all(|&n| n > 10), "{corners:?}");
+}
+
+#[test]
+fn forces_are_the_gradient_of_the_energy_and_jacobians_those_of_the_forces() {
+    let pair = Pair::new(&GearSpec::default());
+    let d = Displacement { along: [40e-6, -20e-6], across: 30e-6, lean: 0.6e-3 };
+    let faces: Vec<Slice> = [0.1, 0.5, 0.9]
+        .map(|t| Slice {
+            share: 1.0 / 3.0,
+            relief: 10e-6 * (2.0 * t - 1.0) * (2.0 * t - 1.0),
+            ..slice(&pair, pair.inner_cone + t * (pair.outer_cone - pair.inner_cone))
+        })
+        .to_vec();
+    for facets in [4, 8, 32, 64] {
+        let mesh = displaced(&pair, facets, 1.0, faces.clone(), d);
+        for flank in [Flank::Drive, Flank::Coast] {
+            for position in sweep(&pair, flank, DEPTH, 23) {
+                let state = MeshState { position, rate: [3e-3, -7e-3], which: [0, 1] };
+                let (force, jacobian) = mesh.linearise(&state);
+                let plain = mesh.force(&state);
+                assert_eq!(force.force, plain.force);
+                assert_eq!(force.heat, plain.heat);
+                let h = 1e-8;
+                let moved = |k: usize, by: f64, of_rate: bool| {
+                    let mut s = state;
+                    if of_rate {
+                        s.rate[k] += by
+                    } else {
+                        s.position[k] += by
                     }
-                    if path && off.abs() > worst_path.abs() {
-                        worst_path = off;
+                    s
+                };
+                let still = mesh.force(&MeshState { rate: [0.0; 2], ..state });
+                for k in 0..2 {
+                    let energy = |by: f64| mesh.energy(state.which, moved(k, by, false).position);
+                    let gradient = (energy(h) - energy(-h)) / (2.0 * h);
+                    let scale = still.force[0].abs() + 1.0;
+                    assert!((gradient + still.force[k]).abs() < 1e-6 * scale, "{facets} {gradient} {:?}", still.force);
+                    for a in 0..2 {
+                        let scale = jacobian.by_position[0][0].abs() + 1.0;
+                        let slope = (mesh.force(&moved(k, h, false)).force[a]
+                            - mesh.force(&moved(k, -h, false)).force[a])
+                            / (2.0 * h);
+                        let found = jacobian.by_position[a][k];
+                        assert!((slope - found).abs() < 1e-5 * scale, "{facets} {a}{k}: {slope} {found}");
+                        let (h, scale) = (1e-4, jacobian.by_rate[0][0].abs() + 1e-3);
+                        let slope = (mesh.force(&moved(k, h, true)).force[a]
+                            - mesh.force(&moved(k, -h, true)).force[a])
+                            / (2.0 * h);
+                        let found = jacobian.by_rate[a][k];
+                        assert!((slope - found).abs() < 1e-6 * scale, "{facets} {a}{k}: {slope} {found}");
                     }
-                });
+                }
             }
-            println!(
-                "{facets} {smoothing}: eps {:.3} um worst {worst:.3} um at s {place:.4} of {:.4}..{:.4}, on path {worst_path:.3}, pairs {count:?}",
-                mesh.softness() * pair.mean_cone * 1e6,
-                pair.path.low,
-                pair.path.high
-            );
+        }
+    }
+}
+
+#[test]
+fn the_force_has_no_jumps_from_eight_facets_on() {
+    let pair = Pair::new(&GearSpec::default());
+    for (facets, smoothing) in [(8, 1.0), (8, 0.05), (16, 1.0), (32, 1.0), (33, 0.1), (128, 1.0)] {
+        let mesh = aligned(&pair, facets, smoothing);
+        let n = 20_000;
+        let points = sweep(&pair, Flank::Drive, DEPTH, n);
+        let step = pair.base_pitch / f64::from(n);
+        let (mut last, mut greatest, mut most) = (None, 0.0f64, 0.0f64);
+        for position in points {
+            let energy = mesh.energy([0, 0], position);
+            let slope = mesh.force(&MeshState { position, ..MeshState::default() }).force[1];
+            if let Some((before, old)) = last {
+                // the trapezium rule over a step leaves but its third power, unless energy or force jump
+                let off: f64 = energy - before + 0.5 * step * (slope + old);
+                greatest = greatest.max(off.abs());
+            }
+            (last, most) = (Some((energy, slope)), most.max(energy));
+        }
+        assert!(greatest < 1e-7 * most, "{facets} {smoothing}: {greatest} J of {most} J");
+    }
+}
+
+#[test]
+fn resultants_lie_on_the_line_of_action_with_the_levers_of_virtual_work() {
+    let pair = Pair::new(&GearSpec::default());
+    let mesh = aligned(&pair, 256, 1.0);
+    let engagement = Engagement::new(&pair, true, 0.1);
+    for flank in [Flank::Drive, Flank::Coast] {
+        for position in sweep(&pair, flank, DEPTH, 40) {
+            for load in loads(&mesh, position) {
+                if engagement.rigid_spot(load.s).0 != Spot::Path {
+                    continue;
+                }
+                let sign = if flank == Flank::Drive { 1.0 } else { -1.0 };
+                let [np, ns, nt] = load.normal;
+                let [p, s, t] = load.point;
+                // (axis × point)·normal about both axes, which are perpendicular: sinδ_b
+                for (i, lever) in [(0, s * nt - t * ns), (1, p * nt - t * np)] {
+                    let wanted = sign * pair.lever()[i];
+                    assert!((lever - wanted).abs() < 2e-3, "{flank:?} gear {i}: {lever} {wanted}");
+                }
+                assert!((np * np + ns * ns + nt * nt - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides() {
+    let pair = Pair::new(&GearSpec::default());
+    let size = 10e-6;
+    let specs = [
+        ToothErrorSpec { planet_axial_offset: size, ..ToothErrorSpec::default() },
+        ToothErrorSpec { planet_axial_offset: -size, ..ToothErrorSpec::default() },
+        ToothErrorSpec { side_axial_offset: size, ..ToothErrorSpec::default() },
+        ToothErrorSpec { axis_offset: size, ..ToothErrorSpec::default() },
+        ToothErrorSpec { axis_offset: -size, ..ToothErrorSpec::default() },
+        ToothErrorSpec { shaft_angle_error: size / pair.mean_cone, ..ToothErrorSpec::default() },
+        ToothErrorSpec { shaft_angle_error: -size / pair.mean_cone, ..ToothErrorSpec::default() },
+        ToothErrorSpec { crowning: size, ..ToothErrorSpec::default() },
+    ];
+    let width = pair.outer_cone - pair.inner_cone;
+    for spec in specs {
+        let errors = ToothErrors::new(&spec, &pair, 2).unwrap();
+        for side in 0..2 {
+            let d = Displacement {
+                along: [spec.planet_axial_offset, -spec.side_axial_offset],
+                across: spec.axis_offset,
+                lean: if side == 0 { spec.shaft_angle_error } else { -spec.shaft_angle_error },
+            };
+            for t in [0.0, 0.3, 1.0] {
+                let cone = pair.inner_cone + t * width;
+                let relief = spec.crowning * (2.0 * t - 1.0) * (2.0 * t - 1.0);
+                let one = Slice { relief, ..slice(&pair, cone) };
+                let mesh = displaced(&pair, 256, 0.2, vec![one], d);
+                let plain = displaced(&pair, 256, 0.2, vec![slice(&pair, cone)], Displacement::default());
+                for flank in [Flank::Drive, Flank::Coast] {
+                    for position in sweep(&pair, flank, DEPTH, 12) {
+                        for load in loads(&plain, position) {
+                            // well within the path: at its ends contact moves on to the corners
+                            if load.s < pair.path.low + 0.03 || load.s > pair.path.high - 0.03 {
+                                continue;
+                            }
+                            let moved = loads(&mesh, position).into_iter().find(|l| l.number == load.number);
+                            let opened = (load.depth - moved.map_or(0.0, |l| l.depth)) * cone;
+                            let id = PairId { planet_tooth: 0, side_tooth: 0, flank };
+                            let gap = errors.gap(MeshId { planet: 0, side }, id, cone, load.s);
+                            // of second order in the displacement, over the radius of curvature: size² / some mm
+                            assert!(
+                                (opened - gap).abs() < 0.01 * size,
+                                "{spec:?} {side} {flank:?} {cone}: {opened} {gap}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn gears_turned_on_by_whole_pitches_touch_alike_under_the_next_numbers() {
+    let pair = Pair::new(&GearSpec::default());
+    let mesh = aligned(&pair, 16, 1.0);
+    for [q, x] in sweep(&pair, Flank::Coast, DEPTH, 7) {
+        let (here, there) = (loads(&mesh, [q, x]), loads(&mesh, [q, x + 5.0 * pair.base_pitch]));
+        assert_eq!(here.len(), there.len());
+        for (a, b) in here.iter().zip(&there) {
+            assert_eq!(b.number - a.number, 5, "coast pairs are counted against the planet's travel");
+            assert!((a.depth - b.depth).abs() < 1e-13 && (a.s - b.s).abs() < 1e-13);
         }
     }
 }

@@ -29,6 +29,7 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
         gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(slice).collect()
     };
     let spec = SolidSpec {
+        fillet: p.geometry.root_fillet * pair.module / pair.outer_cone,
         facets: usize::try_from(p.solid.facets).unwrap_or(1).max(1),
         smoothing: p.solid.smoothing,
         slices,

@@ -331,7 +331,7 @@ pub fn rows() -> Vec<Variable> {
         ),
         integer(
             "solid.facets",
-            (2, 1024),
+            (4, 1024),
             |p| &mut p.solid.facets,
             "Facets on the involute of each flank of solid teeth",
         ),

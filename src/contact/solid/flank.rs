@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use crate::geometry::Pair;
 use crate::geometry::involute::Gear;
+use crate::geometry::solid::Foot;
 use crate::numeric::{PI, cos, sin};
 
 /// A ray of a flank.
@@ -29,22 +30,23 @@ pub struct Flanks {
 }
 
 impl Flanks {
-    /// Flanks of `pair` with `facets` on each involute.
-    pub fn new(pair: &Pair, facets: usize) -> Self {
+    /// Flanks of `pair` above root fillets of the angular radius `fillet` [rad], with `facets` on each involute.
+    pub fn new(pair: &Pair, fillet: f64, facets: usize) -> Self {
         let [p, s] = &pair.gears;
-        let planet = polars(p, facets).into_iter().rev().map(|polar| ray(p, polar, 1.0)).collect();
+        let feet = pair.gears.map(|gear| Foot::new(&gear, fillet));
+        let planet = polars(p, &feet[0], facets).into_iter().rev().map(|polar| ray(p, polar, 1.0)).collect();
         let into_side = |r: Ray| Ray { normal: -r.normal, ..r };
-        let side = polars(s, facets).into_iter().map(|polar| into_side(ray(s, polar, -1.0))).collect();
-        Self { rays: [planet, side], sagitta: [sagitta(p, facets, 1.0), sagitta(s, facets, -1.0)] }
+        let side = polars(s, &feet[1], facets).into_iter().map(|polar| into_side(ray(s, polar, -1.0))).collect();
+        Self { rays: [planet, side], sagitta: [0, 1].map(|i| sagitta(&pair.gears[i], &feet[i], facets)) }
     }
 }
 
-/// Polar angles of the rays of a flank from its root to its tip [rad]: equal steps of roll on the involute, and one facet
-/// below the base circle.
-fn polars(gear: &Gear, facets: usize) -> Vec<f64> {
-    let (start, end) = (gear.action_arc(gear.root), gear.action_arc(gear.tip));
+/// Polar angles of the rays of a flank from the end of its fillet to its tip [rad], as solids have them: equal steps of
+/// roll on the involute, and one facet below the base circle.
+fn polars(gear: &Gear, foot: &Foot, facets: usize) -> Vec<f64> {
+    let (start, end) = (foot.start_arc, gear.action_arc(gear.tip));
     let step = (end - start) / facets as f64;
-    let below = (gear.root < gear.base).then_some(gear.root);
+    let below = foot.has_meridian(gear).then_some(foot.end[0]);
     below.into_iter().chain((0..=facets).map(|i| gear.polar_at(start + step * i as f64))).collect()
 }
 
@@ -62,10 +64,10 @@ fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
 }
 
 /// Greatest height of the involute over its facets [rad].
-fn sagitta(gear: &Gear, facets: usize, side: f64) -> f64 {
-    let (start, end) = (gear.action_arc(gear.root), gear.action_arc(gear.tip));
+fn sagitta(gear: &Gear, foot: &Foot, facets: usize) -> f64 {
+    let (start, end) = (foot.start_arc, gear.action_arc(gear.tip));
     let step = (end - start) / facets as f64;
-    let point = |i: f64| gear.flank_point(gear.polar_at(start + step * i), side);
+    let point = |i: f64| gear.flank_point(gear.polar_at(start + step * i), 1.0);
     (0..facets)
         .map(|i| {
             let i = i as f64;

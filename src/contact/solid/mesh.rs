@@ -38,6 +38,8 @@ pub struct Slice {
 /// What defines the solids.
 #[derive(Clone, Debug)]
 pub struct SolidSpec {
+    /// Angular radius of the root fillets [rad].
+    pub fillet: f64,
     /// Facets per flank.
     pub facets: usize,
     /// Multiple of the usual softness.
@@ -51,6 +53,9 @@ pub struct SolidSpec {
 /// ε in heights of arc, so that the patch has the half-width of most of a facet and hands over from one to the next
 /// without a ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
 const SOFTNESS: f64 = 2.0;
+
+/// A length that no flank comes up to [rad].
+const LONGEST: f64 = 1.0;
 
 /// A loaded section of one pair.
 #[derive(Clone, Copy, Debug)]
@@ -106,10 +111,10 @@ pub struct SolidMesh {
 impl SolidMesh {
     /// Mesh of `pair` whose planets all may be displaced; `slack` [m] bounds what a displacement can close.
     pub fn new(pair: &Pair, spec: &SolidSpec, elastic: Impact, damping: Damping, slack: f64) -> Self {
-        let flanks = Flanks::new(pair, spec.facets);
+        let flanks = Flanks::new(pair, spec.fillet, spec.facets);
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
         let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
-        let soft = Softness::new(width, relative, pair.line_of_action());
+        let soft = Softness::new(width, relative, LONGEST);
         let ahead = soft.ahead;
         let placements = spec
             .displaced

@@ -27,6 +27,11 @@ use crate::numeric::{Partials, Smooth, TAU, sqrt};
 /// Weights below e to this power are nothing in double precision.
 const NEGLIGIBLE: f64 = -36.0;
 
+/// How far the distance of flanks may differ from the height over them, where they touch.
+const SLOPING: f64 = 0.05;
+/// Exponents up to which a sum is carried on without being scaled anew.
+const HIGH: f64 = 20.0;
+
 /// How softly the greatest overlap is taken.
 #[derive(Clone, Copy, Debug)]
 pub struct Softness {
@@ -166,16 +171,9 @@ impl Section<'_> {
         corners
     }
 
-    /// Calls `visit` with each stretch between corners whose overlap comes up to `floor`: the corners, with place and overlap
-    /// of each.
+    /// Calls `visit` with each stretch between corners whose overlap matters: the corners, with place and overlap of each.
     #[inline(always)]
-    fn stretches<T: Smooth>(
-        &self,
-        poses: &[Pose<T>; 2],
-        near: &Near,
-        floor: f64,
-        mut visit: impl FnMut([&Stop; 2], [(T, T); 2]),
-    ) {
+    fn stretches<T: Smooth>(&self, poses: &[Pose<T>; 2], near: &Near, mut visit: impl FnMut([&Stop; 2], [(T, T); 2])) {
         let span = self.span(poses);
         // the facets that the place lies on, the rays before and after it
         let mut facets: [Option<(usize, [Seen<T>; 2])>; 2] = [None; 2];
@@ -206,7 +204,7 @@ impl Section<'_> {
         let Some(mut before) = corners.next() else { return };
         let mut last = None;
         for stop in corners {
-            if before.overlap.max(stop.overlap) >= floor {
+            if before.overlap.max(stop.overlap) >= near.floor {
                 let from = match last {
                     Some(from) => from,
                     None => place(&before),
@@ -232,7 +230,8 @@ impl Section<'_> {
             }
             greatest = greatest.max(stop.overlap);
         }
-        (greatest > -soft.ahead).then_some(Near { values, greatest })
+        let floor = greatest + NEGLIGIBLE * soft.width - SLOPING * greatest.abs();
+        (greatest > -soft.ahead).then_some(Near { values, floor })
     }
 
     /// Depth p [rad] where it is more than nothing, and some way below.
@@ -240,27 +239,35 @@ impl Section<'_> {
         let near = self.look(poses, soft)?;
         let per = 1.0 / soft.width;
         let mut sum = T::constant(0.0);
-        // where the last stretch ended, and the exponential there
-        let (mut place, mut known) = (f64::NAN, 0.0);
-        self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |_, [(u0, d0), (u1, d1)]| {
-            let (a, b) = ((d0 - near.greatest) * per, (d1 - near.greatest) * per);
-            let from = if u0.value() == place { known } else { libm::exp(a.value()) };
-            let to = libm::exp(b.value());
-            (place, known) = (u1.value(), to);
-            sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential([a.value(), b.value()], [from, to]));
+        // what exponents count from, where the last stretch ended and the exponential there
+        let (mut from, mut place, mut known) = (f64::NAN, f64::NAN, 0.0);
+        self.stretches(poses, &near, |_, [(u0, d0), (u1, d1)]| {
+            let top = d0.value().max(d1.value());
+            if from.is_nan() {
+                from = top;
+            } else if top > from + HIGH * soft.width {
+                let less = libm::exp((from - top) * per);
+                sum = sum * less;
+                (from, known) = (top, known * less);
+            }
+            let (a, b) = ((d0 - from) * per, (d1 - from) * per);
+            let before = if u0.value() == place { known } else { libm::exp(a.value()) };
+            let after = libm::exp(b.value());
+            (place, known) = (u1.value(), after);
+            sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential([a.value(), b.value()], [before, after]));
         });
         (sum.value() > 0.0).then(|| {
             let r = 1.0 / sum.value();
-            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + near.greatest
+            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + from
         })
     }
 
     /// Where the patch lies.
     pub fn patch(&self, poses: &[Pose<f64>; 2], soft: &Softness) -> Option<Patch> {
-        let near = self.look(poses, soft)?;
+        let (near, from) = (self.look(poses, soft)?, self.depth(poses, soft)?);
         let (mut sum, mut out) = (0.0, Patch::default());
-        self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |ends, at| {
-            let [a, b] = at.map(|(_, d)| (d - near.greatest) / soft.width);
+        self.stretches(poses, &near, |ends, at| {
+            let [a, b] = at.map(|(_, d)| (d - from) / soft.width);
             let weight = (at[1].0 - at[0].0) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
             sum += weight;
             for (stop, (u, _)) in ends.into_iter().zip(at) {
@@ -286,8 +293,8 @@ impl Section<'_> {
 /// Flanks that are near each other.
 struct Near {
     values: [Pose<f64>; 2],
-    /// Greatest overlap without regard to slopes [rad].
-    greatest: f64,
+    /// Overlap without regard to slopes that does not matter any more [rad].
+    floor: f64,
 }
 
 /// Walks along both polygons, looking at heights alone.
