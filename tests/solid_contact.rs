@@ -177,21 +177,26 @@ fn the_force_has_no_jumps_from_eight_facets_on() {
     let pair = Pair::new(&GearSpec::default());
     for (facets, smoothing) in [(8, 1.0), (8, 0.05), (16, 1.0), (32, 1.0), (33, 0.1), (128, 1.0)] {
         let mesh = aligned(&pair, facets, smoothing);
-        let n = 20_000;
-        let points = sweep(&pair, Flank::Drive, DEPTH, n);
-        let step = pair.base_pitch / f64::from(n);
-        let (mut last, mut greatest, mut most) = (None, 0.0f64, 0.0f64);
-        for position in points {
-            let energy = mesh.energy([0, 0], position);
-            let slope = mesh.force(&MeshState { position, ..MeshState::default() }).force[1];
-            if let Some((before, old)) = last {
-                // the trapezium rule over a step leaves but its third power, unless energy or force jump
-                let off: f64 = energy - before + 0.5 * step * (slope + old);
-                greatest = greatest.max(off.abs());
+        let points = sweep(&pair, Flank::Drive, DEPTH, 5_000);
+        let force = |x: f64| mesh.force(&MeshState { position: [points[0][0], x], ..MeshState::default() }).force;
+        let apart = |a: f64, b: f64| (0..2).map(|i| (force(a)[i] - force(b)[i]).abs()).fold(0.0, f64::max);
+        // follow the steepest change down to where only a jump would be left of it
+        let steepest = |n: usize| {
+            let [mut a, mut b] = [points[n][1], points[n + 1][1]];
+            for _ in 0..24 {
+                let middle = 0.5 * (a + b);
+                if apart(a, middle) > apart(middle, b) { b = middle } else { a = middle }
             }
-            (last, most) = (Some((energy, slope)), most.max(energy));
-        }
-        assert!(greatest < 1e-7 * most, "{facets} {smoothing}: {greatest} J of {most} J");
+            apart(a, b)
+        };
+        let mut steps: Vec<usize> = (0..points.len() - 1).collect();
+        steps.sort_by(|&m, &n| {
+            let change = |n: usize| apart(points[n][1], points[n + 1][1]);
+            change(n).total_cmp(&change(m))
+        });
+        let jump = steps.iter().take(40).map(|&n| steepest(n)).fold(0.0, f64::max);
+        let scale = force(points[0][1])[0].abs();
+        assert!(jump < 1e-4 * scale, "{facets} {smoothing}: {jump} of {scale}");
     }
 }
 

@@ -11,6 +11,9 @@ use crate::geometry::involute::Gear;
 use crate::geometry::solid::Foot;
 use crate::numeric::{PI, cos, sin};
 
+/// How far a flank is prolonged below its lowest ray [rad].
+const PROLONGED: f64 = 0.1;
+
 /// A ray of a flank.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray {
@@ -34,20 +37,34 @@ impl Flanks {
     pub fn new(pair: &Pair, fillet: f64, facets: usize) -> Self {
         let [p, s] = &pair.gears;
         let feet = pair.gears.map(|gear| Foot::new(&gear, fillet));
-        let planet = polars(p, &feet[0], facets).into_iter().rev().map(|polar| ray(p, polar, 1.0)).collect();
+        let planet: Vec<Ray> = polars(p, &feet[0], facets).map(|polar| ray(p, polar, 1.0)).collect();
         let into_side = |r: Ray| Ray { normal: -r.normal, ..r };
-        let side = polars(s, &feet[1], facets).into_iter().map(|polar| into_side(ray(s, polar, -1.0))).collect();
+        let side: Vec<Ray> = polars(s, &feet[1], facets).map(|polar| into_side(ray(s, polar, -1.0))).collect();
+        let [mut planet, side] = [planet, side].map(prolonged);
+        planet.reverse();
         Self { rays: [planet, side], sagitta: [0, 1].map(|i| sagitta(&pair.gears[i], &feet[i], facets)) }
     }
 }
 
 /// Polar angles of the rays of a flank from the end of its fillet to its tip [rad], as solids have them: equal steps of
 /// roll on the involute, and one facet below the base circle.
-fn polars(gear: &Gear, foot: &Foot, facets: usize) -> Vec<f64> {
+fn polars(gear: &Gear, foot: &Foot, facets: usize) -> impl Iterator<Item = f64> {
     let (start, end) = (foot.start_arc, gear.action_arc(gear.tip));
     let step = (end - start) / facets as f64;
     let below = foot.has_meridian(gear).then_some(foot.end[0]);
-    below.into_iter().chain((0..=facets).map(|i| gear.polar_at(start + step * i as f64))).collect()
+    let gear = *gear;
+    below.into_iter().chain((0..=facets).map(move |i| gear.polar_at(start + step * i as f64)))
+}
+
+/// A flank with its lowest facet prolonged into the body of the gear, so that no contact ends where its fillet begins:
+/// fillets are not looked at.
+fn prolonged(rays: Vec<Ray>) -> Vec<Ray> {
+    let [first, second, ..] = rays[..] else { return rays };
+    let along = first.direction - second.direction;
+    let along = (along - first.direction * along.dot(&first.direction)).normalize();
+    let direction = first.direction * cos(PROLONGED) + along * sin(PROLONGED);
+    let below = Ray { direction, normal: first.normal };
+    std::iter::once(below).chain(rays).collect()
 }
 
 /// Ray of the flank that looks forward (`side` = 1) or backward (−1), its normal out of the material.
