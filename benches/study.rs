@@ -82,6 +82,7 @@ fn main() {
     let cases = [
         Case { name: "straight, tooth", level: 3, turning: false },
         Case { name: "turning, tooth", level: 3, turning: true },
+        Case { name: "turning, solid", level: 4, turning: true },
         Case { name: "straight, ideal", level: 1, turning: false },
         Case { name: "turning, ideal", level: 1, turning: true },
     ];
