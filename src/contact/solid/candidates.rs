@@ -6,7 +6,7 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
@@ -69,11 +69,17 @@ impl Candidates {
     pub fn near(&self, turn: Matrix3<f64>, deep: f64, mut visit: impl FnMut(i32, [RangeInclusive<usize>; 2])) {
         let (size, margin) = (turn.abs(), self.margin + deep * MM);
         let check = |planet: &BvhNode, side: &BvhNode| {
-            let middle = |n: &BvhNode| Vector3::from((n.mins() + n.maxs()).to_array()) * 0.5;
-            let half = |n: &BvhNode| Vector3::from((n.maxs() - n.mins()).to_array()) * 0.5;
-            let apart = turn * middle(planet) - middle(side);
-            let reach = size * half(planet) + half(side);
-            (0..3).all(|i| apart[i].abs() <= reach[i] + margin)
+            let (p_low, p_high) = (planet.mins().to_array(), planet.maxs().to_array());
+            let (s_low, s_high) = (side.mins().to_array(), side.maxs().to_array());
+            (0..3).all(|i| {
+                // twice the distance of the middles, and of what reaches across it
+                let (mut apart, mut reach) = (-s_low[i] - s_high[i], s_high[i] - s_low[i]);
+                for j in 0..3 {
+                    apart += turn[(i, j)] * (p_low[j] + p_high[j]);
+                    reach += size[(i, j)] * (p_high[j] - p_low[j]);
+                }
+                apart.abs() <= reach + 2.0 * margin
+            })
         };
         let pieces = [self.cuts[0].len() - 1, self.cuts[1].len() - 1];
         let mut found: [Option<Pieces>; MOST_TEETH] = [None; MOST_TEETH];

@@ -52,7 +52,7 @@ pub struct SolidSpec {
 
 /// ε in heights of arc, so that the patch has the half-width of most of a facet and hands over from one to the next
 /// without a ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
-const SOFTNESS: f64 = 2.0;
+const SOFTNESS: f64 = 1.25;
 
 /// A length that no flank comes up to [rad].
 const LONGEST: f64 = 1.0;

@@ -125,6 +125,17 @@ struct Stop {
     overlap: f64,
 }
 
+/// End of a stretch.
+#[derive(Clone, Copy)]
+struct End<T> {
+    u: T,
+    /// Overlap [rad].
+    overlap: T,
+    /// The gear whose facet the corner lies over, and the ray before it.
+    mate: usize,
+    ray: usize,
+}
+
 /// Where the patch of a section lies.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Patch {
@@ -171,52 +182,51 @@ impl Section<'_> {
         corners
     }
 
-    /// Calls `visit` with each stretch between corners whose overlap matters: the corners, with place and overlap of each.
+    /// Calls `visit` with the ends of each stretch between corners whose overlap matters.
     #[inline(always)]
-    fn stretches<T: Smooth>(&self, poses: &[Pose<T>; 2], near: &Near, mut visit: impl FnMut([&Stop; 2], [(T, T); 2])) {
+    fn stretches<T: Smooth>(&self, poses: &[Pose<T>; 2], near: &Near, mut visit: impl FnMut(&[End<T>; 2])) {
         let span = self.span(poses);
-        // the facets that the place lies on, the rays before and after it
-        let mut facets: [Option<(usize, [Seen<T>; 2])>; 2] = [None; 2];
-        let mut facet = |gear: usize, i: usize| match facets[gear] {
-            Some((at, ends)) if at == i => ends,
-            known => {
-                let from = match known {
-                    Some((at, [_, end])) if at + 1 == i => end,
-                    _ => self.see(poses, gear, i),
-                };
-                let ends = [from, self.see(poses, gear, i + 1)];
-                facets[gear] = Some((i, ends));
-                ends
-            }
-        };
-        let mut place = |stop: &Stop| {
-            let [i, k] = stop.after;
-            let (own, mate) = if stop.of_side { ((1, k), (0, i)) } else { ((0, i), (1, k)) };
-            // the last ray has no facet after it
-            let at =
-                if own.1 + 1 < self.rays[own.0].len() { facet(own.0, own.1)[0] } else { facet(own.0, own.1 - 1)[1] };
-            let [from, to] = facet(mate.0, mate.1);
-            let (here, there) = ([at.h, at.metric], from.until(&to, at.u));
-            let (planet, side) = if stop.of_side { (there, here) } else { (here, there) };
-            (at.u, span.overlap(at.u, planet, side))
-        };
+        // heights alone tell where to begin
         let mut corners = self.corners(&near.values);
-        let Some(mut before) = corners.next() else { return };
-        let mut last = None;
-        for stop in corners {
-            if before.overlap.max(stop.overlap) >= near.floor {
-                let from = match last {
-                    Some(from) => from,
-                    None => place(&before),
-                };
-                let to = place(&stop);
-                visit([&before, &stop], [from, to]);
-                last = Some(to);
-            } else if last.is_some() {
-                // between convex flanks the overlap has but one hill
-                break;
+        let Some(mut begin) = corners.next() else { return };
+        while begin.overlap < near.floor {
+            match corners.next() {
+                Some(stop) if stop.overlap < near.floor => begin = stop,
+                _ => break,
             }
-            before = stop;
+        }
+        // the facets at the place: rays before and after it, of which the one before is the corner itself on one flank
+        let mut next = begin.after.map(|i| i + 1);
+        let mut from = [self.see(poses, 0, begin.after[0]), self.see(poses, 1, begin.after[1])];
+        let ray = |gear: usize, i: usize| (i < self.rays[gear].len()).then(|| self.see(poses, gear, i));
+        let [Some(planet), Some(side)] = [ray(0, next[0]), ray(1, next[1])] else { return };
+        let mut to = [planet, side];
+        let end = |own: usize, at: &Seen<T>, from: &[Seen<T>; 2], to: &[Seen<T>; 2], next: &[usize; 2]| {
+            let (here, there) = ([at.h, at.metric], from[1 - own].until(&to[1 - own], at.u));
+            let (planet, side) = if own == 0 { (here, there) } else { (there, here) };
+            End { u: at.u, overlap: span.overlap(at.u, planet, side), mate: 1 - own, ray: next[1 - own] - 1 }
+        };
+        let own = usize::from(begin.of_side);
+        let mut last = end(own, &from[own], &from, &to, &next);
+        let mut risen = false;
+        loop {
+            let matters = last.overlap.value() >= near.floor;
+            if risen && !matters {
+                // between convex flanks the overlap has but one hill
+                return;
+            }
+            risen |= matters;
+            let own = usize::from(to[1].u.value() < to[0].u.value());
+            let at = end(own, &to[own], &from, &to, &next);
+            let ends = [last, at];
+            visit(&ends);
+            [_, last] = ends;
+            from[own] = to[own];
+            next[own] += 1;
+            match ray(own, next[own]) {
+                Some(seen) if seen.u.value() > from[own].u.value() => to[own] = seen,
+                _ => return,
+            }
         }
     }
 
@@ -241,7 +251,8 @@ impl Section<'_> {
         let mut sum = T::constant(0.0);
         // what exponents count from, where the last stretch ended and the exponential there
         let (mut from, mut place, mut known) = (f64::NAN, f64::NAN, 0.0);
-        self.stretches(poses, &near, |_, [(u0, d0), (u1, d1)]| {
+        self.stretches(poses, &near, |[End { u: u0, overlap: d0, .. }, End { u: u1, overlap: d1, .. }]| {
+            let (u0, d0, u1, d1) = (*u0, *d0, *u1, *d1);
             let top = d0.value().max(d1.value());
             if from.is_nan() {
                 from = top;
@@ -266,18 +277,16 @@ impl Section<'_> {
     pub fn patch(&self, poses: &[Pose<f64>; 2], soft: &Softness) -> Option<Patch> {
         let (near, from) = (self.look(poses, soft)?, self.depth(poses, soft)?);
         let (mut sum, mut out) = (0.0, Patch::default());
-        self.stretches(poses, &near, |ends, at| {
-            let [a, b] = at.map(|(_, d)| (d - from) / soft.width);
-            let weight = (at[1].0 - at[0].0) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
+        self.stretches(poses, &near, |ends| {
+            let [a, b] = [&ends[0], &ends[1]].map(|end| (end.overlap - from) / soft.width);
+            let weight = (ends[1].u - ends[0].u) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
             sum += weight;
-            for (stop, (u, _)) in ends.into_iter().zip(at) {
+            for &End { u, mate, ray, .. } in ends {
                 // the flank that the corner is pressed into
-                let mate = usize::from(!stop.of_side);
-                let i = stop.after[mate];
-                let seen = self.see(poses, mate, i);
-                let normal = self.rays[mate][i].normal;
+                let normal = self.rays[mate][ray].normal;
+                let [height, _] = self.see(poses, mate, ray).until(&self.see(poses, mate, ray + 1), u);
                 out.place[0] += 0.5 * weight * u;
-                out.place[1] += 0.5 * weight * seen.until(&self.see(poses, mate, i + 1), u)[0];
+                out.place[1] += 0.5 * weight * height;
                 for (sum, row) in out.normal.iter_mut().zip(&poses[mate]) {
                     *sum += 0.5 * weight * (row[0] * normal.x + row[1] * normal.y + row[2] * normal.z);
                 }
