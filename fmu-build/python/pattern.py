@@ -41,10 +41,12 @@ LEGEND = 0.35
 def main():
     folder = Path(sys.argv[1])
     data = {name: read(folder / f"{name}.csv") for name in ["pattern", "contacts", "summary", "outline"]}
-    outline = {row["mark"]: row for row in data["outline"]}
+    outlines = {}
+    for row in data["outline"]:
+        outlines.setdefault(row["case"], {})[row["mark"]] = row
     cases = [(row["case"], row["title"]) for row in data["summary"]]
-    patterns(folder, data, outline, cases)
-    lines(folder, data, outline, cases)
+    patterns(folder, data, outlines, cases)
+    lines(folder, data, outlines, cases)
 
 
 def read(path):
@@ -82,22 +84,25 @@ def tooth(axes, outline, names=False):
     axes.grid(False)
 
 
-def patterns(folder, data, outline, cases):
+def patterns(folder, data, outlines, cases):
     columns = min(COLUMNS, len(cases))
     rows = -(-len(cases) // columns)
-    figure = plt.figure(figsize=(13, 3.35 * rows + 1.8), layout="constrained")
+    height = {1: 6.6, 2: 4.6, 3: 3.35}[columns]
+    figure = plt.figure(figsize=(13, height * rows + 1.8), layout="constrained")
     grid = figure.add_gridspec(2 * rows, columns, height_ratios=[2.6, 1] * rows)
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
+    top = top_of(data, cases)
     shown, first = None, None
     for i, (name, title) in enumerate(cases):
         axes = figure.add_subplot(grid[2 * (i // columns), i % columns])
+        outline = outlines[name]
         seen = [row for row in data["pattern"] if row["case"] == name]
         cones = sorted({row["cone"] for row in seen})
         shape = (len(cones), len(seen) // len(cones))
         cone, height, pressure = [np.array([row[key] for row in seen]).reshape(shape)
                                   for key in ["cone", "height", "pressure"]]
         pressure = np.ma.masked_less(pressure, 1.0)
-        shown = axes.pcolormesh(cone, height, pressure, cmap=INK, vmin=0.0, vmax=TOP, shading="gouraud")
+        shown = axes.pcolormesh(cone, height, pressure, cmap=INK, vmin=0.0, vmax=top, shading="gouraud")
         tooth(axes, outline, True)
         row = next(row for row in data["summary"] if row["case"] == name)
         axes.set_title(f"{title} ({row['flank']} flank)", fontsize=10.5, loc="left", pad=17)
@@ -110,21 +115,23 @@ def patterns(folder, data, outline, cases):
         below.plot(at, load, color=LOAD, lw=1.5)
         middle = 0.5 * (outline["tip"]["toe_cone"] + outline["tip"]["heel_cone"])
         below.axvline(middle + row["centroid"], color=EDGE, lw=1.3)
-        below.text(middle + row["centroid"] + 0.15, 1.18 * most_load, f"{row['force']:.1f} kN, {round(row['centroid'], 1) + 0.0:+.1f} mm",
-                   color=EDGE, fontsize=9, va="top")
+        told = f"{row['force']:.1f} kN, {round(row['centroid'], 1) + 0.0:+.1f} mm"
+        below.text(middle + row["centroid"] + 0.15, 1.18 * most_load, told, color=EDGE, fontsize=9, va="top")
         below.set(ylim=(0, 1.25 * most_load))
         if i % columns == 0:
             axes.set_ylabel("height, mm")
             below.set_ylabel("N/mm")
         if i >= len(cases) - columns:
             below.set_xlabel("cone distance R, mm")
-    bar = figure.colorbar(shown, ax=figure.axes, orientation="horizontal", shrink=0.5, aspect=50, extend="max", pad=0.01)
+    bar = figure.colorbar(shown, ax=figure.axes, orientation="horizontal", shrink=0.5, aspect=50, extend="max",
+                          pad=0.01)
     bar.set_label("largest Hertz pressure of the engagement, MPa")
     handles, labels = first.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncols=3, bbox_to_anchor=(0.47, 1.0), fontsize=10)
-    caption(figure, "Contact patterns of planet 1 with the left side gear in the study's turn (835 N·m on each "
-            "half-shaft, solid teeth): the drive flank of the planet as a trapezoid, small end (toe) left, and what "
-            "pressure each spot of it sees while one pair goes from first touch to parting: the ink that an assembler "
+    where = "the study's turn (835 N·m on each half-shaft)" if documented(cases) else "scenes of your own"
+    caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, solid teeth: the planet's flank as a "
+            "trapezoid, small end (toe) left, and what pressure each spot of it sees while one pair goes from first "
+            "touch to parting: the ink that an assembler "
             "would find rubbed off. Colour: one scale for all; the darkest seam at the base circle is beyond it, as the "
             "flank has no radius there. Blue: line load over the face when the pair touches at the pitch line; red: the "
             "pair's force and its centroid, from mid-face toward the heel. Offsets bring one end of the face together "
@@ -134,6 +141,18 @@ def patterns(folder, data, outline, cases):
     save(figure, folder, "contact_pattern")
 
 
+def documented(cases):
+    return all(name in SEEN for name, _ in cases)
+
+
+def top_of(data, cases):
+    """Upper end of the colours, MPa: that of the documentation, or what but few spots of the user's scenes exceed."""
+    if documented(cases):
+        return TOP
+    found = [row["pressure"] for row in data["pattern"] if row["pressure"] > 0.0]
+    return 100.0 * np.ceil(np.percentile(found, 97.0) / 100.0)
+
+
 def strip(data, name):
     """Cone distance and line load at the instant nearest to the pitch point."""
     rows = [row for row in data["contacts"] if row["case"] == name and row["followed"]]
@@ -141,13 +160,14 @@ def strip(data, name):
     return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
 
 
-def lines(folder, data, outline, cases):
+def lines(folder, data, outlines, cases):
     names = dict(cases)
     chosen = [name for name in LINES if name in names][:2] or [name for name, _ in cases][:2]
     figure, grid = plt.subplots(INSTANTS, len(chosen), figsize=(13, 2.35 * INSTANTS + 1.2), layout="constrained",
                                 squeeze=False, sharex=True, sharey=True)
-    colours, scale = plt.get_cmap(INK), plt.Normalize(0.0, TOP)
+    colours, scale = plt.get_cmap(INK), plt.Normalize(0.0, top_of(data, cases))
     for column, name in enumerate(chosen):
+        outline = outlines[name]
         rows = [row for row in data["contacts"] if row["case"] == name]
         followed = sorted({row["time"] for row in rows if row["followed"]})
         picks = [followed[round(i * (len(followed) - 1) / (INSTANTS - 1))] for i in range(INSTANTS)]
@@ -173,8 +193,8 @@ def lines(folder, data, outline, cases):
                 corner = ", tip corner" if line[0]["corner"] else ""
                 who = "this pair" if own else "another"
                 axes.annotate(f"{who} {1e-3 * force:.1f} kN{corner}", (line[-1]["cone"] + 0.5 * line[-1]["width"],
-                              line[-1]["planet_height"]), xytext=(20 if i == 0 else 5, 0), textcoords="offset points", fontsize=8.5,
-                              va="center", annotation_clip=False)
+                              line[-1]["planet_height"]), xytext=(20 if i == 0 else 5, 0),
+                              textcoords="offset points", fontsize=8.5, va="center", annotation_clip=False)
             angle = (time - picks[0]) / (picks[-1] - picks[0])
             axes.set_title(f"{names[name]}, {100.0 * angle:.0f} % of the engagement, {1e-3 * whole:.1f} kN in all",
                            fontsize=10, loc="left")
@@ -182,8 +202,9 @@ def lines(folder, data, outline, cases):
                 axes.set_ylabel("height, mm")
             if i == INSTANTS - 1:
                 axes.set_xlabel("cone distance R, mm")
+    tips = [outlines[name]["tip"] for name in chosen]
     for axes in grid.flat:
-        axes.set_xlim(outline["tip"]["toe_cone"] - 1.3, outline["tip"]["heel_cone"] + 6.5)
+        axes.set_xlim(min(tip["toe_cone"] for tip in tips) - 1.3, max(tip["heel_cone"] for tip in tips) + 6.5)
     bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01,
                           extend="max")
     bar.set_label("Hertz pressure, MPa")

@@ -90,18 +90,21 @@ fn between(line: &[&Contact], cone: f64, face: [f64; 2]) -> Option<[f64; 3]> {
     (values[1] > 0.0 && values[2] > 0.0).then_some(values)
 }
 
-/// The flank's outline as a file: heights of its marks at toe and heel.
-pub fn outline(pair: &Pair) -> String {
+/// Head of the file of outlines.
+pub fn outline_head() -> String {
+    "# heights on the planet's flank from the pitch circle; start: where contact of aligned rigid teeth \
+                   begins\n# units: -,-,mm,mm,mm,mm\ncase,mark,toe_cone,toe_height,heel_cone,heel_height\n"
+        .to_owned()
+}
+
+/// The flank's outline in that file: heights of its marks at toe and heel.
+pub fn outline(pair: &Pair, case: &str, out: &mut String) {
     let gear = &pair.gears[0];
-    let mut out = "# heights on the planet's flank from the pitch circle; start: where contact of aligned rigid teeth \
-                   begins\n# units: -,mm,mm,mm,mm\nmark,toe_cone,toe_height,heel_cone,heel_height\n"
-        .to_owned();
     let start = gear.polar_at(pair.pitch_arc[0] + pair.path.low);
     for (mark, polar) in
         [("root", gear.root), ("base", gear.base), ("start", start), ("pitch", gear.pitch), ("tip", gear.tip)]
     {
         let at = |cone: f64| format!("{:.4},{:.4}", 1e3 * cone, 1e3 * cone * (polar - gear.pitch));
-        out.push_str(&format!("{mark},{},{}\n", at(pair.inner_cone), at(pair.outer_cone)));
+        out.push_str(&format!("{case},{mark},{},{}\n", at(pair.inner_cone), at(pair.outer_cone)));
     }
-    out
 }

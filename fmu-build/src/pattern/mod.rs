@@ -59,11 +59,11 @@ impl Pattern {
         fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
         progress.begin_bar("simulating");
         let (mut envelopes, mut contacts, mut found) = (Envelope::head(), Record::head(), Vec::new());
-        let mut outline = None;
+        let mut outline = envelope::outline_head();
         for (i, case) in cases.iter().enumerate() {
             progress.advance(SIMULATING * i as f64 / cases.len() as f64, &case.title);
             let record = Record::new(&case.scene)?;
-            outline.get_or_insert_with(|| envelope::outline(&record.pair));
+            envelope::outline(&record.pair, &case.name, &mut outline);
             Envelope::new(&record).rows(&case.name, &mut envelopes);
             record.rows(&case.name, &mut contacts);
             found.push(Findings::new(case, &record)?);
@@ -73,7 +73,7 @@ impl Pattern {
             ("pattern.csv", &envelopes),
             ("contacts.csv", &contacts),
             ("summary.csv", &summary),
-            ("outline.csv", &outline.unwrap_or_default()),
+            ("outline.csv", &outline),
         ] {
             fs::write(folder.join(name), text).with_context(|| format!("{name} cannot be written"))?;
         }
