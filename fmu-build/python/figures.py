@@ -200,11 +200,12 @@ def note(axes, x, y, text):
     axes.text(x, y, text, transform=axes.transAxes, ha="right", va="center", fontsize=10.5, color=THEORY)
 
 
-def caption(figure, text):
-    """What to see, in lines under the axes."""
+def caption(figure, text, above=0.0):
+    """What to see, in lines under the axes; `above` them so many inches are kept free."""
     lines = textwrap.wrap(text, CAPTION_WIDTH)
     height = (CAPTION_LINE * len(lines) + 0.15) / figure.get_figheight()
-    figure.get_layout_engine().set(rect=(0.0, height, 0.995, 0.99 - height), hspace=0.04, wspace=0.03)
+    room = 0.99 - height - above / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0.0, height, 0.995, room), hspace=0.04, wspace=0.03)
     figure.text(0.02, height - 0.05 / figure.get_figheight(), "\n".join(lines), va="top", fontsize=CAPTION_SIZE,
                 color="#333333", linespacing=1.3)
 

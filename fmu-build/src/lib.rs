@@ -14,6 +14,7 @@ pub mod geometry;
 pub mod marked;
 pub mod off;
 pub mod package;
+pub mod pattern;
 pub mod peers;
 pub mod places;
 pub mod progress;

@@ -8,6 +8,7 @@ use anyhow::{Result, bail};
 use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
 use fmu_build::geometry::command::Geometry;
+use fmu_build::pattern::Pattern;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
@@ -32,6 +33,10 @@ usage: cargo run --release [-- COMMAND]
                          while they turn: files in target/geometry or DIR; --set: a parameter of the gears, such as
                          geometry.module=4mm; --facets: per flank of solids and curves, 32; --thicken: look for
                          interference of teeth thicker by this, such as 0.15mm
+  pattern [--scene FILE|NAME]... [--out DIR] [--write]
+                         show the contact pattern of solid teeth, aligned and misaligned or in scenes of your own:
+                         pressure on the planet's flank over one engagement, figures and CSV in target/pattern or DIR;
+                         --write: also renew docs/pattern.md and its figures
   effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]
                          run a scene with each effect on and off: what each changes and costs, and which the scene calls
                          for; --from: count outputs from TIME on; --as-written: only look what it can do without, not
@@ -58,6 +63,7 @@ enum Job {
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
     Geometry(Geometry),
+    Pattern(Pattern),
     Effects(Effects),
     Cost(Cost),
     TestPython(Vec<OsString>),
@@ -112,6 +118,9 @@ fn parse() -> Result<Job> {
             (Long("facets"), Some(Job::Geometry(geometry))) => geometry.facets = Some(arguments.value()?.string()?),
             (Long("thicken"), Some(Job::Geometry(geometry))) => geometry.thicken = Some(arguments.value()?.string()?),
             (Long("out"), Some(Job::Geometry(geometry))) => geometry.out = Some(arguments.value()?.into()),
+            (Long("scene"), Some(Job::Pattern(pattern))) => pattern.scenes.push(arguments.value()?.string()?),
+            (Long("out"), Some(Job::Pattern(pattern))) => pattern.out = Some(arguments.value()?.into()),
+            (Long("write"), Some(Job::Pattern(pattern))) => pattern.write = true,
             (Long("quick"), Some(Job::Cost(cost))) => cost.quick = true,
             (Long("write"), Some(Job::Cost(cost))) => cost.write = true,
             (Long("out"), Some(Job::Cost(cost))) => cost.out = Some(arguments.value()?.into()),
@@ -150,6 +159,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
         "geometry" => Job::Geometry(Geometry::default()),
+        "pattern" => Job::Pattern(Pattern::default()),
         "effects" => Job::Effects(Effects::default()),
         "cost" => Job::Cost(Cost::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
@@ -188,6 +198,7 @@ fn run(job: Job) -> Result<()> {
         Job::Scene(scene) => scene.run()?,
         Job::Loads(loads) => loads.run()?,
         Job::Geometry(geometry) => geometry.run()?,
+        Job::Pattern(pattern) => pattern.run()?,
         Job::Effects(effects) => effects.run()?,
         Job::Cost(cost) => cost.run()?,
         Job::TestPython(arguments) => {

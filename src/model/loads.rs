@@ -43,6 +43,18 @@ pub struct ToothLoad {
     pub friction: f64,
     /// Parts of the normal: along the planet's axis and the side gear's, away from the apex, and along the rotation.
     pub parts: [f64; 3],
+    /// Where solid teeth touch, which `spot` and `place` tell of aligned ones alone.
+    pub touch: Option<Touch>,
+}
+
+/// Where solid teeth touch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Direction from the side gear's apex in parts along the axes of planet and side gear, apex to heel, and along the
+    /// rotation.
+    pub point: [f64; 3],
+    /// Polar angles on planet and side gear, each about its own axis as it stands [rad].
+    pub polar: [f64; 2],
 }
 
 impl ToothLoad {
@@ -121,6 +133,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     normal: slice.normal,
                     friction: slice.friction,
                     parts: slice.parts,
+                    touch: None,
                 });
             });
             return;
@@ -143,6 +156,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     normal: load.force.total,
                     friction: 0.0,
                     parts: load.parts(),
+                    touch: Some(Touch { point: load.point, polar: load.polar }),
                 });
             });
             return;
@@ -163,6 +177,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                 normal: force.total,
                 friction: 0.0,
                 parts: parts(pair, mesh, contact),
+                touch: None,
             });
         });
     }

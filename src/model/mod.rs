@@ -47,7 +47,7 @@ pub use effect_specs::{
 };
 pub use failure::StepFailure;
 pub use layout::MAX_PLANETS;
-pub use loads::ToothLoad;
+pub use loads::{ToothLoad, Touch};
 pub use parameters::{
     CarrierDrive, Effects, GearContact, InertiaSpec, Inputs, Material, Method, Parameters, PlanetSpin, Scene,
     SideDrive, SolidTeeth, SolverSpec, Start,

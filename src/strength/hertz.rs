@@ -77,12 +77,21 @@ impl LineContact {
     ///
     /// 0 without load; `None` where a radius vanishes or a value makes no sense.
     pub fn pressure_at(&self, line_load: f64, cone: f64, s: f64) -> Option<f64> {
-        let radius = cone * self.relative_radius(s)?;
+        self.pressure_on(line_load, cone * self.relative_radius(s)?)
+    }
+
+    /// Pressure [Pa] of a load per width [N/m] on flanks of the relative radius of curvature `radius` > 0 [m].
+    pub fn pressure_on(&self, line_load: f64, radius: f64) -> Option<f64> {
         if line_load.is_nan() || line_load <= 0.0 {
             return Some(0.0);
         }
         let pressure = sqrt(line_load * self.modulus / (PI * radius));
         pressure.is_finite().then_some(pressure)
+    }
+
+    /// Half-width of the strip of contact b = 2w/(π p_H) [m] of a load per width w [N/m] under its pressure p_H [Pa].
+    pub fn half_width(line_load: f64, pressure: f64) -> f64 {
+        if pressure > 0.0 { 2.0 * line_load / (PI * pressure) } else { 0.0 }
     }
 
     /// Pressure [Pa] of one tooth pair that carries the normal force `force` [N] at place `s` [rad], under any law.

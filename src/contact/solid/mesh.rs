@@ -4,8 +4,13 @@
 //!
 //! over pairs k and sections j across the face, p the overlap of a section as an arc ([`super::overlap`]) and U of the
 //! law of a pair (IMPACT): slices of a straight bevel tooth are similar, so that the load per width depends on the arc
-//! alone. With ω_j ∝ R_j aligned flanks load the face evenly; then the resultant acts at R_m and V is that of tooth pairs
-//! on the path of contact. Of misaligned or crowned flanks every section carries what its own overlap calls for.
+//! alone. A section that moves by δp gives way by R_j δp where it is, so that its force is
+//!
+//!   F_j = ω_j R_m/R_j U′(R_m p_kj)
+//!
+//! and no other closes the balance of torques. With ω_j ∝ R_j times its width aligned flanks load the face evenly; then
+//! the resultant acts at R_m and V is that of tooth pairs on the path of contact. Of misaligned or crowned flanks every
+//! section carries what its own overlap calls for.
 
 use std::ops::RangeInclusive;
 
@@ -74,6 +79,8 @@ pub struct SolidLoad {
     pub force: Force,
     /// Where on the flank: unit vector in parts along the planet's axis, the side gear's and across.
     pub point: [f64; 3],
+    /// Polar angles of that place on planet and side gear, each about its own axis as it stands [rad].
+    pub polar: [f64; 2],
     /// Normal into the side gear, in the same parts.
     pub normal: [f64; 3],
 }
@@ -267,7 +274,8 @@ impl SolidMesh {
                 return;
             }
             let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
-            let force = Force { total: slice.share * whole.total, elastic: slice.share * whole.elastic, ..whole };
+            let share = slice.share * self.cone / slice.cone;
+            let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
             let poses = near.placement.poses(near.q, near.x, near.k);
             if let Some(patch) = self.section(near, slice).patch(&poses, &self.soft) {
                 let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
@@ -284,6 +292,7 @@ impl SolidMesh {
                     depth: p.v,
                     force,
                     point: parts(point.into()),
+                    polar: near.placement.polars(point, slice.cone),
                     normal: parts(patch.normal),
                 });
             }

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::flank::half_pitch;
 use crate::geometry::Pair;
-use crate::numeric::{Smooth, cos, sin};
+use crate::numeric::{Smooth, atan2, cos, sin};
 
 /// Rigid displacement of a planet against its side gear, as its drive flank sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -110,6 +110,16 @@ impl Placement {
     pub fn between(&self, q: f64, x: f64) -> Matrix3<f64> {
         let [planet, side] = [x / self.lever[0], (q + x) / self.lever[1]];
         about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
+    }
+
+    /// Polar angles on planet and side gear, as they stand, of the place in the direction `point` at cone distance
+    /// `cone` [m], in rows of a pose [rad].
+    pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
+        let on_gears = [point - self.offset / cone, point];
+        [0, 1].map(|gear| {
+            let (axis, place) = (self.frames[gear].column(2), on_gears[gear]);
+            atan2(axis.cross(&place).norm(), axis.dot(&place))
+        })
     }
 
     /// A vector in rows of a pose in parts along a_p, a_s and t.
