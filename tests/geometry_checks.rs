@@ -63,6 +63,29 @@ fn a_contact_ratio_below_one_is_warned_of() {
 }
 
 #[test]
+fn planets_that_strike_their_neighbours_are_warned_of() {
+    let four = |planet_teeth, side_teeth| GearSpec { planet_teeth, side_teeth, planet_count: 4, ..usual() };
+    let mitre = four(14, 14);
+    let tip = Pair::new(&mitre).gears[0].tip.to_degrees();
+    let overlap = format!("overlap by {:.3} deg", 2.0 * tip - 90.0);
+    assert!((2.0 * tip - 90.0 - 11.5).abs() < 0.05, "{tip}");
+    assert_warns(&mitre, &["geometry.planet_count: 4 planets strike", &overlap, "at most 45.000 deg", "(2 have room)"]);
+    let quiet = |spec| !found(&spec).1.join("\n").contains("strike");
+    assert!(quiet(four(10, 16)) && quiet(GearSpec { planet_count: 2, ..mitre }));
+}
+
+#[test]
+fn a_fillet_for_which_there_is_no_room_is_warned_of() {
+    let spec = GearSpec { root_fillet: 1.0, ..usual() };
+    let words =
+        ["geometry.root_fillet: the planet's root fillet is cut to", "not 4.500 mm = 1.000 m", "rounded out whole"];
+    assert_warns(&spec, &words);
+    let steep = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([1.0, 2.0], [1.0, 2.0]) };
+    let deep = GearSpec { planet_teeth: 40, side_teeth: 60, ..steep };
+    assert_warns(&deep, &["cut to 0.000 mm", "flanks meet above the root cone"]);
+}
+
+#[test]
 fn what_cannot_be_built_is_refused() {
     assert_refused(&GearSpec { face_width: 41e-3, ..usual() }, &["geometry.face_width", "no teeth at the toe"]);
     assert_refused(&GearSpec { backlash: 20e-3, ..usual() }, &["geometry.backlash", "whole tooth"]);

@@ -11,6 +11,7 @@ import numpy as np
 
 PLANET_TEETH, SIDE_TEETH, PLANETS = 10, 16, 2
 MODULE, PRESSURE_ANGLE, FACE_WIDTH, BACKLASH = 4.5e-3, np.radians(20.0), 20e-3, 0.1e-3
+ROOT_FILLET = 0.40 * MODULE
 DENSITY = 7800.0
 OUTER_CONE = 0.5 * MODULE * np.hypot(PLANET_TEETH, SIDE_TEETH)
 INNER_CONE = OUTER_CONE - FACE_WIDTH
@@ -76,15 +77,42 @@ class Gear:
         outline = [np.concatenate([direction(polar, c - azimuth), direction(polar, c + azimuth)]) for c in centres]
         return [np.concatenate([INNER_CONE * rays, OUTER_CONE * rays]) for rays in outline]
 
+    def fillet(self, facets):
+        """Polar angle and azimuth of the fillet between root circle and flank, from the root: a small circle of angular
+        radius ρ about a point of polar angle c = δ_f + ρ, tangent to the flank, or to the meridian below it. Normals of
+        the flank lie on great circles tangent to the base circle, so that the centre's arc is ρ more than the touching
+        point's."""
+        radius = ROOT_FILLET / OUTER_CONE
+        centre, foot = self.root + radius, self.half_angle(self.base)
+        touching = arc(self.base, centre) - radius
+        if centre > self.base and touching > 0.0:
+            end = np.arccos(np.cos(self.base) * np.cos(touching))
+            azimuth = foot - involute(self.base, centre) + radius / np.sin(self.base)
+        else:
+            azimuth = foot + np.arcsin(np.sin(radius) / np.sin(centre))
+            end = np.arctan(np.tan(centre) * np.cos(azimuth - foot))
+        polar = self.root + (end - self.root) * np.linspace(0.0, 1.0, facets + 1) ** 2
+        beside = (np.cos(radius) - np.cos(polar) * np.cos(centre)) / (np.sin(polar) * np.sin(centre))
+        return polar, azimuth - np.arccos(np.clip(beside, -1.0, 1.0))
+
     def inertia(self):
-        """Moment of inertia about the axis of the gear without bore, the solid that this program takes: with r = sin φ
-        along the outline ρ/20 cos δ_f ∮ r⁴ dθ, times the difference of the cone distances' fifth powers."""
-        polar, half = self.flank(4000)
-        middle = 0.5 * (polar[1:] + polar[:-1])
-        along_flank = np.sum(np.sin(middle) ** 4 * (half[:-1] - half[1:]))
-        land = np.pi / self.teeth - half[0]
-        ring = 2.0 * self.teeth * (along_flank + half[-1] * np.sin(self.tip) ** 4 + land * np.sin(self.root) ** 4)
-        return DENSITY * np.cos(self.root) / 20.0 * ring * (OUTER_CONE**5 - INNER_CONE**5)
+        """Moment of inertia about the axis of the gear without bore, the solid that this program takes: a frustum of the
+        root cone with flat ends, and teeth whose ends are ruled from the outline down to the root circle. At each
+        azimuth ∫∫ ρ³ dρ dz over the triangle apex, outline (a = sin φ), root (b = sin δ_f) is
+        sin(φ − δ_f) (a³ + a²b + ab² + b³) / 20; times the difference of the cone distances' fifth powers."""
+        polar, azimuth = self.fillet(4000)
+        flank, half = self.flank(4000)
+        above = flank > polar[-1]
+        polar, azimuth = np.append(polar, flank[above]), np.append(azimuth, half[above])
+
+        def triangle(polar):
+            a, b = np.sin(polar), np.sin(self.root)
+            return np.sin(polar - self.root) * (a**3 + a**2 * b + a * b**2 + b**3) / 20.0
+
+        sides = np.sum(0.5 * (triangle(polar[1:]) + triangle(polar[:-1])) * (azimuth[:-1] - azimuth[1:]))
+        teeth = 2.0 * self.teeth * (sides + azimuth[-1] * triangle(self.tip))
+        frustum = np.pi / 10.0 * np.cos(self.root) * np.sin(self.root) ** 4
+        return DENSITY * (frustum + teeth) * (OUTER_CONE**5 - INNER_CONE**5)
 
 
 def _gear(teeth, mate, addendum, shift):

@@ -1,7 +1,8 @@
 //! What cannot be built (errors) and what a gear engineer would question (warnings).
 
+use super::solid::Foot;
 use super::{GearSpec, Pair};
-use crate::numeric::{cos, sin};
+use crate::numeric::{TAU, cos, sin};
 use crate::problem::Problem;
 
 const NAMES: [&str; 2] = ["planet", "side gear"];
@@ -17,6 +18,10 @@ const LEAST_INNER_CONE: f64 = 0.1;
 const LEAST_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
+/// Numbers of planets that there may be.
+const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
+/// A fillet smaller than wanted by less than this share is rounding.
+const SHARE_OF_FILLET: f64 = 1e-9;
 
 /// Why the pair makes no differential: the geometry of a pair holds for other angles too.
 pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
@@ -154,6 +159,8 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
             ));
         }
     }
+    found.extend((0..2).filter_map(|i| cut_fillet(spec, pair, i)));
+    found.extend(striking_planets(spec, pair));
     let share = spec.face_width / pair.outer_cone;
     if share > FACE_WIDTH_LIMIT {
         found.push(Problem::new(
@@ -175,6 +182,59 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     found
+}
+
+/// Angle between the tip cones of neighbouring planets, `count` of them, where they are nearest [rad]; negative where the
+/// cones overlap. There neighbours turn against each other, so that no tooth finds a gap.
+pub fn between_planets(pair: &Pair, count: i32) -> f64 {
+    TAU / f64::from(count) - 2.0 * pair.gears[0].tip
+}
+
+fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
+    let (count, between) = (spec.planet_count, between_planets(pair, spec.planet_count));
+    if between >= 0.0 {
+        return None;
+    }
+    let room = |&n: &i32| 2 * spec.side_teeth % n == 0 && between_planets(pair, n) >= 0.0;
+    let fitting: Vec<String> = PLANET_COUNTS.filter(room).map(|n| n.to_string()).collect();
+    let hint = if fitting.is_empty() { "no planet count has room".into() } else { fitting.join(", ") + " have room" };
+    Some(Problem::new(
+        "geometry.planet_count",
+        format!(
+            "{count} planets strike each other: the tip cones of neighbours overlap by {:.3} deg, tip angle {:.3} deg, \
+             at most {:.3} deg; use fewer planets ({hint}) or more side gear teeth",
+            -between.to_degrees(),
+            pair.gears[0].tip.to_degrees(),
+            180.0 / f64::from(count)
+        ),
+    ))
+}
+
+/// A fillet at the root of gear `i` for which its gaps have no room.
+fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
+    let wanted = spec.root_fillet * pair.module / pair.outer_cone;
+    let foot = Foot::new(&pair.gears[i], wanted);
+    let got = foot.radius;
+    (got < wanted * (1.0 - SHARE_OF_FILLET)).then(|| {
+        let why = if foot.floor > pair.gears[i].root {
+            "flanks meet above the root cone"
+        } else if foot.centre >= foot.middle {
+            "the gap is rounded out whole"
+        } else {
+            "it would end above the pitch cone"
+        };
+        Problem::new(
+            "geometry.root_fillet",
+            format!(
+                "the {}'s root fillet is cut to {:.3} mm = {:.3} m at the heel, not {:.3} mm = {:.3} m: {why}",
+                NAMES[i],
+                got * pair.outer_cone * MM,
+                got * pair.outer_cone / pair.module,
+                wanted * pair.outer_cone * MM,
+                spec.root_fillet
+            ),
+        )
+    })
 }
 
 /// Width of the tip land of gear `i` at the heel [m].

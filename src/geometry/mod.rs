@@ -6,7 +6,6 @@ pub mod assembly;
 pub mod checks;
 pub mod corner;
 pub mod involute;
-pub mod mass;
 pub mod pair;
 pub mod solid;
 mod spec;

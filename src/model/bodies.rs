@@ -4,7 +4,7 @@ use super::layout::{CARRIER, MAX_DOF};
 use super::parameters::Parameters;
 use super::plan::Plan;
 use crate::geometry::Pair;
-use crate::geometry::mass::gear_mass;
+use crate::geometry::solid::mass::gear_mass;
 
 /// Inertias that the equations of motion need [kg·m²].
 ///
@@ -31,9 +31,7 @@ pub struct Inertias {
 impl Inertias {
     /// Inertias of the scene; gear solids scaled to the given inertia where that is given instead.
     pub fn new(p: &Parameters, pair: &Pair) -> Self {
-        let solid =
-            |i: usize, bore: f64| gear_mass(&pair.gears[i], pair.inner_cone, pair.outer_cone, bore, p.material.density);
-        let (planet, side) = (solid(0, p.geometry.planet_bore), solid(1, p.geometry.side_bore));
+        let [planet, side] = [0, 1].map(|i| gear_mass(pair, &p.geometry, i, p.material.density));
         let (side_axial, planet_axial) =
             if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
         let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
@@ -81,15 +79,14 @@ impl Inertias {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::mass::GearMass;
+    use crate::geometry::solid::mass::GearMass;
 
     #[test]
     fn planets_turn_with_the_carrier_across_their_axes() {
         let mut p = Parameters::default();
         p.geometry.planet_count = 4;
         let pair = Pair::new(&p.geometry);
-        let GearMass { axial, transverse_at_apex, .. } =
-            gear_mass(&pair.gears[0], pair.inner_cone, pair.outer_cone, 0.0, p.material.density);
+        let GearMass { axial, transverse_at_apex, .. } = gear_mass(&pair, &p.geometry, 0, p.material.density);
         let j = Inertias::new(&p, &pair);
         assert!((j.carrier / (0.02 + 4.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         assert_eq!(j.planet, axial);

@@ -15,7 +15,7 @@ CARRIER = np.radians(2861.0)
 TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": np.radians(954.0),
         "planet.spin_command": np.radians(200.0)}
 UNLOADED = {"left.load_torque": 0.0, "right.load_torque": 0.0}
-# gears whose inertia a test can count with, close to those of their solids
+# gears whose inertia a test can count with, about three fifths of that of their solids
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
 # energy below which nothing was turned over [J]
 LEAST = 1e-9

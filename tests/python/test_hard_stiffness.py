@@ -5,7 +5,7 @@ import pytest
 from driving import CARRIER, TURN, UNDAMPED
 
 STIFF = {"contact.stiffness": 1e3 * 5.77e5 * 1000.0**1.5}
-# a thousandth of the solids' inertias
+# less than a thousandth of the solids' inertias
 LIGHT = {"inertia.from_geometry": False, "inertia.side_gear": 9e-8, "inertia.planet": 2e-8, "inertia.carrier": 2e-5}
 UNDAMPED_TEETH, OVERDAMPED = {"contact.damping": 0.0}, {"contact.damping": 5e7}
 CHANGES = {

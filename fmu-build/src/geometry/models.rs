@@ -1,21 +1,20 @@
 //! The gears as files for CAD, printing and viewing: curves of the flanks, each gear in its own frame, the assembly.
 
 use anyhow::{Result, anyhow};
-use bevel_differential::geometry::solid::{Ends, GearSolid, Shape};
+use bevel_differential::geometry::solid::GearSolid;
 
 use super::assembly::{Body, IDENTITY, Position, bodies};
 use super::command::Made;
 use super::design::Design;
 use super::{gltf, stl, xyz};
 
-/// All of them, with `facets` per flank. Solids are not crowned and have flat ends within the teeth.
+/// All of them, with `facets` per flank. Solids are not crowned.
 pub fn files(design: &Design, facets: usize) -> Result<Vec<Made>> {
     let (pair, spec) = (&design.pair, &design.spec);
     let curves = xyz::curves(pair, spec, facets + 1);
     let mut made: Vec<Made> =
         curves.iter().map(|curve| Made::text(format!("{}.txt", curve.name), curve.text())).collect();
-    let shape = Shape { facets, strips: 1, crowning: 0.0, ends: Ends::Flat };
-    let solids = [0, 1].map(|i| GearSolid::shaped(pair, spec, i, &shape));
+    let solids = [0, 1].map(|i| GearSolid::new(pair, spec, i, facets, 1));
     let assembled = bodies(spec, &Position::default()).map_err(|problem| anyhow!("{problem}"))?;
     let single = |gear: usize| vec![Body { name: xyz::NAMES[gear].into(), gear, rotation: IDENTITY }];
     for (name, bodies) in [(xyz::NAMES[0], single(0)), (xyz::NAMES[1], single(1)), ("differential", assembled)] {

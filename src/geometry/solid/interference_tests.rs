@@ -7,7 +7,7 @@ use parry3d_f64::shape::TriMesh;
 
 use super::interference::{Approach, Interference, Stance, Verdict};
 use super::tests::specs;
-use super::{Ends, GearSolid, Part, Shape};
+use super::{GearSolid, Part};
 use crate::geometry::{AddendumSystem, GearSpec, Pair};
 
 const MM: f64 = 1e3;
@@ -140,8 +140,8 @@ fn a_tip_that_strikes_a_large_fillet_is_found() {
 }
 
 /// The whole solid in parry3d's millimetres.
-fn mesh(pair: &Pair, spec: &GearSpec, i: usize, ends: Ends) -> TriMesh {
-    let solid = GearSolid::shaped(pair, spec, i, &Shape { facets: 32, strips: 1, crowning: 0.0, ends });
+fn mesh(pair: &Pair, spec: &GearSpec, i: usize) -> TriMesh {
+    let solid = GearSolid::new(pair, spec, i, 32, 1);
     let vertices = solid.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
     TriMesh::new(vertices, solid.triangles).expect("triangles")
 }
@@ -162,18 +162,16 @@ fn the_verdict_is_that_of_the_whole_solids_facet_by_facet() {
     for (name, spec) in specs().into_iter().filter(|(name, _)| names.contains(name)).chain(few) {
         let (pair, found) = look(&spec, Stance::Middle);
         let teeth = found.verdict(found.approaches[0].gap);
-        for ends in [Ends::Ruled, Ends::Flat] {
-            let meshes = [0, 1].map(|i| mesh(&pair, &spec, i, ends));
-            let pitch = pair.gears[0].tooth_pitch();
-            let turns = (0..3).map(|k| pitch * f64::from(k) / 3.0).chain([found.approaches[0].turn]);
-            let mut any = false;
-            for turn in turns {
-                let ratio = f64::from(pair.gears[0].teeth) / f64::from(pair.gears[1].teeth);
-                let at = pose(&pair, turn, pair.gears[1].tooth_pitch() / 2.0 - turn * ratio);
-                let met = intersection_test(&Pose::IDENTITY, &meshes[0], &at, &meshes[1]).expect("both are meshes");
-                any |= met.intersecting;
-            }
-            assert_eq!(any, teeth == Verdict::Interfering, "{name} {ends:?}: {:?}", found.approaches[0]);
+        let meshes = [0, 1].map(|i| mesh(&pair, &spec, i));
+        let pitch = pair.gears[0].tooth_pitch();
+        let turns = (0..3).map(|k| pitch * f64::from(k) / 3.0).chain([found.approaches[0].turn]);
+        let mut any = false;
+        for turn in turns {
+            let ratio = f64::from(pair.gears[0].teeth) / f64::from(pair.gears[1].teeth);
+            let at = pose(&pair, turn, pair.gears[1].tooth_pitch() / 2.0 - turn * ratio);
+            let met = intersection_test(&Pose::IDENTITY, &meshes[0], &at, &meshes[1]).expect("both are meshes");
+            any |= met.intersecting;
         }
+        assert_eq!(any, teeth == Verdict::Interfering, "{name}: {:?}", found.approaches[0]);
     }
 }

@@ -1,9 +1,11 @@
 //! Surface of a whole gear: closed, of triangles that share their vertices, counter-clockwise seen from outside.
 //!
-//! The outline of each tooth is swept along the rays through the apex from R_i to R_e. Each end is closed down to the
-//! circle of the bore in the plane z = R cosδ_f; without a bore, to the axis. Either straight from the outline, as the
-//! solids of `geometry::mass` are, or from the root circle, with the ends of the teeth on the back of the body.
+//! The outline of each tooth is swept along the rays through the apex from R_i to R_e. At each end the teeth are closed by
+//! straight lines from the outline down to the root circle, and the body by the plane z = R cosδ_f from there to the bore;
+//! without a bore, to the axis. So there is a frustum of the root cone, with the teeth on it.
 //! Lengthwise crowning takes C ((R − R_m)/(b/2))² off the flanks, along their normals (ISO 21771).
+//!
+//! One tooth's *sector* is cut out of it by the planes through the axis and the middles of its gaps.
 
 use nalgebra::Vector3;
 
@@ -21,17 +23,6 @@ pub struct GearSolid {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// How the ends of a gear are closed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Ends {
-    /// Straight lines from the outline to the bore: the solid that inertias are taken from. A tooth goes on as a groove
-    /// down to the bore at the heel, as a ridge at the toe.
-    #[default]
-    Ruled,
-    /// Each tooth ends on the sphere, by straight lines down to the root circle; within that the end is flat.
-    Flat,
-}
-
 /// How finely a gear is drawn, and what of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
@@ -42,23 +33,18 @@ pub struct Shape {
     /// What is missing from the flanks at both ends of the face relative to its middle [m]: little beside the tip land's
     /// width, and seen from four strips on.
     pub crowning: f64,
-    /// How the ends are closed.
-    pub ends: Ends,
 }
 
 impl GearSolid {
     /// Gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, with `facets` per flank across the tooth and
-    /// `strips` along it, not crowned and with ruled ends. The pair must be free of `geometry::checks::errors`.
+    /// `strips` along it, not crowned. The pair must be free of `geometry::checks::errors`.
     pub fn new(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize, strips: usize) -> Self {
-        Self::shaped(pair, spec, gear, &Shape { facets, strips, crowning: 0.0, ends: Ends::Ruled })
+        Self::shaped(pair, spec, gear, &Shape { facets, strips, crowning: 0.0 })
     }
 
     /// The same in another shape.
     pub fn shaped(pair: &Pair, spec: &GearSpec, gear: usize, shape: &Shape) -> Self {
-        let bore = [spec.planet_bore, spec.side_bore][gear];
         let strips = shape.strips.max(1);
-        let gear = &pair.gears[gear];
-        let outline = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, shape.facets);
         let rows: Vec<Row> = (0..=strips)
             .map(|k| {
                 let share = k as f64 / strips as f64;
@@ -66,8 +52,24 @@ impl GearSolid {
                 Row { cone, missing: shape.crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
             })
             .collect();
-        Surface::new(gear, &outline).build(&rows, bore, shape.ends)
+        let outline = outline(pair, spec, gear, shape.facets);
+        Surface::new(&pair.gears[gear], &outline).build(&rows, bore(spec, gear))
     }
+
+    /// The sector of tooth 0 of the same gear, in one strip, not crowned.
+    pub fn sector(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize) -> Self {
+        let rows = [pair.inner_cone, pair.outer_cone].map(|cone| Row { cone, missing: 0.0 });
+        let outline = outline(pair, spec, gear, facets);
+        Surface::sector(&pair.gears[gear], &outline).build(&rows, bore(spec, gear))
+    }
+}
+
+fn outline(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize) -> Outline {
+    Outline::new(&pair.gears[gear], spec.root_fillet * pair.module / pair.outer_cone, facets)
+}
+
+fn bore(spec: &GearSpec, gear: usize) -> f64 {
+    [spec.planet_bore, spec.side_bore][gear]
 }
 
 /// Share of a pitch within which nodes, one above the other on the outline, have one vertex of the hub between them.
@@ -98,11 +100,15 @@ impl Row {
     }
 }
 
-/// What a gear's surface is made from.
+/// What the surface of a gear, or of a sector of it, is made from.
 struct Surface<'a> {
     gear: &'a Gear,
-    /// Nodes of a tooth: its last one is the first of the next.
+    /// Nodes of a tooth. In a whole gear the last of its outline is left out: it is the first of the next.
     nodes: &'a [Node],
+    /// Number of teeth, counted from tooth 0.
+    teeth: usize,
+    /// Whether the last tooth is followed by the first.
+    whole: bool,
     /// Azimuths of a tooth's vertices on the circles within the outline [rad], and the node on the root circle there.
     columns: Vec<(f64, Option<u32>)>,
     /// Column of each node.
@@ -113,8 +119,8 @@ impl<'a> Surface<'a> {
     fn new(gear: &'a Gear, outline: &'a Outline) -> Self {
         let nodes = &outline.nodes[..outline.nodes.len() - 1];
         // nodes on a meridian, and at the foot of an involute, would make slivers with a column each
-        let mut columns: Vec<(f64, Option<u32>)> = Vec::with_capacity(nodes.len());
-        let mut column = Vec::with_capacity(nodes.len());
+        let mut columns: Vec<(f64, Option<u32>)> = Vec::with_capacity(nodes.len() + 1);
+        let mut column = Vec::with_capacity(nodes.len() + 1);
         for (i, node) in nodes.iter().enumerate() {
             let root = (node.polar <= gear.root + ROUNDING).then_some(i as u32);
             match columns.last_mut() {
@@ -127,15 +133,26 @@ impl<'a> Surface<'a> {
             }
             column.push(columns.len() as u32 - 1);
         }
-        Self { gear, nodes, columns, column }
+        Self { gear, nodes, teeth: gear.teeth as usize, whole: true, columns, column }
     }
 
-    fn build(&self, rows: &[Row], bore: f64, ends: Ends) -> GearSolid {
-        let (gear, teeth) = (self.gear, self.gear.teeth as usize);
-        let around = (teeth * self.nodes.len()) as u32;
+    fn sector(gear: &'a Gear, outline: &'a Outline) -> Self {
+        let one = Self::new(gear, outline);
+        let (nodes, Self { mut columns, mut column, .. }) = (&outline.nodes[..], one);
+        // where the next tooth has its first column
+        let last =
+            columns.first().map(|(azimuth, root)| (azimuth + gear.tooth_pitch(), root.map(|_| nodes.len() as u32 - 1)));
+        columns.extend(last);
+        column.push(columns.len() as u32 - 1);
+        Self { gear, nodes, teeth: 1, whole: false, columns, column }
+    }
+
+    fn build(&self, rows: &[Row], bore: f64) -> GearSolid {
+        let gear = self.gear;
+        let around = (self.teeth * self.nodes.len()) as u32;
         let mut vertices = Vec::with_capacity((rows.len() + 4) * around as usize);
         for row in rows {
-            for tooth in 0..teeth {
+            for tooth in 0..self.teeth {
                 // a node in the middle of a gap belongs to two flanks at once and stays
                 let whole = Row { missing: 0.0, ..*row };
                 let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
@@ -143,26 +160,26 @@ impl<'a> Surface<'a> {
             }
         }
         let row = |k: usize| (0..around).map(|i| k as u32 * around + i).collect::<Vec<u32>>();
-        let last = rows.len() - 1;
-        let ends = [0, last].map(|k| {
+        let mut end = |k: usize| {
             let (cone, outline) = (rows[k].cone, row(k));
-            let collar = match ends {
-                Ends::Ruled => outline.clone(),
-                Ends::Flat => self.ring(&mut vertices, cone * sin(gear.root), cone, &outline),
-            };
-            (outline, collar, self.ring(&mut vertices, bore / 2.0, cone, &[]))
-        });
-        let mut triangles = Vec::with_capacity(2 * (rows.len() + 4) * around as usize);
-        for k in 1..rows.len() {
-            band(&mut triangles, &row(k), &row(k - 1));
+            let collar = self.ring(&mut vertices, cone * sin(gear.root), cone, &outline);
+            [outline, collar, self.ring(&mut vertices, bore / 2.0, cone, &[])]
+        };
+        // once around a section of the body: up the toe from the hub, along the teeth, down the heel
+        let ([toe, toe_collar, toe_hub], [heel, heel_collar, heel_hub]) = (end(0), end(rows.len() - 1));
+        let mut section = vec![toe_hub, toe_collar, toe];
+        section.extend((1..rows.len() - 1).map(row));
+        section.extend([heel, heel_collar, heel_hub]);
+        let mut triangles = Vec::with_capacity(2 * (section.len() + 1) * around as usize);
+        for rings in section.windows(2) {
+            self.band(&mut triangles, &rings[1], &rings[0]);
         }
-        let [(toe, toe_collar, toe_hub), (heel, heel_collar, heel_hub)] = ends;
-        band(&mut triangles, &heel_collar, &heel);
-        band(&mut triangles, &heel_hub, &heel_collar);
-        band(&mut triangles, &toe_collar, &toe_hub);
-        band(&mut triangles, &toe, &toe_collar);
         if bore > 0.0 {
-            band(&mut triangles, &toe_hub, &heel_hub);
+            self.band(&mut triangles, &section[0], &section[section.len() - 1]);
+        }
+        if !self.whole {
+            cut(&mut triangles, section.iter().map(|ring| ring[0]), false);
+            cut(&mut triangles, section.iter().map(|ring| ring[ring.len() - 1]), true);
         }
         GearSolid { vertices, triangles }
     }
@@ -171,13 +188,12 @@ impl<'a> Surface<'a> {
     /// `outline`, if it has any, that stand on the root circle are taken as they are. A circle of no radius is one vertex.
     fn ring(&self, vertices: &mut Vec<Vector3<f64>>, radius: f64, cone: f64, outline: &[u32]) -> Vec<u32> {
         let (gear, z) = (self.gear, cone * cos(self.gear.root));
-        let teeth = gear.teeth as usize;
         if radius <= 0.0 {
             vertices.push(Vector3::new(0.0, 0.0, z));
-            return vec![vertices.len() as u32 - 1; teeth * self.nodes.len()];
+            return vec![vertices.len() as u32 - 1; self.teeth * self.nodes.len()];
         }
-        let mut ring = Vec::with_capacity(teeth * self.nodes.len());
-        for tooth in 0..teeth {
+        let mut ring = Vec::with_capacity(self.teeth * self.nodes.len());
+        for tooth in 0..self.teeth {
             let turn = gear.tooth_pitch() * tooth as f64;
             let own = |node: &u32| outline.get(tooth * self.nodes.len() + *node as usize).copied();
             let numbers: Vec<u32> = self
@@ -195,15 +211,31 @@ impl<'a> Surface<'a> {
         }
         ring
     }
+
+    /// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
+    /// Where two corners of a triangle are one and the same vertex there is none.
+    fn band(&self, triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
+        for i in 0..upper.len() - usize::from(!self.whole) {
+            let next = (i + 1) % upper.len();
+            let ([u, l], [u2, l2]) = ([upper[i], lower[i]], [upper[next], lower[next]]);
+            push(triangles, [l, l2, u2]);
+            push(triangles, [l, u2, u]);
+        }
+    }
 }
 
-/// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
-/// Where two corners of a triangle are one and the same vertex there is none.
-fn band(triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
-    for (i, (&u, &l)) in upper.iter().zip(lower).enumerate() {
-        let next = (i + 1) % upper.len();
-        let (u2, l2) = (upper[next], lower[next]);
-        let pair = [[l, l2, u2], [l, u2, u]];
-        triangles.extend(pair.into_iter().filter(|&[a, b, c]| a != b && b != c && c != a));
+/// Triangles of the plane through the axis in which a sector is cut: from the first corner of the `section`, which lies on
+/// the hub. They face rising azimuth at the sector's `last` tooth, else falling.
+fn cut(triangles: &mut Vec<[u32; 3]>, section: impl Iterator<Item = u32>, last: bool) {
+    let corners: Vec<u32> = section.collect();
+    for pair in corners[1..].windows(2) {
+        push(triangles, if last { [corners[0], pair[1], pair[0]] } else { [corners[0], pair[0], pair[1]] });
+    }
+}
+
+fn push(triangles: &mut Vec<[u32; 3]>, corners: [u32; 3]) {
+    let [a, b, c] = corners;
+    if a != b && b != c && c != a {
+        triangles.push(corners);
     }
 }

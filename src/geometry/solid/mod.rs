@@ -3,16 +3,18 @@
 pub mod fillet;
 pub mod interference;
 pub mod manifold;
+pub mod mass;
 pub mod outline;
-mod properties;
 pub mod skin;
 
 pub use fillet::Foot;
 pub use interference::Interference;
-pub use manifold::{Ends, GearSolid, Shape};
+pub use manifold::{GearSolid, Shape};
 pub use outline::{Node, Outline, Part};
 
 #[cfg(test)]
 mod interference_tests;
+#[cfg(test)]
+mod mass_tests;
 #[cfg(test)]
 mod tests;

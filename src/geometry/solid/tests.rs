@@ -1,11 +1,11 @@
-//! Tests of outlines and surfaces: tangent fillets, closed manifolds, volumes against integrals over the outline.
+//! Tests of outlines and surfaces: tangent fillets, closed manifolds, crowning.
 
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::{Ends, GearSolid, Outline, Part, Shape};
-use crate::geometry::involute::{Gear, direction};
+use super::{GearSolid, Outline, Part, Shape};
+use crate::geometry::involute::direction;
 use crate::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
 /// Gears of all kinds that `checks::errors` lets pass, with what makes them special.
@@ -50,7 +50,8 @@ pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {
     specs
 }
 
-fn fillet(spec: &GearSpec, pair: &Pair) -> f64 {
+/// Angular radius of the fillets that are wanted [rad].
+pub(super) fn fillet(spec: &GearSpec, pair: &Pair) -> f64 {
     spec.root_fillet * pair.module / pair.outer_cone
 }
 
@@ -61,14 +62,14 @@ fn every_surface_is_closed_consistently_oriented_and_without_degenerate_triangle
         for (gear, bore) in [spec.planet_bore, spec.side_bore].into_iter().enumerate() {
             for facets in [1, 2, 4, 7, 32] {
                 for strips in [1, 3] {
-                    for (crowning, ends) in
-                        [(0.0, Ends::Ruled), (2e-5, Ends::Ruled), (0.0, Ends::Flat), (2e-5, Ends::Flat)]
-                    {
-                        let shape = Shape { facets, strips, crowning, ends };
+                    for crowning in [0.0, 2e-5] {
+                        let shape = Shape { facets, strips, crowning };
                         let solid = GearSolid::shaped(&pair, &spec, gear, &shape);
                         check_manifold(&solid, bore > 0.0, &format!("{name} {gear} {shape:?}"));
                     }
                 }
+                let sector = GearSolid::sector(&pair, &spec, gear, facets);
+                check_manifold(&sector, false, &format!("{name} {gear} sector {facets}"));
             }
         }
     }
@@ -184,111 +185,12 @@ fn fillets_are_tangent_to_the_root_circle_and_to_the_flank() {
     assert!(kinds.iter().all(|&k| k >= 3), "every kind of foot: {kinds:?}");
 }
 
-/// ∮ f(sinφ) dθ over the whole outline of `gear`, in the limit of fine facets.
-fn ring(gear: &Gear, wanted: f64, f: &dyn Fn(f64) -> f64) -> f64 {
-    let steps = 20_000;
-    let middles = || (0..steps).map(|k| (f64::from(k) + 0.5) / f64::from(steps));
-    let foot = super::Foot::new(gear, wanted);
-    let (start, tip) = (foot.start_arc, gear.action_arc(gear.tip));
-    let half = 0.5 / f64::from(steps);
-    let flank: f64 = middles()
-        .map(|u| {
-            let psi = |u: f64| start + (tip - start) * u;
-            f(gear.polar_at(psi(u)).sin()) * (gear.inv_of_arc(psi(u + half)) - gear.inv_of_arc(psi(u - half)))
-        })
-        .sum();
-    let fillet: f64 = middles()
-        .map(|u| {
-            let at = |u: f64| foot.fillet_at(u);
-            f(at(u)[0].sin()) * (at(u - half)[1] - at(u + half)[1])
-        })
-        .sum();
-    let fillet = if foot.radius > 0.0 { fillet } else { 0.0 };
-    let lands = f(gear.tip.sin()) * gear.half_angle(gear.tip) + f(foot.floor.sin()) * (foot.middle - foot.centre);
-    2.0 * f64::from(gear.teeth) * (lands + flank + fillet)
-}
-
-/// Volume [m³] in closed form but for the integral over the outline.
-fn volume(gear: &Gear, wanted: f64, [inner, outer]: [f64; 2], bore: f64, ends: Ends) -> f64 {
-    let (height, root) = (gear.root.cos(), gear.root.sin());
-    let end = |cone: f64| {
-        let hub = bore / 2.0 / cone;
-        // lines from the outline to the circle of radius b R at the height h R: seen from the apex (r + b)(h r − b z)/6
-        let ruled = |b: f64| ring(gear, wanted, &|r| (r + b) * (height * r - b * (1.0 - r * r).sqrt())) / 6.0;
-        let flat = std::f64::consts::PI / 3.0 * height * (root * root - hub * hub);
-        cone.powi(3) * if ends == Ends::Flat { ruled(root) + flat } else { ruled(hub) }
-    };
-    let wall = std::f64::consts::TAU / 3.0 * (bore / 2.0).powi(2) * height * (outer - inner);
-    end(outer) - end(inner) - wall
-}
-
-#[test]
-fn volume_converges_with_second_order_to_the_integral_over_the_outline() {
-    for (name, spec) in specs() {
-        let pair = Pair::new(&spec);
-        for (i, bore) in [spec.planet_bore, spec.side_bore].into_iter().enumerate() {
-            for ends in [Ends::Ruled, Ends::Flat] {
-                let cones = [pair.inner_cone, pair.outer_cone];
-                let exact = volume(&pair.gears[i], fillet(&spec, &pair), cones, bore, ends);
-                let error = |facets| {
-                    let shape = Shape { facets, strips: 1, crowning: 0.0, ends };
-                    GearSolid::shaped(&pair, &spec, i, &shape).volume() / exact - 1.0
-                };
-                let (coarse, fine) = (error(32), error(64));
-                let order = (coarse / fine).log2();
-                assert!((1.8..2.2).contains(&order), "{name} {i} {ends:?}: order {order} {coarse:e} {fine:e}");
-                assert!(error(256).abs() < 2e-5, "{name} {i} {ends:?}: {:e}", error(256));
-            }
-        }
-    }
-}
-
-#[test]
-fn mass_and_inertia_equal_the_integral_over_the_outline() {
-    for (name, spec) in specs().into_iter().filter(|(_, s)| s.planet_bore == 0.0 && s.side_bore == 0.0) {
-        let pair = Pair::new(&spec);
-        let fifths = pair.outer_cone.powi(5) - pair.inner_cone.powi(5);
-        for (i, gear) in pair.gears.iter().enumerate() {
-            let solid = GearSolid::new(&pair, &spec, i, 256, 1);
-            let (mass, wanted) = (solid.mass(7800.0), fillet(&spec, &pair));
-            let z = gear.root.cos();
-            let axial = 7800.0 * z / 20.0 * ring(gear, wanted, &|r| r.powi(4)) * fifths;
-            let height = ring(gear, wanted, &|r| {
-                let z_p = (1.0 - r * r).sqrt();
-                r * r * (z * z + 2.0 * z * z_p + 3.0 * z_p * z_p)
-            });
-            let across = 0.5 * axial + 7800.0 * z / 60.0 * height * fifths;
-            assert!((mass.mass / (7800.0 * solid.volume()) - 1.0).abs() < 1e-9, "{name}");
-            assert!((mass.axial / axial - 1.0).abs() < 5e-5, "{name} {i}: {} {axial}", mass.axial);
-            assert!((mass.transverse_at_apex / across - 1.0).abs() < 5e-5, "{name} {i}");
-        }
-    }
-}
-
-#[test]
-fn a_sharp_root_encloses_the_solid_that_inertias_are_taken_from() {
-    let spec = GearSpec { root_fillet: 0.0, planet_bore: 0.012, side_bore: 0.02, ..GearSpec::default() };
-    let pair = Pair::new(&spec);
-    for (i, bore) in [spec.planet_bore, spec.side_bore].into_iter().enumerate() {
-        let solid = GearSolid::new(&pair, &spec, i, 128, 1).mass(7800.0);
-        let plain = crate::geometry::mass::gear_mass(&pair.gears[i], pair.inner_cone, pair.outer_cone, bore, 7800.0);
-        for (a, b) in [
-            (solid.mass, plain.mass),
-            (solid.centre, plain.centre),
-            (solid.axial, plain.axial),
-            (solid.transverse_at_apex, plain.transverse_at_apex),
-        ] {
-            assert!((a / b - 1.0).abs() < 1e-4, "{i}: {a} {b}");
-        }
-    }
-}
-
 #[test]
 fn crowning_takes_the_parabola_off_the_flanks_and_leaves_their_middle() {
     let spec = GearSpec::default();
     let pair = Pair::new(&spec);
     let crowning = 2e-5;
-    let shape = |crowning| Shape { facets: 8, strips: 4, crowning, ends: Ends::Flat };
+    let shape = |crowning| Shape { facets: 8, strips: 4, crowning };
     let [plain, crowned] = [0.0, crowning].map(|c| GearSolid::shaped(&pair, &spec, 1, &shape(c)));
     assert_eq!(plain.triangles, crowned.triangles);
     let mut moved = 0;

@@ -1,0 +1,67 @@
+//! What a gear weighs: volume, mass and moments of inertia of its solid, by parry3d.
+//!
+//! The solid is the one that is exported (`manifold`). A gear is z of one tooth's sectors: of the sector's mass z times as
+//! much, and so of its moments about the axis and the apex, of those across the axis the mean of any two at a right angle.
+
+use parry3d_f64::mass_properties::MassProperties;
+use parry3d_f64::math::Vector;
+
+use super::manifold::GearSolid;
+use crate::geometry::{GearSpec, Pair};
+
+/// Millimetres per metre: parry3d's tolerances suit bodies of some units.
+const MM: f64 = 1e3;
+/// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
+pub(super) const FACETS: usize = 96;
+
+/// Mass properties about the gear's axis and apex.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GearMass {
+    /// Mass [kg].
+    pub mass: f64,
+    /// Distance of the centre of mass from the apex [m].
+    pub centre: f64,
+    /// Moment of inertia about the gear's axis [kg·m²].
+    pub axial: f64,
+    /// Moment of inertia about any axis through the apex perpendicular to the gear's [kg·m²].
+    pub transverse_at_apex: f64,
+}
+
+/// Mass properties of gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, at the density `density` [kg/m³].
+pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> GearMass {
+    of_sectors(pair, spec, gear, density, FACETS)
+}
+
+pub(super) fn of_sectors(pair: &Pair, spec: &GearSpec, gear: usize, density: f64, facets: usize) -> GearMass {
+    let one = GearSolid::sector(pair, spec, gear, facets).mass(density);
+    let z = f64::from(pair.gears[gear].teeth);
+    GearMass {
+        mass: z * one.mass,
+        centre: one.centre,
+        axial: z * one.axial,
+        transverse_at_apex: z * one.transverse_at_apex,
+    }
+}
+
+impl GearSolid {
+    /// Enclosed volume [m³]: the sum of the tetrahedra that the triangles make with the apex.
+    pub fn volume(&self) -> f64 {
+        let corner = |i: u32| self.vertices[i as usize];
+        self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
+    }
+
+    /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
+    pub fn mass(&self, density: f64) -> GearMass {
+        let vertices: Vec<Vector> = self.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
+        let p = MassProperties::from_trimesh(density / (MM * MM * MM), &vertices, &self.triangles);
+        let (com, inertia) = (p.local_com / MM, p.reconstruct_inertia_matrix() * (1.0 / (MM * MM)));
+        // about the apex, by Steiner; the mean of x and y holds for the whole gear by symmetry
+        let (xx, yy, zz) = (com.x * com.x, com.y * com.y, com.z * com.z);
+        GearMass {
+            mass: p.mass(),
+            centre: com.z,
+            axial: inertia.z_axis.z + p.mass() * (xx + yy),
+            transverse_at_apex: 0.5 * (inertia.x_axis.x + inertia.y_axis.y + p.mass() * (xx + yy + 2.0 * zz)),
+        }
+    }
+}
