@@ -242,8 +242,14 @@ impl Section<'_> {
         let mut sum = T::constant(0.0);
         // where the last stretch ended, and the exponential there
         let (mut place, mut known) = (f64::NAN, 0.0);
+        // exponents are counted from an overlap of the patch: the greatest height differs from it by cosines, which are
+        // many ε where the patch is short and the flanks are deep in one another
+        let mut origin = f64::NAN;
         self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |_, [(u0, d0), (u1, d1)]| {
-            let (a, b) = ((d0 - near.greatest) * per, (d1 - near.greatest) * per);
+            if origin.is_nan() {
+                origin = d0.value().max(d1.value());
+            }
+            let (a, b) = ((d0 - origin) * per, (d1 - origin) * per);
             let from = if u0.value() == place { known } else { libm::exp(a.value()) };
             let to = libm::exp(b.value());
             (place, known) = (u1.value(), to);
@@ -251,16 +257,19 @@ impl Section<'_> {
         });
         (sum.value() > 0.0).then(|| {
             let r = 1.0 / sum.value();
-            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + near.greatest
+            sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + origin
         })
     }
 
     /// Where the patch lies.
     pub fn patch(&self, poses: &[Pose<f64>; 2], soft: &Softness) -> Option<Patch> {
         let near = self.look(poses, soft)?;
-        let (mut sum, mut out) = (0.0, Patch::default());
+        let (mut sum, mut out, mut origin) = (0.0, Patch::default(), f64::NAN);
         self.stretches(poses, &near, near.greatest + NEGLIGIBLE * soft.width, |ends, at| {
-            let [a, b] = at.map(|(_, d)| (d - near.greatest) / soft.width);
+            if origin.is_nan() {
+                origin = at[0].1.max(at[1].1);
+            }
+            let [a, b] = at.map(|(_, d)| (d - origin) / soft.width);
             let weight = (at[1].0 - at[0].0) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
             sum += weight;
             for (stop, (u, _)) in ends.into_iter().zip(at) {
