@@ -100,8 +100,8 @@ pub fn readme(found: &Measured) -> String {
     }
     let worst = found.rows.iter().map(|row| row.look.tangential).fold(0.0, f64::max);
     out.push_str(&format!(
-        " The study's own quantity, T/r_p, shows none of this: the load is constant and the gears are light, so that it moves \
-         by {} N at most, whatever the facets.",
+        " The study's own quantity, T/r_p, shows next to nothing of this: the load is constant and the gears are light, so that it \
+         moves by {} N at most, whatever the facets.",
         three(worst)
     ));
     out
