@@ -58,7 +58,7 @@ impl Oscillator {
     }
 
     fn state(at: &Point<2>) -> MeshState {
-        MeshState { position: [at.q[0], 0.0], rate: [at.v[0], 0.0] }
+        MeshState { position: [at.q[0], 0.0], rate: [at.v[0], 0.0], ..MeshState::default() }
     }
 
     /// x less its value at rest, and that squared.

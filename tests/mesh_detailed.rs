@@ -143,7 +143,7 @@ fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState<f64> {
 
 fn plain_state(state: &DetailedState<f64>) -> MeshState {
     let ([q, x, _], [q_rate, x_rate, _]) = (state.position, state.rate);
-    MeshState { position: [q, x], rate: [q_rate, x_rate] }
+    MeshState { position: [q, x], rate: [q_rate, x_rate], ..MeshState::default() }
 }
 
 /// State with position or rate `i` of six moved by `h`.

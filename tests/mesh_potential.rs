@@ -41,12 +41,13 @@ fn random_state(random: &mut Lcg, pair: &Pair) -> MeshState {
             random.between(-2.0 * pair.base_pitch, 2.0 * pair.base_pitch),
         ],
         rate: [random.between(-1.0, 1.0), random.between(-1.0, 1.0)],
+        which: [0; 2],
     }
 }
 
 fn loaded(mesh: &Mesh, position: [f64; 2]) -> Vec<ToothPair> {
     let mut pairs = Vec::new();
-    let at_rest = MeshState { position, rate: [0.0; 2] };
+    let at_rest = MeshState { position, ..MeshState::default() };
     mesh.loaded(&at_rest, |p, _| {
         if p.depth > 0.0 {
             pairs.push(*p);
@@ -145,7 +146,7 @@ fn force_stays_the_gradient_across_the_ends(meshes: &[(Mesh, Pair)]) {
                     let jump = mesh.engagement.corner[corner].exact(0.0).gap.dd;
                     let at_end = -hand * (s - pair.centred_position());
                     for past in [-2e-4, -1e-6, 0.0, 1e-6, 2e-4] {
-                        let state = MeshState { position: [q, at_end + past], rate: [0.0; 2] };
+                        let state = MeshState { position: [q, at_end + past], rate: [0.0; 2], ..MeshState::default() };
                         let force = mesh.force(&state).force;
                         let h = 1e-3 * depth;
                         for axis in 0..2 {
@@ -205,9 +206,12 @@ fn force_of_every_law_is_continuous_where_corners_take_over_and_where_they_leave
                     for s in places {
                         let force = |past: f64| {
                             let x = -hand * (s + past - pair.centred_position());
-                            mesh.force(&MeshState { position: [q, x], rate }).force
+                            mesh.force(&MeshState { position: [q, x], rate, ..MeshState::default() }).force
                         };
-                        let scale = mesh.force(&MeshState { position: [q, 0.0], rate: [0.0; 2] }).force[0].abs();
+                        let scale = mesh
+                            .force(&MeshState { position: [q, 0.0], rate: [0.0; 2], ..MeshState::default() })
+                            .force[0]
+                            .abs();
                         let (before, after) = (force(-1e-11), force(1e-11));
                         for axis in 0..2 {
                             // a jump would be of the order of the force; slopes are some hundred forces per radian,
@@ -339,7 +343,11 @@ fn coasting_is_the_mirror_image_of_driving() {
         for (mesh, pair) in impact_meshes(5e4, corner_contact).into_iter().chain(others) {
             for _ in 0..STATES {
                 let state = random_state(&mut random, &pair);
-                let mirror = MeshState { position: state.position.map(|x| -x), rate: state.rate.map(|x| -x) };
+                let mirror = MeshState {
+                    position: state.position.map(|x| -x),
+                    rate: state.rate.map(|x| -x),
+                    ..MeshState::default()
+                };
                 let ((a, da), (b, db)) = (mesh.linearise(&state), mesh.linearise(&mirror));
                 assert_eq!(a.force, b.force.map(|f| -f), "{state:?}");
                 assert_eq!((a.heat, da.by_position, da.by_rate), (b.heat, db.by_position, db.by_rate), "{state:?}");
@@ -379,7 +387,10 @@ fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
             let energy = mesh.energy(&at([q, x]));
             assert!((energy - expected).abs() <= 1e-12 * expected, "{q} {x}: {energy} {expected}");
             // straight along the path: no force by x
-            assert_eq!(mesh.force(&MeshState { position: [q, x], rate: [0.0; 2] }).force[1], 0.0);
+            assert_eq!(
+                mesh.force(&MeshState { position: [q, x], rate: [0.0; 2], ..MeshState::default() }).force[1],
+                0.0
+            );
         }
     }
 }

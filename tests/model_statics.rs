@@ -90,7 +90,7 @@ impl Statics {
     /// with the side gear where it carries the load.
     fn side(&self, sigma: f64, psi: f64, torque: f64) -> (f64, f64) {
         let x = sigma * self.lever[0] * psi;
-        let load = |q: f64| self.mesh.force(&MeshState { position: [q, x], rate: [0.0; 2] });
+        let load = |q: f64| self.mesh.force(&MeshState { position: [q, x], rate: [0.0; 2], ..MeshState::default() });
         let (mut lo, mut hi) = (-0.1, 0.0);
         for _ in 0..100 {
             let q = 0.5 * (lo + hi);

@@ -31,6 +31,7 @@ fn mesh(pair: &Pair, crowning: f64, displaced: Displacement) -> SolidMesh {
         Slice { cone, share, width, relief: crowning * x * x }
     };
     let spec = SolidSpec {
+        fillet: 0.4 * pair.module / pair.outer_cone,
         facets: 64,
         smoothing: 1.0,
         slices: (0..SECTIONS).map(slice).collect(),

@@ -138,7 +138,8 @@ def counts_figure(folder, machine, rows):
 def fidelity_ladder(folder):
     machine, rows = read(folder / "fidelity_ladder.csv")
     scenes = {"turn": "The study's turn: one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
-    figure, grid = plt.subplots(2, 2, figsize=(15, 10.5), layout="constrained", width_ratios=[3.1, 1])
+    count = len({(row["scene"], row["rung"]) for row in rows})
+    figure, grid = plt.subplots(2, 2, figsize=(15, 2.8 + 0.55 * count), layout="constrained", width_ratios=[3.1, 1])
     colors = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
     limits = BoundaryNorm([0.0, 1e-3, 1e-2, 0.1, 0.5, 1e9], colors.N)
     for (left, right), (scene, title) in zip(grid, scenes.items()):
@@ -179,7 +180,7 @@ def fidelity_ladder(folder):
     ideal = next(row for row in rows if (row["scene"], row["rung"]) == ("turn", "ideal"))
     caption(figure, "What each level of fidelity gets right, and what it costs. Colours: error below 0.1 % (dark green), 1 %, 10 %, "
             "50 %, and beyond (red); the bottom row has the values themselves. Mean speeds and mean forces need no teeth, peaks "
-            "of a clunk the play that a spring per mesh has. Ripple needs tooth pairs, deflection their stiffness, heat "
+            "of a clunk the play that a spring per mesh has. Ripple needs tooth pairs or solids with many facets, deflection their stiffness, heat "
             f"friction. In the turn ideal gears are a closed form, {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns a communication step "
             "of 1 ms; in the clunk the half-shafts are integrated at every level. Friction costs four times the teeth, slices over the face more. "
             f"Default solver and tolerance; medians with quartiles. {machine}.")

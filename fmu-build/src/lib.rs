@@ -24,6 +24,7 @@ pub mod real_time;
 pub mod report;
 pub mod scene;
 pub mod script;
+pub mod solids;
 pub mod stepping;
 pub mod study;
 pub mod theory;

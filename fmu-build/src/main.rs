@@ -12,6 +12,7 @@ use fmu_build::pattern::Pattern;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
+use fmu_build::solids::Solids;
 use fmu_build::{describe, foreign, off, package, peers, places, real_time, study};
 use lexopt::prelude::*;
 
@@ -46,6 +47,10 @@ usage: cargo run --release [-- COMMAND]
   cost [--quick] [--write] [--out DIR]
                          measure what accuracy costs: figures and CSV in target/cost or DIR; --quick: in under a minute;
                          --write: also renew docs/cost.md and docs/figures
+  solids [--quick] [--write] [--out DIR]
+                         what facets of solid teeth cost in accuracy and time, in the study's turn: figures and CSV in
+                         target/solids or DIR; --quick: 4 to 32 facets over 0.1 s; --write: also renew docs/solids.md, the
+                         table in README.md and docs/figures; fails if solids miss the mean force of exact teeth
   off [--quick] [--write]  compare builds that leave effects out with the full one: bits and instructions (needs
                          valgrind); --quick: one build without any; --write: also renew the table in docs/effects.md
   peers [--quick] [--write]  run MuJoCo and Drake beside this program on the study's cases, in an environment of their
@@ -66,6 +71,7 @@ enum Job {
     Pattern(Pattern),
     Effects(Effects),
     Cost(Cost),
+    Solids(Solids),
     TestPython(Vec<OsString>),
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
@@ -124,6 +130,9 @@ fn parse() -> Result<Job> {
             (Long("quick"), Some(Job::Cost(cost))) => cost.quick = true,
             (Long("write"), Some(Job::Cost(cost))) => cost.write = true,
             (Long("out"), Some(Job::Cost(cost))) => cost.out = Some(arguments.value()?.into()),
+            (Long("quick"), Some(Job::Solids(solids))) => solids.quick = true,
+            (Long("write"), Some(Job::Solids(solids))) => solids.write = true,
+            (Long("out"), Some(Job::Solids(solids))) => solids.out = Some(arguments.value()?.into()),
             (Long("scene"), Some(Job::Effects(effects))) => effects.scene = Some(arguments.value()?.string()?),
             (Long("accuracy"), Some(Job::Effects(effects))) => effects.accuracy = Some(arguments.value()?.string()?),
             (Long("from"), Some(Job::Effects(effects))) => effects.from = Some(arguments.value()?.string()?),
@@ -162,6 +171,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "pattern" => Job::Pattern(Pattern::default()),
         "effects" => Job::Effects(Effects::default()),
         "cost" => Job::Cost(Cost::default()),
+        "solids" => Job::Solids(Solids::default()),
         "test-python" => Job::TestPython(arguments.raw_args()?.collect()),
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
@@ -201,6 +211,7 @@ fn run(job: Job) -> Result<()> {
         Job::Pattern(pattern) => pattern.run()?,
         Job::Effects(effects) => effects.run()?,
         Job::Cost(cost) => cost.run()?,
+        Job::Solids(solids) => solids.run()?,
         Job::TestPython(arguments) => {
             let progress = Progress::start("looking for Python");
             let environment = Environment::ready(|what| progress.tell(what))?;

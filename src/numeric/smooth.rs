@@ -160,6 +160,8 @@ impl Sub for Curved {
 
 impl Mul for Curved {
     type Output = Self;
+    // the product rule adds
+    #[allow(clippy::suspicious_arithmetic_impl)]
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let both = products(&self.d, &o.d);

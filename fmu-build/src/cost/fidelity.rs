@@ -15,21 +15,49 @@ use super::{Form, csv};
 pub const COLUMNS: &str =
     "scene,rung,adds,status,message,quantity,unit,value,richest,error,runs,cpu_s,cpu_s_low,cpu_s_high,cost";
 
-/// A rung: its name, what it adds to the one before, and how.
-type Rung = (&'static str, &'static str, fn(&mut Parameters));
+/// A rung.
+#[derive(Clone, Copy)]
+struct Rung {
+    name: &'static str,
+    adds: &'static str,
+    /// How it follows from the rung before.
+    add: fn(&mut Parameters),
+    /// Whether the short form has it too.
+    quick: bool,
+}
 
-/// All rungs, the plainest first.
-const RUNGS: [Rung; 7] = [
-    ("ideal", "no teeth: Willis' equation", |p| p.scene.gear_contact = GearContact::Ideal),
-    ("lumped", "a spring with play per mesh", |p| p.scene.gear_contact = GearContact::Lumped),
-    ("tooth, impact", "tooth pairs, Adams' IMPACT", |p| p.scene.gear_contact = GearContact::Tooth),
-    ("tooth, line", "stiffness from the teeth's shape", |p| p.contact.law = ContactLaw::Line),
-    ("tooth, line_weber", "Hertz part by load", |p| p.contact.law = ContactLaw::LineWeber),
-    ("+ friction", "flanks, washers and pins rub", |p| {
+const fn rung(name: &'static str, adds: &'static str, add: fn(&mut Parameters)) -> Rung {
+    Rung { name, adds, add, quick: true }
+}
+
+/// Solid teeth, of which the short form has two.
+const fn solid(name: &'static str, adds: &'static str, add: fn(&mut Parameters), quick: bool) -> Rung {
+    Rung { name, adds, add, quick }
+}
+
+fn faceted(p: &mut Parameters, facets: i32) {
+    p.scene.gear_contact = GearContact::Solid;
+    p.solid.facets = facets;
+}
+
+/// All rungs, the plainest first; solids are as exact teeth with the same law become if they are cut into facets.
+const RUNGS: [Rung; 13] = [
+    rung("ideal", "no teeth: Willis' equation", |p| p.scene.gear_contact = GearContact::Ideal),
+    rung("lumped", "a spring with play per mesh", |p| p.scene.gear_contact = GearContact::Lumped),
+    solid("solid, 4 facets", "IMPACT on facets: no hand-over left", |p| faceted(p, 4), false),
+    solid("solid, 8 facets", "hand-over washed out", |p| faceted(p, 8), true),
+    solid("solid, 16 facets", "hand-over late", |p| faceted(p, 16), false),
+    solid("solid, 32 facets", "deflection of exact teeth to 3 %", |p| faceted(p, 32), true),
+    solid("solid, 64 facets", "to 1 %", |p| faceted(p, 64), false),
+    solid("solid, 128 facets", "to 0.3 %", |p| faceted(p, 128), false),
+    rung("tooth, impact", "tooth pairs, Adams' IMPACT", |p| p.scene.gear_contact = GearContact::Tooth),
+    rung("tooth, line", "stiffness from the teeth's shape", |p| p.contact.law = ContactLaw::Line),
+    rung("tooth, line_weber", "Hertz part by load", |p| p.contact.law = ContactLaw::LineWeber),
+    rung("+ friction", "flanks, washers and pins rub", |p| {
         p.effects.tooth_friction = true;
         p.effects.thrust_friction = true;
     }),
-    ("+ pins and case", "give way; slices over the face", |p| p.effects.pin_compliance = true),
+    rung("+ pins and case", "give way; slices over the face", |p| p.effects.pin_compliance = true),
 ];
 
 /// What is looked at: names and units.
@@ -81,14 +109,16 @@ struct Point {
 
 /// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
 pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+    let rungs: Vec<Rung> = RUNGS.into_iter().filter(|rung| rung.quick || !form.short).collect();
     let mut found = Vec::new();
     let mut jobs = Vec::new();
     for (i, scene) in SCENES.iter().enumerate() {
         let case = Case::new(scene.motion, Fidelity::Ideal)?;
         let mut parameters = case.parameters;
-        for (j, (name, _, add)) in RUNGS.iter().enumerate() {
-            tell(0.2 * (i * RUNGS.len() + j) as f64 / 14.0, &format!("ladder: {}, {name}", scene.name));
-            add(&mut parameters);
+        for (j, rung) in rungs.iter().enumerate() {
+            let done = (i * rungs.len() + j) as f64 / (SCENES.len() * rungs.len()) as f64;
+            tell(0.2 * done, &format!("ladder: {}, {}", scene.name, rung.name));
+            (rung.add)(&mut parameters);
             let started = start(&parameters, &case.inputs, &case.then);
             let values =
                 started.clone().and_then(|simulation| record(scene, simulation)).map(|r| quantities(scene, &r));
@@ -109,7 +139,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
         measure::time(&mut jobs, form.runs, &mut |done| tell(0.2 + 0.8 * done, "ladder: times")).into_iter();
     let spreads: Vec<Option<Spread>> =
         found.iter().map(|values| if values.is_ok() { times.next() } else { None }).collect();
-    Ok(text(&found, &spreads))
+    Ok(text(&rungs, &found, &spreads))
 }
 
 fn start(parameters: &Parameters, inputs: &Inputs, then: &Inputs) -> Result<Simulation, String> {
@@ -167,7 +197,7 @@ fn quantities(scene: &Scene, points: &[Point]) -> Vec<f64> {
     }
 }
 
-fn text(found: &[Result<Vec<f64>, String>], spreads: &[Option<Spread>]) -> String {
+fn text(rungs: &[Rung], found: &[Result<Vec<f64>, String>], spreads: &[Option<Spread>]) -> String {
     let mut out = csv::head(
         COLUMNS,
         &[
@@ -176,10 +206,10 @@ fn text(found: &[Result<Vec<f64>, String>], spreads: &[Option<Spread>]) -> Strin
         ],
     );
     for (i, scene) in SCENES.iter().enumerate() {
-        let first = i * RUNGS.len();
-        let richest = found[first + RUNGS.len() - 1].as_ref().ok();
+        let first = i * rungs.len();
+        let richest = found[first + rungs.len() - 1].as_ref().ok();
         let unit = spreads[first].map_or(f64::NAN, |s| s.median);
-        for (j, (rung, adds, _)) in RUNGS.iter().enumerate() {
+        for (j, Rung { name: rung, adds, .. }) in rungs.iter().enumerate() {
             let (values, spread) = (&found[first + j], spreads[first + j].unwrap_or(Spread::of(&[])));
             let [median, low, high, count] = spread.cells();
             for (k, (quantity, unit_of)) in scene.quantities.iter().enumerate() {
@@ -233,9 +263,9 @@ mod tests {
     fn every_rung_of_the_ladder_is_richer_than_the_one_before() {
         let mut parameters = Parameters::default();
         let mut before = parameters;
-        for (i, (name, _, add)) in RUNGS.iter().enumerate() {
-            add(&mut parameters);
-            assert!(i == 0 || parameters != before, "{name}");
+        for (i, rung) in RUNGS.iter().enumerate() {
+            (rung.add)(&mut parameters);
+            assert!(i == 0 || parameters != before, "{}", rung.name);
             before = parameters;
         }
     }

@@ -60,6 +60,8 @@ pub struct Form {
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
     pub patience: f64,
+    /// Whether the ladder leaves out rungs between others.
+    pub short: bool,
 }
 
 const FULL: Form = Form {
@@ -69,6 +71,7 @@ const FULL: Form = Form {
     scenes: &["torque_bias", "clunk"],
     runs: 15,
     patience: 10.0,
+    short: false,
 };
 
 const QUICK: Form = Form {
@@ -78,6 +81,7 @@ const QUICK: Form = Form {
     scenes: &["clunk"],
     runs: 5,
     patience: 0.5,
+    short: true,
 };
 
 impl Cost {
