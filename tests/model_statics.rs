@@ -98,7 +98,10 @@ impl Statics {
         }
         let alpha = (lo + x) / self.lever[1];
         let [f_q, f_x] = load(lo).force;
-        (2.0 * self.mesh.energy([lo, x]) + torque * alpha, sigma * self.lever[0] * (f_x - f_q))
+        (
+            2.0 * self.mesh.energy(&MeshState { position: [lo, x], ..MeshState::default() }) + torque * alpha,
+            sigma * self.lever[0] * (f_x - f_q),
+        )
     }
 
     /// Torque on both planets at spin ψ with `extra` on the left side.
