@@ -360,10 +360,11 @@ fn mean_exponential([a, b]: [f64; 2], [ea, eb]: [f64; 2]) -> Partials {
     if z.abs() < 0.5 {
         let e = sqrt(ea * eb);
         let y = z * z;
-        // Taylor series; the first term left out is 1e-16 of the sum
-        f = e * (1.0 + y / 6.0 * (1.0 + y / 20.0 * (1.0 + y / 42.0 * (1.0 + y / 72.0 * (1.0 + y / 110.0)))));
-        f1 = e * z / 3.0 * (1.0 + y / 10.0 * (1.0 + y / 28.0 * (1.0 + y / 54.0 * (1.0 + y / 88.0))));
-        f2 = e / 3.0 * (1.0 + y * (0.3 + y * (5.0 / 280.0 + y * (7.0 / 15120.0 + y * (9.0 / 1_330_560.0)))));
+        // Taylor series, to a rounding; the ratios of their terms, times y
+        let sum = |ratios: [f64; 6]| ratios.into_iter().rev().fold(1.0, |sum, ratio| 1.0 + y * ratio * sum);
+        f = e * sum([1.0 / 6.0, 1.0 / 20.0, 1.0 / 42.0, 1.0 / 72.0, 1.0 / 110.0, 1.0 / 156.0]);
+        f1 = e * z / 3.0 * sum([1.0 / 10.0, 1.0 / 28.0, 1.0 / 54.0, 1.0 / 88.0, 1.0 / 130.0, 1.0 / 180.0]);
+        f2 = e / 3.0 * sum([0.3, 5.0 / 84.0, 7.0 / 270.0, 9.0 / 616.0, 11.0 / 1170.0, 13.0 / 1980.0]);
     } else {
         let cosh = 0.5 * (ea + eb);
         f = 0.5 * (eb - ea) / z;
