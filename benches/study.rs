@@ -97,7 +97,7 @@ fn main() {
             walls.sort_by(f64::total_cmp);
             let speed = |i: usize| LENGTH / walls[i];
             println!(
-                "{:<16} {:>7} {:>6}   {:>8.0} ({:.0} - {:.0})",
+                "{:<16} {:>7} {:>6}   {:>8.1} ({:.1} - {:.1})",
                 case.name,
                 outputs.len(),
                 steps[0],

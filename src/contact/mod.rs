@@ -14,6 +14,7 @@ pub mod pairs;
 pub mod solid;
 mod spec;
 pub mod spring;
+pub mod state;
 pub mod stiffness;
 
 pub use spec::{ContactLaw, ContactSpec, DampingModel};

@@ -11,6 +11,7 @@ mod dry;
 mod effect_specs;
 mod effects;
 mod equations;
+mod face;
 mod failure;
 mod full;
 mod grip;

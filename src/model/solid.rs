@@ -1,6 +1,6 @@
 //! Solid teeth of a scene: their law, where their gears stand, and what does not go with them.
 
-use super::laws::gauss_slices;
+use super::face::gauss_slices;
 use super::parameters::Parameters;
 use crate::contact::ContactLaw;
 use crate::contact::damping::Damping;

@@ -40,12 +40,12 @@ impl ToothEffects {
         }
         // cut the face into slices where a law can be cut and something varies over it
         let cones = if this.sliced && p.contact.law != crate::contact::ContactLaw::Impact {
-            super::laws::slice_cones(pair)
+            super::face::slice_cones(pair)
         } else {
             vec![if p.contact.law == crate::contact::ContactLaw::Impact {
                 pair.mean_cone
             } else {
-                super::laws::centroid(pair)
+                super::face::centroid(pair)
             }]
         };
         for gaps in this.gaps.iter_mut().flatten() {

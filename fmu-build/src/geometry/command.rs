@@ -7,6 +7,7 @@ use anyhow::{Context, Result, anyhow, bail};
 
 use super::design::Design;
 use super::interference::Check;
+use super::made::Made;
 use super::{json, models, text};
 use crate::places;
 use crate::progress::Progress;
@@ -28,21 +29,6 @@ pub struct Geometry {
     pub thicken: Option<String>,
     /// Where to put the files.
     pub out: Option<PathBuf>,
-}
-
-/// A file to be written.
-pub struct Made {
-    /// Its name within the folder.
-    pub name: String,
-    /// What stands in it.
-    pub content: Vec<u8>,
-}
-
-impl Made {
-    /// A file of text.
-    pub fn text(name: impl Into<String>, content: String) -> Self {
-        Self { name: name.into(), content: content.into_bytes() }
-    }
 }
 
 impl Geometry {

@@ -3,7 +3,7 @@
 use bevel_differential::numeric::{cos, sin};
 
 use super::design::Design;
-use super::dimensions::{Group, ISO_23509, Of, rows};
+use super::row::{Group, ISO_23509, Of, rows};
 
 /// Share of the outer cone distance at which the middle and the toe of the face stand.
 pub fn mean(d: &Design) -> f64 {

@@ -4,8 +4,8 @@ use anyhow::{Result, anyhow};
 use bevel_differential::geometry::solid::GearSolid;
 
 use super::assembly::{Body, IDENTITY, Position, bodies};
-use super::command::Made;
 use super::design::Design;
+use super::made::Made;
 use super::{gltf, stl, xyz};
 
 /// All of them, with `facets` per flank. Solids are not crowned.

@@ -1,7 +1,7 @@
 //! Dimensions that both gears share: modules, cone distances, path of contact, backlash.
 
-use super::dimensions::{Group, ISO_10300, ISO_23509, Of, rows};
 use super::gear_rows::{mean, toe};
+use super::row::{Group, ISO_10300, ISO_23509, Of, rows};
 
 /// The rows.
 pub fn groups() -> Vec<Group> {

@@ -3,8 +3,8 @@
 use bevel_differential::numeric::{cos, sin, tan};
 
 use super::design::Design;
-use super::dimensions::{Group, ISO_10300, ISO_23509, Of, rows};
 use super::gear_rows::{mean, toe};
+use super::row::{Group, ISO_10300, ISO_23509, Of, rows};
 
 /// Addendum and dedendum at the heel.
 fn depth(d: &Design, i: usize) -> f64 {

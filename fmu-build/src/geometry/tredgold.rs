@@ -7,7 +7,7 @@ use bevel_differential::geometry::Tredgold;
 use bevel_differential::numeric::{PI, acos, cos, sin, sqrt, tan};
 
 use super::design::Design;
-use super::dimensions::Kind;
+use super::row::Kind;
 use super::tooth_rows::land;
 
 /// A quantity both ways.

@@ -22,8 +22,8 @@ use super::overlap::{Section, Softness};
 use super::pose::{Displacement, Placement};
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
-use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
 use crate::contact::pairs::Flank;
+use crate::contact::state::{MeshForce, MeshJacobian, MeshState};
 use crate::geometry::Pair;
 use crate::numeric::{Curved, Dual, Smooth, tan};
 

@@ -6,7 +6,9 @@
 //! are ([`pose`]), misaligned or not; every section then follows the law of a pair ([`mesh`]).
 
 mod candidates;
+mod exponential;
 pub mod flank;
 pub mod mesh;
 pub mod overlap;
+mod polygon;
 pub mod pose;
