@@ -29,7 +29,9 @@ use crate::numeric::{Smooth, TAU, sqrt};
 /// Weights below e to this power are nothing in double precision.
 const NEGLIGIBLE: f64 = -36.0;
 
-/// How far the distance of flanks may differ from the height over them, where they touch.
+/// Distances of flanks are at least this part of the heights over them, where they touch, and
+const LEAST_METRIC: f64 = 0.8;
+/// that part varies by no more than this over a patch.
 const SLOPING: f64 = 0.05;
 /// Exponents up to which a sum is carried on without being scaled anew.
 const HIGH: f64 = 20.0;
@@ -152,14 +154,13 @@ impl Section<'_> {
         };
         let own = usize::from(begin.of_side);
         let mut last = end(own, &from[own], &from, &to, &next);
-        let mut risen = false;
+        let mut greatest = f64::NEG_INFINITY;
         loop {
-            let matters = last.overlap.value() >= near.floor;
-            if risen && !matters {
+            greatest = greatest.max(last.overlap.value());
+            if last.overlap.value() < greatest - near.reach {
                 // between convex flanks the overlap has but one hill
                 return;
             }
-            risen |= matters;
             let own = usize::from(to[1].u.value() < to[0].u.value());
             let at = end(own, &to[own], &from, &to, &next);
             let ends = [last, at];
@@ -184,8 +185,9 @@ impl Section<'_> {
             }
             greatest = greatest.max(stop.overlap);
         }
-        let floor = greatest + NEGLIGIBLE * soft.width - SLOPING * greatest.abs();
-        (greatest > -soft.ahead).then_some(Near { values, floor })
+        let reach = -NEGLIGIBLE * soft.width;
+        let floor = greatest - reach / LEAST_METRIC - SLOPING * greatest.abs();
+        (greatest > -soft.ahead / LEAST_METRIC).then_some(Near { values, floor, reach })
     }
 
     /// Depth p [rad] where it is more than nothing, and some way below.
@@ -248,6 +250,8 @@ struct Near {
     values: [Pose<f64>; 2],
     /// Overlap without regard to slopes that does not matter any more [rad].
     floor: f64,
+    /// How far below the greatest overlap others matter [rad].
+    reach: f64,
 }
 
 /// Walks along both polygons, looking at heights alone.
