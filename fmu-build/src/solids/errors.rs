@@ -14,15 +14,15 @@ const EVEN: f64 = 1e-3;
 /// Quantities whose error is told: name in files, unit, and the order in 1/facets expected with the deepest point alone and
 /// with the patch.
 pub const QUANTITIES: [Quantity; 13] = [
-    Quantity { name: "speed_max", unit: "deg/s", expected: [1.0, 2.0] },
-    Quantity { name: "speed_rms", unit: "deg/s", expected: [1.0, 2.0] },
-    Quantity { name: "speed_path_rms", unit: "deg/s", expected: [1.0, 2.0] },
-    Quantity { name: "speed_corner_rms", unit: "deg/s", expected: [1.0, 2.0] },
+    Quantity { name: "speed_max", unit: "deg/s", expected: [1.0, 1.0] },
+    Quantity { name: "speed_rms", unit: "deg/s", expected: [1.0, 1.0] },
+    Quantity { name: "speed_path_rms", unit: "deg/s", expected: [1.0, 1.0] },
+    Quantity { name: "speed_corner_rms", unit: "deg/s", expected: [1.0, 1.0] },
     Quantity { name: "force_mean", unit: "N", expected: [2.0, 2.0] },
-    Quantity { name: "force_peak", unit: "N", expected: [1.0, 2.0] },
-    Quantity { name: "force_max", unit: "N", expected: [1.0, 2.0] },
-    Quantity { name: "force_rms", unit: "N", expected: [1.0, 2.0] },
-    Quantity { name: "force_path_ripple", unit: "N", expected: [1.0, 2.0] },
+    Quantity { name: "force_peak", unit: "N", expected: [1.0, 1.0] },
+    Quantity { name: "force_max", unit: "N", expected: [1.0, 1.0] },
+    Quantity { name: "force_rms", unit: "N", expected: [1.0, 1.0] },
+    Quantity { name: "force_path_ripple", unit: "N", expected: [1.0, 1.0] },
     Quantity { name: "te_max", unit: "um", expected: [2.0, 2.0] },
     Quantity { name: "te_rms", unit: "um", expected: [2.0, 2.0] },
     Quantity { name: "te_swing_max", unit: "um", expected: [2.0, 2.0] },
