@@ -49,11 +49,14 @@ impl Flanks {
 /// Polar angles of the rays of a flank from the end of its fillet to its tip [rad], as solids have them: equal steps of
 /// roll on the involute, and one facet below the base circle.
 fn polars(gear: &Gear, foot: &Foot, facets: usize) -> impl Iterator<Item = f64> {
-    let (start, end) = (foot.start_arc, gear.action_arc(gear.tip));
-    let step = (end - start) / facets as f64;
     let below = foot.has_meridian(gear).then_some(foot.end[0]);
-    let gear = *gear;
-    below.into_iter().chain((0..=facets).map(move |i| gear.polar_at(start + step * i as f64)))
+    let (gear, foot) = (*gear, *foot);
+    below.into_iter().chain((0..=facets).map(move |i| on_involute(&gear, &foot, i as f64 / facets as f64)))
+}
+
+/// Polar angle on the involute at a share of its roll from the foot to the tip [rad].
+fn on_involute(gear: &Gear, foot: &Foot, share: f64) -> f64 {
+    gear.polar_at(foot.start_arc + (gear.action_arc(gear.tip) - foot.start_arc) * share)
 }
 
 /// A flank with its lowest facet prolonged into the body of the gear, so that no contact ends where its fillet begins:
@@ -82,9 +85,7 @@ fn ray(gear: &Gear, polar: f64, side: f64) -> Ray {
 
 /// Greatest height of the involute over its facets [rad].
 fn sagitta(gear: &Gear, foot: &Foot, facets: usize) -> f64 {
-    let (start, end) = (foot.start_arc, gear.action_arc(gear.tip));
-    let step = (end - start) / facets as f64;
-    let point = |i: f64| gear.flank_point(gear.polar_at(start + step * i), 1.0);
+    let point = |i: f64| gear.flank_point(on_involute(gear, foot, i / facets as f64), 1.0);
     (0..facets)
         .map(|i| {
             let i = i as f64;

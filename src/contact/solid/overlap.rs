@@ -104,20 +104,28 @@ pub struct Section<'a> {
 }
 
 impl Section<'_> {
+    /// What is missing on a gear's flank, and its displacement: the planet has both for the pair.
+    #[inline(always)]
+    fn moved(&self, gear: usize) -> (f64, [f64; 3]) {
+        if gear == 0 { (self.relief, self.offset) } else { (0.0, [0.0; 3]) }
+    }
+
     #[inline(always)]
     fn see<T: Smooth>(&self, poses: &[Pose<T>; 2], gear: usize, i: usize) -> Seen<T> {
-        let ray = &self.rays[gear][i];
-        if gear == 0 {
-            Seen::new(ray, self.relief, &poses[0], self.offset)
-        } else {
-            Seen::new(ray, 0.0, &poses[1], [0.0; 3])
-        }
+        let (relief, offset) = self.moved(gear);
+        Seen::new(&self.rays[gear][i], relief, &poses[gear], offset)
+    }
+
+    /// Place and height of a ray of a gear.
+    #[inline(always)]
+    fn place<T: Smooth>(&self, ray: &Ray, poses: &[Pose<T>; 2], gear: usize) -> [T; 2] {
+        let (relief, offset) = self.moved(gear);
+        project(ray, relief, &poses[gear], offset)
     }
 
     /// The span between the tips.
     fn span<T: Smooth>(&self, poses: &[Pose<T>; 2]) -> Span<T> {
-        let [planet, _] = project(self.tips[0], self.relief, &poses[0], self.offset);
-        let [side, _] = project(self.tips[1], 0.0, &poses[1], [0.0; 3]);
+        let [planet, side] = [0, 1].map(|gear| self.place(self.tips[gear], poses, gear)[0]);
         Span { low: planet, per_length: (side - planet).reciprocal() }
     }
 
@@ -267,9 +275,7 @@ struct Corners<'a> {
 impl Corners<'_> {
     #[inline(always)]
     fn place(&self, gear: usize, i: usize) -> Option<[f64; 2]> {
-        let section = self.section;
-        let (relief, offset) = if gear == 0 { (section.relief, section.offset) } else { (0.0, [0.0; 3]) };
-        section.rays[gear].get(i).map(|ray| project(ray, relief, &self.poses[gear], offset))
+        self.section.rays[gear].get(i).map(|ray| self.section.place(ray, self.poses, gear))
     }
 }
 
