@@ -51,7 +51,7 @@ impl Method for DormandPrince {
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
-        start: &Point<N>,
+        (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
         _: &Aim<N>,
@@ -62,7 +62,8 @@ impl Method for DormandPrince {
         for (row, weights) in A.iter().enumerate() {
             end = *start;
             combine(&mut end, weights, h, &k);
-            k[row + 1] = Point { q: system.rates(&end.v), v: system.evaluate(&end).0 };
+            let place: f64 = weights.iter().sum();
+            k[row + 1] = Point { q: system.rates(&end.v), v: system.evaluate_at(&end, time + place * h).0 };
         }
         counts.evaluations += A.len() as u64;
 

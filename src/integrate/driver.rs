@@ -116,7 +116,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
     let mut just_rejected = false;
     let mut switch_at = f64::INFINITY;
-    let mut lin = linearise::<N, M, S>(system, point, statistics);
+    let mut lin = linearise::<N, M, S>(system, (point, *time), statistics);
     let mut energy = system.energy(point);
     let mut unbalanced = 0;
     loop {
@@ -131,7 +131,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
             (h, cut, to_kink) = (h * fraction, true, true);
         }
         let aim = Aim { weights: system.weights(point), tolerance };
-        let trial = method.step(system, point, &lin, h, &aim, statistics);
+        let trial = method.step(system, (point, *time), &lin, h, &aim, statistics);
         let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &aim));
         match trial {
             Some(trial) if error <= 1.0 => {
@@ -143,9 +143,9 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 switch_at = f64::INFINITY;
                 let reached = if h == remaining { until } else { *time + h };
                 let done = until - reached <= resolution;
-                let (_, middle) = system.evaluate(&trial.middle);
-                let next = (!done).then(|| linearise::<N, M, S>(system, &trial.end, statistics));
-                let end = next.as_ref().map_or_else(|| system.evaluate(&trial.end).1, |lin| lin.power);
+                let (_, middle) = system.evaluate_at(&trial.middle, *time + 0.5 * h);
+                let next = (!done).then(|| linearise::<N, M, S>(system, (&trial.end, reached), statistics));
+                let end = next.as_ref().map_or_else(|| system.evaluate_at(&trial.end, reached).1, |lin| lin.power);
                 statistics.evaluations += 1 + u64::from(done);
                 let power = [lin.power, middle, end];
                 let energies = [energy, system.energy(&trial.end)];
@@ -208,16 +208,16 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 #[inline(never)]
 fn linearise<const N: usize, M: Method, S: SecondOrder<N>>(
     system: &S,
-    point: &Point<N>,
+    (point, time): (&Point<N>, f64),
     statistics: &mut Statistics,
 ) -> Linearisation<N, S::Power> {
     statistics.evaluations += 1;
     if !M::IMPLICIT {
-        let (acceleration, power) = system.evaluate(point);
+        let (acceleration, power) = system.evaluate_at(point, time);
         return Linearisation { acceleration, by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power };
     }
     statistics.jacobians += 1;
-    system.linearise(point)
+    system.linearise_at(point, time)
 }
 
 impl Control {

@@ -13,6 +13,14 @@ pub trait Object<const N: usize, P> {
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], P);
     /// See [`SecondOrder::linearise`].
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, P>;
+    /// See [`SecondOrder::is_driven`].
+    fn is_driven(&self) -> bool;
+    /// See [`SecondOrder::evaluate_at`].
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], P);
+    /// See [`SecondOrder::linearise_at`].
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, P>;
+    /// See [`SecondOrder::drift`].
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N];
     /// See [`SecondOrder::weights`].
     fn weights(&self, at: &Point<N>) -> Point<N>;
     /// See [`SecondOrder::energy`].
@@ -39,6 +47,18 @@ impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
     }
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, S::Power> {
         SecondOrder::linearise(self, at)
+    }
+    fn is_driven(&self) -> bool {
+        SecondOrder::is_driven(self)
+    }
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], S::Power) {
+        SecondOrder::evaluate_at(self, at, time)
+    }
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, S::Power> {
+        SecondOrder::linearise_at(self, at, time)
+    }
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        SecondOrder::drift(self, at, time)
     }
     fn weights(&self, at: &Point<N>) -> Point<N> {
         SecondOrder::weights(self, at)
@@ -77,6 +97,18 @@ impl<const N: usize, P: Copy> SecondOrder<N> for Erased<'_, N, P> {
     }
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, P> {
         self.0.linearise(at)
+    }
+    fn is_driven(&self) -> bool {
+        self.0.is_driven()
+    }
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], P) {
+        self.0.evaluate_at(at, time)
+    }
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, P> {
+        self.0.linearise_at(at, time)
+    }
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        self.0.drift(at, time)
     }
     fn weights(&self, at: &Point<N>) -> Point<N> {
         self.0.weights(at)

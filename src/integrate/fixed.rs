@@ -40,17 +40,18 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
     let begin = *time;
     let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
     let h = (until - begin) / steps;
-    let mut power = system.evaluate(point).1;
+    let mut power = system.evaluate_at(point, begin).1;
     statistics.evaluations += 1;
     let mut done = 0.0;
     while done < steps {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
-        let end = sdirk(system, point, h, statistics).ok_or(Failure::Diverged)?;
+        let end = sdirk(system, (point, *time), h, statistics).ok_or(Failure::Diverged)?;
         let middle = Point {
             q: std::array::from_fn(|i| 0.5 * (point.q[i] + end.q[i])),
             v: std::array::from_fn(|i| 0.5 * (point.v[i] + end.v[i])),
         };
-        let powers = [power, system.evaluate(&middle).1, system.evaluate(&end).1];
+        let halfway = *time + 0.5 * h;
+        let powers = [power, system.evaluate_at(&middle, halfway).1, system.evaluate_at(&end, *time + h).1];
         statistics.evaluations += 2;
         statistics.accepted += 1;
         power = powers[2];
@@ -70,27 +71,27 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
 /// One step; `None` if a matrix is singular or a value not finite.
 fn sdirk<const N: usize, S: SecondOrder<N>>(
     system: &S,
-    start: &Point<N>,
+    (start, time): (&Point<N>, f64),
     h: f64,
     counts: &mut Statistics,
 ) -> Option<Point<N>> {
     let s = GAMMA * h;
-    let first = stage(system, start, start, s, counts)?;
+    let first = stage(system, start, start, (s, time + s), counts)?;
     // what the first stage found, carried on: y₀ + (1 − γ) h f₁ with s f₁ = y₁ − y₀
     let carry = (1.0 - GAMMA) / GAMMA;
     let base = Point {
         q: std::array::from_fn(|i| start.q[i] + carry * (first.q[i] - start.q[i])),
         v: std::array::from_fn(|i| start.v[i] + carry * (first.v[i] - start.v[i])),
     };
-    stage(system, &base, &first, s, counts)
+    stage(system, &base, &first, (s, time + h), counts)
 }
 
-/// Solves a stage from `base`, iterating from the velocities of `near`.
+/// Solves a stage at `time` from `base`, iterating from the velocities of `near`.
 fn stage<const N: usize, S: SecondOrder<N>>(
     system: &S,
     base: &Point<N>,
     near: &Point<N>,
-    s: f64,
+    (s, time): (f64, f64),
     counts: &mut Statistics,
 ) -> Option<Point<N>> {
     let at = |v: [f64; N]| {
@@ -100,7 +101,7 @@ fn stage<const N: usize, S: SecondOrder<N>>(
     // the way from `near` is itself an iteration that may leap
     let mut y = at(near.v);
     for _ in 0..ITERATIONS {
-        let lin = system.linearise(&y);
+        let lin = system.linearise_at(&y, time);
         counts.evaluations += 1;
         counts.jacobians += 1;
         let mut change: [f64; N] = std::array::from_fn(|i| base.v[i] + s * lin.acceleration[i] - y.v[i]);

@@ -42,12 +42,12 @@ pub trait Method {
     /// Whether steps use derivatives of the accelerations. If not, they are not asked for: `lin` holds zeros for them.
     const IMPLICIT: bool = true;
 
-    /// One step of size `h` from `start`, where `lin` was taken; `None` if it cannot be made (a singular matrix, an
+    /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it cannot be made (a singular matrix, an
     /// iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
-        start: &Point<N>,
+        start: (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
         aim: &Aim<N>,

@@ -11,7 +11,7 @@
 //! which mends that. The middle is that of the collocation polynomial, of order 3.
 //!
 //! Other than the code RADAU5 of the same authors, no step hands anything on to the next: the Jacobian is the one at the
-//! start, and stages start from the motion linearised there, which is what the first iteration from Z = 0 gives, at no
+//! start, and stages start from the motion linearised there (by time too), which is what the first iteration from Z = 0 gives, at no
 //! evaluation, for f(y₀) is known.
 
 use super::block::Block;
@@ -60,7 +60,7 @@ impl Method for Radau {
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
-        start: &Point<N>,
+        (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
         aim: &Aim<N>,
@@ -73,6 +73,14 @@ impl Method for Radau {
 
         // stages
         let (mut z, mut w, mut f) = ([Point::ZERO; 3], [Point::ZERO; 3], [slope; 3]);
+        if system.is_driven() {
+            let drift = system.drift(start, time);
+            for i in 0..3 {
+                for j in 0..N {
+                    f[i].v[j] += C[i] * h * drift[j];
+                }
+            }
+        }
         let (mut last, mut left) = (f64::INFINITY, ITERATIONS);
         let enough = LEFT_OVER.max(ROUNDING * aim.size(start));
         loop {
@@ -112,7 +120,7 @@ impl Method for Radau {
             last = size;
             for i in 0..3 {
                 let at = shifted(start, &z[i]);
-                f[i] = Point { q: system.rates(&at.v), v: system.evaluate(&at).0 };
+                f[i] = Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time + C[i] * h).0 };
             }
             counts.evaluations += 3;
         }
@@ -123,7 +131,7 @@ impl Method for Radau {
         real.solve(system, &lin.by_position, &mut error);
         if aim.size(&error) > 1.0 {
             let at = shifted(start, &error);
-            error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate(&at).0 }, &defect);
+            error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
             real.solve(system, &lin.by_position, &mut error);
             counts.evaluations += 1;
         }

@@ -19,14 +19,14 @@ impl Method for Rodas5P {
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
-        start: &Point<N>,
+        (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
         _: &Aim<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS5P.c.len() as u64;
-        rosenbrock::step(&RODAS5P, system, start, lin, h)
+        rosenbrock::step(&RODAS5P, system, (start, time), lin, h)
     }
 }
 

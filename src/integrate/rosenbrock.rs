@@ -5,8 +5,9 @@
 //!
 //!   (I/hγ − J) U_i = f(y₀ + Σ a_ij U_j) + Σ c_ij U_j / h,   y₁ = y₀ + Σ a_sj U_j + U_s,   error = U_s
 //!
-//! for stiffly accurate methods, whose last stage starts from the embedded solution. Every system here is autonomous
-//! (imposed motions are degrees of freedom), so that no ∂f/∂t appears.
+//! for stiffly accurate methods, whose last stage starts from the embedded solution. A driven system is the autonomous one
+//! with ṫ = 1 as one more equation, whose U_i are h g_i with g_i = γ (1 + Σ c_ij g_j) whatever the system: stages lie at
+//! t₀ + h Σ a_ij g_j, and h g_i ∂f/∂t joins the right-hand side.
 
 use super::block::Block;
 use super::method::{Trial, combine};
@@ -25,17 +26,37 @@ pub struct Tableau<const S: usize> {
     pub middle: [f64; S],
 }
 
-/// One step of size `h` from `start`, where `lin` was taken. `None` if the matrix is singular.
+impl<const S: usize> Tableau<S> {
+    /// Where stage `i` lies in the step, from the g of the stages before.
+    fn place(&self, i: usize, g: &[f64; S]) -> f64 {
+        let weighted = |weights: &[f64]| weights.iter().zip(g).map(|(a, g)| a * g).sum::<f64>();
+        match self.a.get(i - 1) {
+            Some(weights) => weighted(weights),
+            // embedded solutions lie at the end
+            None => 1.0,
+        }
+    }
+
+    /// Σ c_ij g_j of stage `i`.
+    fn carried(&self, i: usize, g: &[f64; S]) -> f64 {
+        let row = i.checked_sub(1).map_or(&[][..], |row| self.c[row]);
+        row.iter().zip(g).map(|(c, g)| c * g).sum()
+    }
+}
+
+/// One step of size `h` from `start` at `time`, where `lin` was taken. `None` if the matrix is singular.
 #[inline(always)]
 pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     tableau: &Tableau<S>,
     system: &E,
-    start: &Point<N>,
+    (start, time): (&Point<N>, f64),
     lin: &Linearisation<N, E::Power>,
     h: f64,
 ) -> Option<Trial<N>> {
     let block = Block::new(system, lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
+    let drift = system.is_driven().then(|| system.drift(start, time));
+    let mut g = [0.0; S];
     let mut u = [Point::ZERO; S];
     let mut y = *start;
     let mut acceleration = lin.acceleration;
@@ -47,11 +68,20 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
             } else {
                 combine(&mut y, &[1.0], 1.0, &u[row..]);
             }
-            acceleration = system.evaluate(&y).0;
+            acceleration = match drift {
+                None => system.evaluate(&y).0,
+                Some(_) => system.evaluate_at(&y, time + h * tableau.place(stage, &g)).0,
+            };
         }
         let mut r = Point { q: system.rates(&y.v), v: acceleration };
         if let Some(row) = stage.checked_sub(1) {
             combine(&mut r, tableau.c[row], per_h, &u);
+        }
+        if let Some(drift) = &drift {
+            g[stage] = tableau.gamma * (1.0 + tableau.carried(stage, &g));
+            for i in 0..N {
+                r.v[i] += h * g[stage] * drift[i];
+            }
         }
         block.solve(system, &lin.by_position, &mut r);
         u[stage] = r;

@@ -30,7 +30,10 @@ pub struct Linearisation<const N: usize, P> {
     pub power: P,
 }
 
-/// An autonomous second-order system q̇ = B v, v̇ = a(q, v). Imposed motions are degrees of freedom with a given v̇.
+/// A second-order system q̇ = B v, v̇ = a(q, v). Imposed motions are degrees of freedom with a given v̇.
+///
+/// A system may be driven: then v̇ = a(q, v, t), with the time counted from the begin of the integration. One that is not
+/// leaves the three functions of time as they are here, and nothing is computed for them.
 ///
 /// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster.
 pub trait SecondOrder<const N: usize> {
@@ -56,6 +59,29 @@ pub trait SecondOrder<const N: usize> {
 
     /// Accelerations, ledger rates and exact derivatives.
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Power>;
+
+    /// Whether accelerations depend on the time as well.
+    #[inline(always)]
+    fn is_driven(&self) -> bool {
+        false
+    }
+
+    /// [`Self::evaluate`] of a driven system at `time` [s].
+    #[inline(always)]
+    fn evaluate_at(&self, at: &Point<N>, _time: f64) -> ([f64; N], Self::Power) {
+        self.evaluate(at)
+    }
+
+    /// [`Self::linearise`] of a driven system at `time` [s].
+    #[inline(always)]
+    fn linearise_at(&self, at: &Point<N>, _time: f64) -> Linearisation<N, Self::Power> {
+        self.linearise(at)
+    }
+
+    /// ∂v̇/∂t of a driven system at `time` [s].
+    fn drift(&self, _at: &Point<N>, _time: f64) -> [f64; N] {
+        [0.0; N]
+    }
 
     /// Reciprocals of the natural magnitudes of q and v: the error of a step, so weighted, must not exceed the tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;

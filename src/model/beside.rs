@@ -35,9 +35,9 @@ pub struct Full {
 }
 
 impl Full {
-    /// Whether effects act: those of the scene, or a lock that is commanded or still holds.
+    /// Whether effects act: those of the scene, a lock that is commanded or still holds, or inputs on their way.
     pub fn acts(&self, state: &State) -> bool {
-        self.always || state.lock > 0.0 || state.holds.iter().any(|h| h.stiffness > 0.0)
+        self.always || state.course.is_some() || state.lock > 0.0 || state.holds.iter().any(|h| h.stiffness > 0.0)
     }
 
     /// Speed that an imposed carrier has instead of its command.

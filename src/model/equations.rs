@@ -11,6 +11,7 @@
 //! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
+use super::course::Course;
 use super::dry::{Clamp, Hold};
 use super::layout::{CARRIER, HOLDS, LEFT, MAX_GROUPS};
 use super::parameters::Inputs;
@@ -45,10 +46,13 @@ impl<const N: usize> Default for Jacobian<N> {
 
 /// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
 /// move, and whether effects act beside the teeth.
+#[derive(Clone, Copy)]
 pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(super) inputs: Inputs,
+    pub(super) course: Course,
+    driven: bool,
     pub(super) holds: [Hold; HOLDS],
     pub(super) clamps: [Clamp; 2],
     pub(super) fault: bool,
@@ -79,7 +83,25 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         }
         let clamps = if FULL { teeth.full.clamps(state.lock) } else { [Clamp::default(); 2] };
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        Self { teeth, inputs, holds: state.holds, clamps, fault: state.fault, offset, wrapped }
+        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
+        Self { teeth, inputs, course, driven, holds: state.holds, clamps, fault: state.fault, offset, wrapped }
+    }
+
+    /// Whether inputs change while they act.
+    #[inline(always)]
+    pub(super) fn is_driven_by_inputs(&self) -> bool {
+        FULL && self.driven
+    }
+
+    /// The equations `time` [s] later, as far as inputs go.
+    pub(super) fn later(&self, time: f64) -> Self {
+        let (inputs, course) = self.course.after(time, &self.inputs);
+        self.under(&inputs, &course)
+    }
+
+    /// The same equations under other inputs.
+    pub(super) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
+        Self { inputs: *inputs, course: *course, ..*self }
     }
 
     /// State of the mesh of group `g` with side `s`.
@@ -199,11 +221,12 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     #[inline(always)]
     pub(super) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
+        let rates = &self.course.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
             let wheel = if FULL && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
             if FULL && plan.side_imposed[s] {
-                input -= sum[wheel] * at.v[wheel];
+                input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.inputs.load_torque[s];
                 input -= self.inputs.load_torque[s] * at.v[wheel];
@@ -217,13 +240,22 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
         if plan.spin_imposed {
-            input -= in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g] * at.v[Self::PLANET + g]);
+            let inertial = if FULL { self.teeth.inertia[Self::PLANET] * rates.planet_spin } else { 0.0 };
+            input -= in_pairs(G, |g| self.members(g) * (sum[Self::PLANET + g] - inertial) * at.v[Self::PLANET + g]);
         }
         for i in 0..N {
             sum[i] *= inverse[i];
         }
         if FULL && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
+        }
+        if self.is_driven_by_inputs() {
+            for g in (0..G).filter(|_| plan.spin_imposed) {
+                sum[Self::PLANET + g] = rates.planet_spin;
+            }
+            for s in (0..2).filter(|&s| plan.side_imposed[s]) {
+                sum[N - 2 + s] = rates.side_speed[s];
+            }
         }
         power.input += input;
     }

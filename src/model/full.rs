@@ -1,10 +1,12 @@
 //! Forces of a scene with effects: meshes in detail where an effect asks for it, effects on bodies, dry friction.
 
 use super::causes::Cause;
+use super::course::Course;
 use super::dry::{Clamp, Mode, Pressing, Turn};
 use super::effects::{Action, Bodies, Slopes};
 use super::equations::{Equations, Jacobian};
 use super::layout::{CARRIER, HOLDS};
+use super::parameters::Inputs;
 use super::power::Power;
 use super::teeth::SIGMA;
 use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
@@ -48,7 +50,8 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// All positions and velocities as effects see them.
     fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
-        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs: &self.inputs }
+        let Self { inputs, course, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs, input_rates: &course.rates[0] }
     }
 
     /// Gaps of the teeth as they are now.
@@ -191,9 +194,23 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         }
     }
 
+    /// The part of the accelerations that inputs `inputs` on the course `course` have, for accelerations are linear in both.
+    pub(super) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
+        let part = |inputs: &Inputs, course: &Course| {
+            let these = self.under(inputs, course);
+            let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+            these.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
+            these.finish(at, &mut sum, &imposed, &mut power);
+            sum
+        };
+        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        std::array::from_fn(|i| with[i] - without[i])
+    }
+
     /// Effects on bodies.
     fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &mut [f64; N], power: &mut Power) {
         let bodies = self.bodies(at);
+        imposed[CARRIER] += bodies.input_rates.carrier_speed;
         let mut out =
             Action { force: sum, imposed: &mut imposed[CARRIER], drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.teeth.full.bodies.iter() {

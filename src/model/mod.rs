@@ -6,6 +6,7 @@ mod causes;
 mod combinations;
 mod commands;
 mod constants;
+mod course;
 mod cycle;
 mod dry;
 mod effect_specs;
@@ -42,6 +43,7 @@ mod tooth_effects;
 
 pub use bodies::Inertias;
 pub use causes::{CAUSES, Cause};
+pub use course::{Course, ORDERS};
 pub use effect_specs::{
     BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
     StrengthSpec, ThrustFrictionSpec,

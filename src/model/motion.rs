@@ -1,7 +1,9 @@
 //! The equations with tooth contact as an integrator sees them: rates, natural magnitudes, energy, kinks and switches.
 
+use super::course::Course;
 use super::equations::Equations;
 use super::layout::CARRIER;
+use super::parameters::Inputs;
 use super::power::Power;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
 
@@ -72,6 +74,26 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
         if FULL { self.linearise_all(at) } else { self.linearise_teeth(at) }
+    }
+
+    #[inline(always)]
+    fn is_driven(&self) -> bool {
+        self.is_driven_by_inputs()
+    }
+
+    #[inline(always)]
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+        if self.is_driven_by_inputs() { self.later(time).evaluate(at) } else { self.evaluate(at) }
+    }
+
+    #[inline(always)]
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+        if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
+    }
+
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        let [first, second] = self.later(time).course.rates;
+        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
     }
 
     #[inline(always)]

@@ -151,8 +151,9 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         } else {
             self.inputs.carrier_torque + power.drive
         };
+        let inertial = self.teeth.inertia[Self::PLANET] * self.course.rates[0].planet_spin;
         let spin_torque =
-            if plan.spin_imposed { -in_pairs(G, |g| self.members(g) * sum[Self::PLANET + g]) } else { 0.0 };
+            if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);
         Instant { acceleration: sum, gears, carrier_torque, spin_torque, power }
     }

@@ -1,13 +1,14 @@
 //! The ideal differential with effects on bodies: Willis' equation stays a constraint, the rest is integrated.
 //!
 //! All speeds follow from those that the constraint leaves free: v = P u with u = (ω_c, ψ̇, ends). Forces Q then give
-//! u̇ = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c ω̇_c) for the free ones under an imposed carrier acceleration ω̇_c, so that
-//! v̇ = W Q + f ω̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and f = (1 − W M) P_c. The torque of the meshes on a side
+//! u̇ = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c) for the free ones under the accelerations u̇_c of imposed ones, so that
+//! v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and f = (1 − W M) P_c. The torque of the meshes on a side
 //! gear is the force of the constraint, λ_s = J_s ω̇_s − Q_s.
 
 use std::sync::Arc;
 
 use super::causes::CAUSES;
+use super::course::Course;
 use super::dry::{Clamp, Hold, Mode, Pressing, Turn};
 use super::effect_specs::HalfShaftSpec;
 use super::effects::{Action, Bodies, BodyEffect, Setting, Slopes, body_effects, grips, lock_grip};
@@ -23,6 +24,9 @@ use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 /// Degrees of freedom with ends of half-shafts.
 const MOST: usize = 6;
 
+/// Motions that may be imposed: carrier, spin, left and right end.
+const IMPOSED: usize = 4;
+
 /// Constants of an ideal differential with effects.
 #[derive(Clone, Debug)]
 pub struct Rigid {
@@ -34,7 +38,8 @@ pub struct Rigid {
     pub rigid_end: [f64; 2],
     ratio: f64,
     mobility: [[f64; MOST]; MOST],
-    follow: [f64; MOST],
+    /// Columns of f: for the carrier, the spin and both ends; zero where the motion is not imposed.
+    follow: [[f64; MOST]; IMPOSED],
     bodies: Arc<Vec<Box<dyn BodyEffect>>>,
     /// Dry friction that is always there.
     pub grips: Vec<Grip>,
@@ -57,24 +62,17 @@ impl Rigid {
         let r = ideal.ratio;
         // columns of P
         let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
-        let mut free = Vec::new();
-        if !plan.carrier_imposed {
-            free.push(carrier);
-        }
-        if !plan.spin_imposed {
-            free.push([r, -r, 0.0, 1.0, 0.0, 0.0]);
-        }
-        for s in (0..2).filter(|&s| plan.shafts[s] && !plan.side_imposed[s]) {
-            let mut end = [0.0; MOST];
-            end[layout.end(s)] = 1.0;
-            free.push(end);
-        }
+        let end = |s: usize| std::array::from_fn(|i| f64::from(plan.shafts[s] && i == layout.end(s)));
+        let columns = [carrier, [r, -r, 0.0, 1.0, 0.0, 0.0], end(0), end(1)];
+        let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
+        let moves = [true, true, plan.shafts[0], plan.shafts[1]];
+        let free: Vec<[f64; MOST]> = (0..IMPOSED).filter(|&k| moves[k] && !imposed[k]).map(|k| columns[k]).collect();
         let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
         let m = nalgebra::DMatrix::from_fn(n, n, |i, j| if i == j { inertia[i] } else { 0.0 });
         // inertias are positive, so that the reduced matrix has an inverse
         let reduced = (p.transpose() * &m * &p).try_inverse();
         let w = reduced.map_or_else(|| nalgebra::DMatrix::zeros(n, n), |inverse| &p * inverse * p.transpose());
-        let c = nalgebra::DVector::from_fn(n, |i, _| carrier[i]);
+        let c = nalgebra::DMatrix::from_fn(n, IMPOSED, |i, k| if imposed[k] { columns[k][i] } else { 0.0 });
         let follow = &c - &w * &m * &c;
         let bodies = body_effects(setting);
         let grips = grips(setting);
@@ -85,7 +83,7 @@ impl Rigid {
             rigid_end,
             ratio: r,
             mobility: [[0.0; MOST]; MOST],
-            follow: [0.0; MOST],
+            follow: [[0.0; MOST]; IMPOSED],
             always: !bodies.is_empty() || !grips.is_empty(),
             bodies: Arc::new(bodies),
             grips,
@@ -93,7 +91,9 @@ impl Rigid {
             half_shaft: setting.parameters.specs.half_shaft,
         };
         for i in 0..n {
-            this.follow[i] = follow[i];
+            for k in 0..IMPOSED {
+                this.follow[k][i] = follow[(i, k)];
+            }
             for j in 0..n {
                 this.mobility[i][j] = w[(i, j)];
             }
@@ -113,9 +113,9 @@ impl Rigid {
         Clamp::of(self.grips.iter().chain(&lock))[0]
     }
 
-    /// Whether effects act: those of the scene, or a lock that is commanded.
+    /// Whether effects act: those of the scene, a lock that is commanded, or inputs on their way.
     pub fn acts(&self, state: &State) -> bool {
-        self.always || state.lock > 0.0
+        self.always || state.lock > 0.0 || state.course.is_some()
     }
 
     /// Speed that an imposed carrier has instead of its command.
@@ -136,10 +136,13 @@ pub struct RigidTorques {
 }
 
 /// The equations under given inputs.
+#[derive(Clone, Copy)]
 pub struct RigidEquations<'a, const N: usize> {
     /// Constants.
     pub rigid: &'a Rigid,
     inputs: Inputs,
+    course: Course,
+    driven: bool,
     /// What dry friction holds.
     pub holds: [Hold; HOLDS],
     clamp: Clamp,
@@ -152,11 +155,13 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// Equations under `inputs` at `state`.
     pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        Self { rigid, inputs, holds: state.holds, clamp: rigid.clamp(state.lock) }
+        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
+        Self { rigid, inputs, course, driven, holds: state.holds, clamp: rigid.clamp(state.lock) }
     }
 
     fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
-        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs: &self.inputs }
+        let Self { inputs, course, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &course.rates[0] }
     }
 
     fn turn(&self, at: &Point<N>, s: usize) -> Turn {
@@ -167,9 +172,16 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         if Self::ENDS && self.rigid.plan.shafts[s] { N - 2 + s } else { s }
     }
 
-    /// Forces, all commanded torques but that of an imposed motion among them, and the carrier's imposed acceleration.
-    fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], f64) {
-        let (mut sum, mut imposed) = ([0.0; N], 0.0);
+    /// The equations `time` [s] later, as far as inputs go.
+    fn later(&self, time: f64) -> Self {
+        let (inputs, course) = self.course.after(time, &self.inputs);
+        Self { inputs, course, ..*self }
+    }
+
+    /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
+    fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], [f64; IMPOSED]) {
+        let rates = &self.course.rates[0];
+        let (mut sum, mut imposed) = ([0.0; N], rates.carrier_speed);
         let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.rigid.bodies.iter() {
             effect.act(&self.bodies(at), &mut out);
@@ -192,7 +204,8 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
             }
             let wheel = self.wheel(s);
             if plan.side_imposed[s] {
-                power.input -= sum[wheel] * at.v[wheel];
+                let inertial = self.rigid.inertia[wheel] * rates.side_speed[s];
+                power.input += (inertial - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.inputs.load_torque[s];
                 power.input -= self.inputs.load_torque[s] * at.v[wheel];
@@ -203,15 +216,26 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
             sum[CARRIER] += drive;
             power.input += drive * at.v[CARRIER];
         }
-        (sum, imposed)
+        (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
-    fn accelerations(&self, sum: &[f64; N], imposed: f64) -> [f64; N] {
+    fn accelerations(&self, sum: &[f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
         let rigid = self.rigid;
         std::array::from_fn(|i| {
             let free: f64 = (0..N).map(|j| rigid.mobility[i][j] * sum[j]).sum();
-            free + if rigid.plan.carrier_imposed { rigid.follow[i] * imposed } else { 0.0 }
+            free + (0..IMPOSED).map(|k| rigid.follow[k][i] * imposed[k]).sum::<f64>()
         })
+    }
+
+    /// The part of the accelerations that inputs `inputs` on the course `course` have, for accelerations are linear in both.
+    pub(super) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
+        let part = |inputs: &Inputs, course: &Course| {
+            let these = Self { inputs: *inputs, course: *course, ..*self };
+            let (sum, imposed) = these.forces(at, &mut Power::default());
+            these.accelerations(&sum, &imposed)
+        };
+        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        std::array::from_fn(|i| with[i] - without[i])
     }
 
     fn torques_of(&self, sum: &[f64; N], a: &[f64; N], excess: f64) -> RigidTorques {
@@ -233,7 +257,7 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     pub fn torques(&self, at: &Point<N>) -> RigidTorques {
         let mut power = Power::default();
         let (sum, imposed) = self.forces(at, &mut power);
-        self.torques_of(&sum, &self.accelerations(&sum, imposed), power.drive)
+        self.torques_of(&sum, &self.accelerations(&sum, &imposed), power.drive)
     }
 
     /// Energy of half-shafts and holds [J].
@@ -310,7 +334,7 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
         let mut power = Power::default();
         let (sum, imposed) = self.forces(at, &mut power);
-        let a = self.accelerations(&sum, imposed);
+        let a = self.accelerations(&sum, &imposed);
         let torques = self.torques_of(&sum, &a, power.drive);
         if self.rigid.plan.carrier_imposed {
             power.input += torques.carrier * at.v[CARRIER];
@@ -341,7 +365,7 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         }
         self.times_rates(&mut by_rate);
         let rigid = self.rigid;
-        let follow = if rigid.plan.carrier_imposed { rigid.follow } else { [0.0; MOST] };
+        let follow = rigid.follow[0];
         let moved = |m: &Matrix<N>, imposed: &[f64; N]| -> Matrix<N> {
             std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
@@ -360,6 +384,23 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
             by_velocity: moved(&by_velocity, &imposed[1]),
             power,
         }
+    }
+
+    fn is_driven(&self) -> bool {
+        self.driven
+    }
+
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+        if self.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
+    }
+
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+        if self.driven { self.later(time).linearise(at) } else { self.linearise(at) }
+    }
+
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        let [first, second] = self.later(time).course.rates;
+        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
     }
 
     fn weights(&self, at: &Point<N>) -> Point<N> {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::bodies::Inertias;
 use super::causes::{CAUSES, Cause};
 use super::constants::{Gears, Model};
+use super::course::Course;
 use super::dry::Mode;
 use super::equations::Equations;
 use super::failure::StepFailure;
@@ -158,13 +159,31 @@ impl Simulation {
         }
     }
 
+    /// The inputs that act now.
+    pub fn inputs(&self) -> &Inputs {
+        &self.inputs
+    }
+
+    /// Tells how inputs go on from now; they stay as they are if that is not told.
+    pub fn set_course(&mut self, course: Option<Course>) {
+        if course != self.state.course {
+            self.state.course = course;
+            self.forces = None;
+        }
+    }
+
+    /// How inputs go on, where it was told.
+    pub fn course(&self) -> Option<&Course> {
+        self.state.course.as_ref()
+    }
+
     /// Takes over tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
         Arc::make_mut(&mut self.model).tune(parameters);
         self.forces = None;
     }
 
-    /// Integrates to `until` [s] with constant inputs. On failure the state is that of the last good time.
+    /// Integrates to `until` [s]; inputs go on as told. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
         let Self { model, state, inputs, .. } = self;
@@ -416,11 +435,11 @@ impl Simulation {
 
 /// Integrates to `until` [s]; apart from the closed form, whose few instructions its frame would outweigh.
 #[inline(never)]
-fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
-    let before = *state;
+fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
+    let before = (*state, *inputs);
     let mut budget = run::budget(model);
     while state.time < until {
-        let stretch = commands::end_of_stretch(model, state, until);
+        let (begin, stretch) = (state.time, commands::end_of_stretch(model, state, until));
         let outcome = with_equations!(model, state, inputs, |equations| {
             run::stretch::<N, _>(equations, model, state, stretch, &mut budget)
         });
@@ -428,16 +447,26 @@ fn integrate(model: &Model, inputs: &Inputs, state: &mut State, until: f64) -> R
         if let Gears::Rigid(rigid) = &model.gears {
             rigid.constrain(state);
         }
+        go_on(inputs, state, if outcome.is_ok() { stretch } else { state.time } - begin);
         outcome?;
         // the rounding of the time axis may leave a rest too small to integrate
         state.time = stretch;
         break_tooth(model, inputs, state);
     }
     if !state.is_valid() {
-        *state = before;
+        (*state, *inputs) = before;
         return Err(StepFailure::not_finite(state.time));
     }
     Ok(())
+}
+
+/// Takes inputs to what they are `time` [s] later.
+fn go_on(inputs: &mut Inputs, state: &mut State, time: f64) {
+    if let Some(course) = state.course {
+        let (later, rest) = course.after(time, inputs);
+        (*inputs, state.course) = (later, Some(rest));
+        state.carrier_command = inputs.carrier_speed;
+    }
 }
 
 /// Kinetic and stored energy [J].

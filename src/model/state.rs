@@ -3,8 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::causes::CAUSES;
+use super::course::Course;
 use super::dry::Hold;
 use super::layout::{CARRIER, HOLDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
+use super::parameters::Inputs;
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
 
@@ -37,6 +39,8 @@ pub struct State {
     pub lock: f64,
     /// Command of the carrier's speed that acts since the last step [rad/s].
     pub carrier_command: f64,
+    /// How inputs go on, where the host told it.
+    pub course: Option<Course>,
     /// Damage of the teeth.
     pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
@@ -95,6 +99,7 @@ impl State {
             fault: false,
             lock: 0.0,
             carrier_command: 0.0,
+            course: None,
             fatigue: Fatigue::default(),
             energy_at_start: 0.0,
         }
@@ -151,7 +156,9 @@ impl State {
         let numbers =
             [self.time, self.work, self.energy_at_start, self.control.last_error, self.bias.time, self.carrier_command];
         let anchors = self.holds.map(|h| h.anchor);
+        let course = self.course.is_none_or(|course| course.rates.iter().all(Inputs::is_finite));
         self.q.iter().chain(&self.v).chain(&numbers).chain(&self.heat).chain(&anchors).all(|x| x.is_finite())
+            && course
             && (0.0..=1.0).contains(&self.lock)
             && self.control.next > 0.0
             && self.control.next.is_finite()

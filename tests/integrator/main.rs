@@ -3,6 +3,7 @@
 mod accuracy;
 mod alike;
 mod continuation;
+mod driven;
 mod impact;
 mod methods;
 mod order;

@@ -83,14 +83,23 @@ const ITERATE: f64 = 1e-11;
 
 /// One step of size `h`. A method that needs no derivatives is given none that could be used.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
+    step_from::<M, N, S>(s, (at, 0.0), h)
+}
+
+/// The same of a driven system from a time on.
+pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
+    s: &S,
+    (at, time): (&Point<N>, f64),
+    h: f64,
+) -> Trial<N> {
     let lin = if M::IMPLICIT {
-        s.linearise(at)
+        s.linearise_at(at, time)
     } else {
-        let (acceleration, power) = s.evaluate(at);
+        let (acceleration, power) = s.evaluate_at(at, time);
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
     };
     let aim = Aim { weights: s.weights(at), tolerance: ITERATE };
-    M::METHOD.step(s, at, &lin, h, &aim, &mut Statistics::default()).unwrap()
+    M::METHOD.step(s, (at, time), &lin, h, &aim, &mut Statistics::default()).unwrap()
 }
 
 /// `count` equal steps over `length`.

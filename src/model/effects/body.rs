@@ -19,13 +19,15 @@ pub struct Bodies<'a> {
     pub layout: &'a Layout,
     /// Inputs.
     pub inputs: &'a Inputs,
+    /// How fast they change [per s].
+    pub input_rates: &'a Inputs,
 }
 
 /// Forces and torques by degree of freedom (on each planet singly), and heat by cause.
 pub struct Action<'a> {
     /// Sums of forces.
     pub force: &'a mut [f64],
-    /// Acceleration of a carrier whose motion is imposed [rad/s²].
+    /// Acceleration of a carrier whose motion is imposed, commanded so far [rad/s²].
     pub imposed: &'a mut f64,
     /// Torque of the carrier's drive beyond its command [N·m].
     pub drive: &'a mut f64,

@@ -26,6 +26,7 @@ impl BodyEffect for FinalDrive {
         let c = at.layout.carrier();
         let wave = sin(self.teeth * at.q[c]);
         if self.imposed {
+            *out.imposed += at.input_rates.carrier_speed * self.amplitude * cos(self.teeth * at.q[c]);
             *out.imposed -= at.inputs.carrier_speed * self.amplitude * self.teeth * wave * at.v[c];
         } else {
             *out.drive += at.inputs.carrier_torque * self.amplitude * wave;
@@ -38,6 +39,7 @@ impl BodyEffect for FinalDrive {
         if self.imposed {
             let amplitude = at.inputs.carrier_speed * self.amplitude * self.teeth;
             out.imposed[0][c] -= amplitude * slope * at.v[c];
+            out.imposed[0][c] -= at.input_rates.carrier_speed * self.amplitude * self.teeth * wave;
             out.imposed[1][c] -= amplitude * wave;
         } else {
             out.position(c, c, at.inputs.carrier_torque * self.amplitude * slope);

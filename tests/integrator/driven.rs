@@ -1,0 +1,92 @@
+//! Systems whose accelerations depend on the time: as accurate as those that carry a clock along.
+
+use bevel_differential::integrate::{
+    Control, Effort, Flow, Linearisation, Point, SecondOrder, Statistics, Step, advance, advance_fixed,
+};
+
+use super::methods::{Known, step_from, with_every_method};
+use super::problems::{forced, forced_exact};
+
+with_every_method!(
+    a_driven_system_moves_like_one_that_carries_a_clock
+    the_driver_hands_the_time_on
+);
+
+/// The problem `forced` with the time itself in place of its clock.
+struct Driven(f64);
+
+impl Driven {
+    fn with_clock(at: &Point<1>, time: f64) -> Point<2> {
+        Point { q: [at.q[0], time], v: [at.v[0], 1.0] }
+    }
+}
+
+impl SecondOrder<1> for Driven {
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
+        self.evaluate_at(at, 0.0)
+    }
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
+        self.linearise_at(at, 0.0)
+    }
+    fn is_driven(&self) -> bool {
+        true
+    }
+    fn evaluate_at(&self, at: &Point<1>, time: f64) -> ([f64; 1], ()) {
+        ([forced(self.0).evaluate(&Self::with_clock(at, time)).0[0]], ())
+    }
+    fn linearise_at(&self, at: &Point<1>, time: f64) -> Linearisation<1, ()> {
+        let lin = forced(self.0).linearise(&Self::with_clock(at, time));
+        let (by_position, by_velocity) = ([[lin.by_position[0][0]]], [[lin.by_velocity[0][0]]]);
+        Linearisation { acceleration: [lin.acceleration[0]], by_position, by_velocity, power: () }
+    }
+    fn drift(&self, at: &Point<1>, time: f64) -> [f64; 1] {
+        [forced(self.0).linearise(&Self::with_clock(at, time)).by_position[0][1]]
+    }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0], v: [1.0] }
+    }
+}
+
+fn a_driven_system_moves_like_one_that_carries_a_clock<M: Known>() {
+    // stiff for methods that can, within the stability of the one that cannot
+    let lambda = if M::FORCED.is_some() { 1e3 } else { 10.0 };
+    let (mut clock, mut driven, mut time) = (forced_exact(0.0), Point { q: [0.0], v: [1.0] }, 0.0);
+    for h in [0.05, 0.11, 0.02, 0.17] {
+        let with_clock = step_from::<M, 2, _>(&forced(lambda), (&clock, 0.0), h);
+        let without = step_from::<M, 1, _>(&Driven(lambda), (&driven, time), h);
+        for (a, b) in [(with_clock.end, without.end), (with_clock.middle, without.middle), (with_clock.error, without.error)]
+        {
+            let off = (a.q[0] - b.q[0]).abs().max((a.v[0] - b.v[0]).abs());
+            // iterations within a step of Radau stop at 1e-11
+            assert!(off < 1e-10, "{h}: {off:e}");
+        }
+        (clock, driven, time) = (with_clock.end, without.end, time + h);
+    }
+}
+
+fn the_driver_hands_the_time_on<M: Known>() {
+    let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
+    let (mut control, mut statistics, mut budget) = (Control::new(1e-3), Statistics::default(), 1_000_000);
+    for until in [0.3, 0.31, 1.0] {
+        let effort =
+            Effort { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+        let go_on = |_: Step<1, ()>| Ok::<_, ()>(Flow::Continue);
+        advance(&M::METHOD, &Driven(50.0), &mut point, &mut time, until, effort, go_on).unwrap();
+    }
+    assert!((point.v[0] - 1f64.cos()).abs() < 1e-7, "{:e}", point.v[0] - 1f64.cos());
+}
+
+#[test]
+fn steps_of_fixed_size_keep_their_order_when_driven() {
+    let error = |step: f64| {
+        let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
+        let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
+        let counts = (&mut statistics, &mut budget);
+        advance_fixed(&Driven(5.0), &mut point, &mut time, 1.0, step, counts, |_| Ok::<_, ()>(Flow::Continue)).unwrap();
+        (point.v[0] - 1f64.cos()).abs()
+    };
+    let order = (error(0.01) / error(0.005)).log2();
+    assert!((order - 2.0).abs() < 0.2, "{order}");
+}
