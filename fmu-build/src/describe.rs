@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use bevel_differential::fmi2::Category;
+use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
 use bevel_differential::model::Parameters;
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
@@ -34,7 +34,8 @@ pub fn model_description() -> Result<String> {
         .with("generationTool", concat!("fmu-build ", env!("CARGO_PKG_VERSION")))
         .with("generationDateAndTime", GENERATION_TIME)
         .with("variableNamingConvention", "structured")
-        .with("numberOfEventIndicators", 0)
+        .with("numberOfEventIndicators", EVENT_INDICATORS)
+        .child(model_exchange())
         .child(co_simulation())
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
         .child(Element::new("TypeDefinitions").children(enumerations(table).map(enumeration)))
@@ -65,19 +66,27 @@ pub fn write(file: &Path) -> Result<()> {
     fs::write(file, model_description()?).with_context(|| format!("{} cannot be written", file.display()))
 }
 
+fn model_exchange() -> Element {
+    let kind = Element::new("ModelExchange").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
+    for_both_kinds(kind.with("completedIntegratorStepNotNeeded", false))
+}
+
 fn co_simulation() -> Element {
-    Element::new("CoSimulation")
-        .with("modelIdentifier", MODEL_NAME)
-        .with("needsExecutionTool", false)
-        .with("canHandleVariableCommunicationStepSize", true)
-        .with("canInterpolateInputs", false)
-        .with("maxOutputDerivativeOrder", 0)
-        .with("canRunAsynchronuously", false)
-        .with("canBeInstantiatedOnlyOncePerProcess", false)
+    let kind = Element::new("CoSimulation").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
+    for_both_kinds(
+        kind.with("canHandleVariableCommunicationStepSize", true)
+            .with("canInterpolateInputs", true)
+            .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
+            .with("canRunAsynchronuously", false),
+    )
+}
+
+fn for_both_kinds(kind: Element) -> Element {
+    kind.with("canBeInstantiatedOnlyOncePerProcess", false)
         .with("canNotUseMemoryManagementFunctions", true)
         .with("canGetAndSetFMUstate", true)
         .with("canSerializeFMUstate", true)
-        .with("providesDirectionalDerivative", false)
+        .with("providesDirectionalDerivative", true)
 }
 
 fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'static Unit> {
@@ -129,6 +138,7 @@ fn scalar_variable((reference, row): (usize, &Variable)) -> Element {
         Causality::Parameter => "parameter",
         Causality::Input => "input",
         Causality::Output => "output",
+        Causality::Local => "local",
     };
     let variability = match row.variability {
         Variability::Fixed => "fixed",
@@ -138,7 +148,7 @@ fn scalar_variable((reference, row): (usize, &Variable)) -> Element {
     let initial = match row.causality {
         Causality::Parameter => Some("exact"),
         Causality::Input => None,
-        Causality::Output => Some("calculated"),
+        Causality::Output | Causality::Local => Some("calculated"),
     };
     Element::new("ScalarVariable")
         .with("name", row.name)
@@ -158,6 +168,8 @@ fn variable_type(row: &Variable) -> Element {
             .with_some("displayUnit", row.display.map(|shown| shown.name))
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
+            .with_some("nominal", row.nominal.map(number))
+            .with_some("derivative", row.derivative_of.map(|index| index + 1))
             .with_some("start", real_start(row).map(number)),
         Access::Integer(access) => Element::new("Integer")
             .with_some("min", row.range.map(|range| range.min))
@@ -170,40 +182,86 @@ fn variable_type(row: &Variable) -> Element {
     }
 }
 
-/// Outputs with what they depend on within a communication point, and what has to be computed at the start.
+/// Outputs and rates of states with what they depend on at an instant, and what has to be computed at the start.
 fn structure(table: &Table) -> Element {
+    let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
     let outputs = table.outputs.iter().map(|&index| {
-        let known = dependencies(table, index).iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>();
-        Element::new("Unknown").with("index", index + 1).with("dependencies", known.join(" "))
+        let mut known = dependencies(table, index);
+        if !is_of_books(&table.rows[index]) {
+            known.extend(table.states);
+            known.sort_unstable();
+        }
+        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
+    });
+    let mut every_state = table.states;
+    every_state.sort_unstable();
+    let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
+        let is_position = k < table.states.len() / 2;
+        let mut known: Vec<usize> = inputs_where(table, |input| is_speed(input) || is_torque(input) && !is_position);
+        known.extend(every_state);
+        known.sort_unstable();
+        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
     });
     // at the start everything may depend on everything, which is what no list means
-    let initial = table.outputs.iter().map(|&index| Element::new("Unknown").with("index", index + 1));
+    let mut initial: Vec<usize> =
+        table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied().collect();
+    initial.sort_unstable();
+    initial.dedup();
+    let initial = initial.into_iter().map(|index| Element::new("Unknown").with("index", index + 1));
     Element::new("ModelStructure")
         .child(Element::new("Outputs").children(outputs))
+        .child(Element::new("Derivatives").children(derivatives))
         .child(Element::new("InitialUnknowns").children(initial))
 }
 
-/// Parts of names of forces' companions that follow from positions and speeds alone.
-const BY_MOTION: [&str; 3] = ["transmission_error", "power.loss", "stress."];
 /// Ending of names of what depends on the load of its own side alone.
 const BY_OWN_LOAD: &str = ".twist";
+/// Endings of names of what positions alone tell.
+const BY_POSITION: [&str; 1] = ["transmission_error"];
+/// Parts of names of what follows from the loads of the teeth and the rates of springs, torques apart.
+const BY_MOTION: [&str; 2] = ["power.loss", "stress."];
+/// Commands that speeds follow at once in model exchange, and the endings of their names.
+const FOLLOWERS: [(&str, &[&str]); 2] = [
+    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed"]),
+    ("planet.spin_command", &["spin_speed", "left.speed", "right.speed", "mesh.frequency"]),
+];
 
-/// Inputs that output `index` depends on without a step in between, over all scenes; tests/python checks it.
+fn is_torque(input: &Variable) -> bool {
+    input.unit == Some(units::NEWTON_METRE)
+}
+
+fn is_speed(input: &Variable) -> bool {
+    input.unit == Some(units::RAD_PER_S)
+}
+
+fn is_of_books(row: &Variable) -> bool {
+    matches!(row.access, Access::Output(OutputSource::Books(_)))
+}
+
+fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
+    table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
+}
+
+/// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
 ///
-/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act through the step only,
-/// and so does everything on angles, speeds and the books.
+/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
+/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the books
+/// follow with time alone.
 pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];
-    let of_forces = matches!(row.access, Access::Output(OutputSource::Forces(_)));
-    if !of_forces || BY_MOTION.iter().any(|part| row.name.contains(part)) {
-        return Vec::new();
+    let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
+    match row.access {
+        Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
+            FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
+        }),
+        Access::Output(OutputSource::Forces(_)) if !named(&BY_POSITION) => {
+            if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
+                return inputs_where(table, |input| is_torque(input) && input.name.starts_with(side));
+            }
+            inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+        }
+        _ => Vec::new(),
     }
-    let own_side = row.name.strip_suffix(BY_OWN_LOAD);
-    let is_torque = |i: &usize| {
-        let input = &table.rows[*i];
-        input.unit == Some(units::NEWTON_METRE) && own_side.is_none_or(|side| input.name.starts_with(side))
-    };
-    table.inputs.iter().copied().filter(is_torque).collect()
 }
 
 /// A number such that reading it gives the same bits again.

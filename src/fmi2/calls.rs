@@ -1,4 +1,7 @@
-//! Which call is legal in which state: the co-simulation table of FMI 2.0.4, section 4.2.4.
+//! Which call is legal in which state: the tables of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
+//!
+//! Both kinds share the states before the start and after the end; in between each has states of its own, so that one
+//! table serves both. Calls of one kind that are legal in a shared state ask for the kind as well.
 
 use serde::{Deserialize, Serialize};
 
@@ -20,13 +23,22 @@ pub enum Phase {
     Terminated = 4,
     /// Initialisation failed, or an internal error.
     Error = 5,
+    /// Model exchange, at an event.
+    Event = 6,
+    /// Model exchange, between events.
+    ContinuousTime = 7,
 }
 
 impl Phase {
-    const ALL: [Self; 6] = {
+    const ALL: [Self; 8] = {
         use Phase::*;
-        [Instantiated, Initialization, StepComplete, StepFailed, Terminated, Error]
+        [Instantiated, Initialization, StepComplete, StepFailed, Event, ContinuousTime, Terminated, Error]
     };
+
+    /// Whether a simulation has been started and goes on.
+    pub fn is_running(self) -> bool {
+        matches!(self, Self::StepComplete | Self::Event | Self::ContinuousTime)
+    }
 
     /// Name in messages.
     pub fn name(self) -> &'static str {
@@ -37,6 +49,8 @@ impl Phase {
             Self::StepFailed => "step failed",
             Self::Terminated => "terminated",
             Self::Error => "error",
+            Self::Event => "event mode",
+            Self::ContinuousTime => "continuous-time mode",
         }
     }
 }
@@ -49,7 +63,9 @@ const END: u8 = 1 << Phase::Terminated as u8;
 const ERROR: u8 = 1 << Phase::Error as u8;
 /// fmi2CancelStep and the statuses of a pending step: steps are synchronous, so no state of ours is "step in progress".
 const NEVER: u8 = 0;
-const ALWAYS: u8 = INST | INIT | DONE | FAILED | END | ERROR;
+const EVENT: u8 = 1 << Phase::Event as u8;
+const FLOW: u8 = 1 << Phase::ContinuousTime as u8;
+const ALWAYS: u8 = INST | INIT | DONE | FAILED | EVENT | FLOW | END | ERROR;
 
 macro_rules! calls {
     ($($call:ident $name:literal $phases:expr;)+) => {
@@ -77,23 +93,23 @@ calls! {
     SetupExperiment          "fmi2SetupExperiment"          INST;
     EnterInitializationMode  "fmi2EnterInitializationMode"  INST;
     ExitInitializationMode   "fmi2ExitInitializationMode"   INIT;
-    Terminate                "fmi2Terminate"                DONE | FAILED;
+    Terminate                "fmi2Terminate"                DONE | FAILED | EVENT | FLOW;
     Reset                    "fmi2Reset"                    ALWAYS;
     GetReal                  "fmi2GetReal"                  ALWAYS; // outputs not in `instantiated`, see `values`
     GetInteger               "fmi2GetInteger"               ALWAYS;
     GetBoolean               "fmi2GetBoolean"               ALWAYS;
     GetString                "fmi2GetString"                ALWAYS;
-    SetReal                  "fmi2SetReal"                  INST | INIT | DONE;
-    SetInteger               "fmi2SetInteger"               INST | INIT | DONE;
-    SetBoolean               "fmi2SetBoolean"               INST | INIT | DONE;
-    SetString                "fmi2SetString"                INST | INIT | DONE;
+    SetReal                  "fmi2SetReal"                  INST | INIT | DONE | EVENT | FLOW; // see `values`
+    SetInteger               "fmi2SetInteger"               INST | INIT | DONE | EVENT;
+    SetBoolean               "fmi2SetBoolean"               INST | INIT | DONE | EVENT;
+    SetString                "fmi2SetString"                INST | INIT | DONE | EVENT;
     GetFmuState              "fmi2GetFMUstate"              ALWAYS & !ERROR; // an erroneous state is not worth keeping
     SetFmuState              "fmi2SetFMUstate"              ALWAYS;
     FreeFmuState             "fmi2FreeFMUstate"             ALWAYS;
     SerializedFmuStateSize   "fmi2SerializedFMUstateSize"   ALWAYS;
     SerializeFmuState        "fmi2SerializeFMUstate"        ALWAYS;
     DeSerializeFmuState      "fmi2DeSerializeFMUstate"      ALWAYS;
-    GetDirectionalDerivative "fmi2GetDirectionalDerivative" INIT | DONE | FAILED | END | ERROR;
+    GetDirectionalDerivative "fmi2GetDirectionalDerivative" ALWAYS & !INST;
     SetRealInputDerivatives  "fmi2SetRealInputDerivatives"  INST | INIT | DONE;
     GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" DONE | FAILED | END | ERROR;
     DoStep                   "fmi2DoStep"                   DONE;
@@ -103,6 +119,16 @@ calls! {
     GetIntegerStatus         "fmi2GetIntegerStatus"         DONE | FAILED | END;
     GetBooleanStatus         "fmi2GetBooleanStatus"         DONE | FAILED | END;
     GetStringStatus          "fmi2GetStringStatus"          DONE | FAILED | END;
+    EnterEventMode           "fmi2EnterEventMode"           FLOW;
+    NewDiscreteStates        "fmi2NewDiscreteStates"        EVENT;
+    EnterContinuousTimeMode  "fmi2EnterContinuousTimeMode"  EVENT;
+    CompletedIntegratorStep  "fmi2CompletedIntegratorStep"  FLOW;
+    SetTime                  "fmi2SetTime"                  EVENT | FLOW;
+    SetContinuousStates      "fmi2SetContinuousStates"      FLOW;
+    GetDerivatives           "fmi2GetDerivatives"           INIT | EVENT | FLOW | END | ERROR;
+    GetEventIndicators       "fmi2GetEventIndicators"       INIT | EVENT | FLOW | END | ERROR;
+    GetContinuousStates      "fmi2GetContinuousStates"      INIT | EVENT | FLOW | END | ERROR;
+    GetNominals              "fmi2GetNominalsOfContinuousStates" ALWAYS;
 }
 
 impl Call {

@@ -4,7 +4,7 @@ use super::calls::Phase;
 use super::log::Log;
 use super::refusal::{Answer, Refusal};
 use super::snapshot::Snapshot;
-use super::types::{DO_STEP_STATUS, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
+use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::model::Simulation;
 use crate::problem;
 use crate::variables::{self, Access, RealParameter, Variable};
@@ -44,8 +44,8 @@ pub struct Experiment {
 
 impl Instance {
     /// A fresh instance with start values.
-    pub fn new(log: Log) -> Self {
-        Self { now: Snapshot::default(), log, warned: false }
+    pub fn new(kind: Kind, log: Log) -> Self {
+        Self { now: Snapshot::new(kind), log, warned: false }
     }
 
     /// fmi2SetupExperiment. A tolerance the host set as a parameter wins over the one given here.
@@ -84,7 +84,13 @@ impl Instance {
             self.now.phase = Phase::Error;
             return Err(refusal);
         }
-        self.now.phase = Phase::StepComplete;
+        self.now.phase = match self.now.kind {
+            Kind::CoSimulation => Phase::StepComplete,
+            Kind::ModelExchange => Phase::Event,
+        };
+        if let (Kind::ModelExchange, Some(simulation)) = (self.now.kind, &mut self.now.simulation) {
+            simulation.hand_over();
+        }
         if let Some(simulation) = &self.now.simulation {
             self.log.event(&simulation.describe());
             for warning in simulation.warnings() {
@@ -105,7 +111,7 @@ impl Instance {
 
     /// fmi2Reset: as after fmi2Instantiate, but for the log's settings.
     pub fn reset(&mut self) -> Answer {
-        self.now = Snapshot::default();
+        self.now = Snapshot::new(self.now.kind);
         self.warned = false;
         Ok(())
     }
@@ -136,21 +142,30 @@ impl Instance {
     /// fmi2DoStep: from the current time to `point` + `h` [s].
     pub fn do_step(&mut self, point: f64, h: f64) -> Answer {
         let stop = self.now.stop_time;
-        let simulation = self.simulation()?;
-        let time = simulation.time();
+        let time = self.simulation()?.time();
         check_step(time, stop, point, h)?;
+        self.check_course(h)?;
         let until = point + h;
         // a step below the resolution of the time axis is done already
         if until <= time {
             return Ok(());
         }
-        let Err(failure) = simulation.advance(until) else {
-            if simulation.is_watched() {
+        let course = self.now.course;
+        let simulation = self.simulation()?;
+        simulation.set_course(course);
+        let outcome = simulation.advance(until);
+        let (last, watched) = (simulation.time(), simulation.is_watched());
+        if course.is_some() {
+            let (inputs, course) = (*simulation.inputs(), simulation.course().copied());
+            (self.now.inputs, self.now.course) = (inputs, course);
+        }
+        self.now.told = 0;
+        let Err(failure) = outcome else {
+            if watched {
                 self.watch();
             }
             return Ok(());
         };
-        let last = simulation.time();
         self.now.phase = Phase::StepFailed;
         Err(Refusal::discard(format!(
             "{failure}; values are those of the last successful time {last} s; \
@@ -159,7 +174,7 @@ impl Instance {
     }
 
     /// Warns once when a law is used outside the range that it was published for.
-    fn watch(&mut self) {
+    pub fn watch(&mut self) {
         if self.warned {
             return;
         }

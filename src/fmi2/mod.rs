@@ -1,4 +1,4 @@
-//! The FMI 2.0 co-simulation face: a C ABI around the model, and the only room with `unsafe`.
+//! The FMI 2.0 face, for co-simulation and for model exchange: a C ABI around the model, and the only room with `unsafe`.
 //!
 //! `exports` takes foreign pointers apart and hands safe values to `Instance`, which knows FMI's rules but no pointer;
 //! the equations are in `model`, the variables in `variables`.
@@ -10,6 +10,8 @@
 //! - Parameters and inputs can be read in any state; outputs from initialisation mode on.
 
 mod calls;
+mod derivatives;
+mod exchange;
 mod exports;
 mod instance;
 mod log;
@@ -21,6 +23,8 @@ mod types;
 mod values;
 
 pub use calls::Phase;
+pub use derivatives::OUTPUT_ORDER;
+pub use exchange::EVENT_INDICATORS;
 pub use exports::*;
 pub use log::Category;
 pub use types::*;

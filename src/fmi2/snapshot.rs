@@ -6,24 +6,31 @@
 use serde::{Deserialize, Serialize};
 
 use super::calls::Phase;
-use crate::model::{Inputs, Parameters, Simulation, State};
+use super::types::Kind;
+use crate::model::{Accepted, Course, Inputs, Parameters, Simulation, State};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Grows whenever the payload changes its meaning or layout.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// What an instance is at an instant. Cloning copies the state and shares the constants.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
+    /// What the instance was made for.
+    pub kind: Kind,
     /// State as FMI counts states.
     pub phase: Phase,
     /// Parameters as set so far.
     pub parameters: Parameters,
     /// Inputs as set so far.
     pub inputs: Inputs,
+    /// How they go on, where the host told derivatives.
+    pub course: Option<Course>,
+    /// Inputs whose derivatives were told since the last step, a bit each.
+    pub told: u32,
     /// Start time [s].
     pub start_time: f64,
     /// Stop time [s], if the host gave one.
@@ -34,12 +41,16 @@ pub struct Snapshot {
     pub simulation: Option<Simulation>,
 }
 
-impl Default for Snapshot {
-    fn default() -> Self {
+impl Snapshot {
+    /// A fresh instance.
+    pub fn new(kind: Kind) -> Self {
         Self {
+            kind,
             phase: Phase::Instantiated,
             parameters: Parameters::default(),
             inputs: Inputs::default(),
+            course: None,
+            told: 0,
             start_time: 0.0,
             stop_time: None,
             tolerance_chosen: false,
@@ -51,13 +62,17 @@ impl Default for Snapshot {
 /// What is written of a snapshot: all but what follows from the parameters.
 #[derive(Serialize, Deserialize)]
 struct Payload {
+    kind: Kind,
     phase: Phase,
     parameters: Parameters,
     inputs: Inputs,
+    course: Option<Course>,
+    told: u32,
     start_time: f64,
     stop_time: Option<f64>,
     tolerance_chosen: bool,
     state: Option<State>,
+    accepted: Option<Accepted>,
 }
 
 impl Snapshot {
@@ -67,19 +82,30 @@ impl Snapshot {
         if !problems.is_empty() {
             return Err(problems);
         }
-        Simulation::start(&self.parameters, &self.inputs, self.start_time)
+        Simulation::start(&self.effective(), &self.inputs, self.start_time)
+    }
+
+    /// Parameters that are simulated: in model exchange every planet has states of its own.
+    fn effective(&self) -> Parameters {
+        let mut parameters = self.parameters;
+        parameters.solver.merge_planets &= self.kind == Kind::CoSimulation;
+        parameters
     }
 
     /// The snapshot as bytes.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         let payload = postcard::to_allocvec(&Payload {
+            kind: self.kind,
             phase: self.phase,
             parameters: self.parameters,
             inputs: self.inputs,
+            course: self.course,
+            told: self.told,
             start_time: self.start_time,
             stop_time: self.stop_time,
             tolerance_chosen: self.tolerance_chosen,
             state: self.simulation.as_ref().map(|s| *s.state()),
+            accepted: self.simulation.as_ref().and_then(|s| s.accepted().copied()),
         })
         .map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
@@ -101,10 +127,14 @@ impl Snapshot {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
         payload.check()?;
-        let Payload { phase, parameters, inputs, start_time, stop_time, tolerance_chosen, state } = payload;
-        let resume = |state| Simulation::resume(&parameters, &inputs, state).map_err(|p| problem::list(&p));
-        let simulation = state.map(resume).transpose()?;
-        Ok(Self { phase, parameters, inputs, start_time, stop_time, tolerance_chosen, simulation })
+        let Payload { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, .. } = payload;
+        let mut snapshot =
+            Self { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, simulation: None };
+        if let Some(state) = payload.state {
+            let resumed = Simulation::resume(&snapshot.effective(), &inputs, state).map_err(|p| problem::list(&p))?;
+            snapshot.simulation = Some(resumed.from_accepted(payload.accepted));
+        }
+        Ok(snapshot)
     }
 }
 
@@ -117,6 +147,16 @@ impl Payload {
         }
         if !self.start_time.is_finite() || self.state.is_some_and(|s| !s.is_valid()) {
             return Err("the state has values that are not finite".into());
+        }
+        if self.accepted.as_ref().is_some_and(|a| !a.is_valid()) || self.course.is_some_and(|c| !c.is_finite()) {
+            return Err("the state has values that are not finite".into());
+        }
+        let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime);
+        let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed);
+        if exchanges && (self.kind != Kind::ModelExchange || self.accepted.is_none())
+            || steps && self.kind != Kind::CoSimulation
+        {
+            return Err(format!("the phase \"{}\" does not belong to this kind of instance", self.phase.name()));
         }
         let mut inputs = self.inputs;
         for row in &table().rows {

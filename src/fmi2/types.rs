@@ -1,6 +1,7 @@
 //! Types of the FMI 2.0 headers, platform "default".
 
 use libc::{c_char, c_int, c_uint, c_void};
+use serde::{Deserialize, Serialize};
 
 /// fmi2Boolean: 0 is false.
 pub type Boolean = c_int;
@@ -31,8 +32,20 @@ pub enum Status {
     Pending = 5,
 }
 
+/// fmi2Type: what an instance was made for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[repr(i32)]
+pub enum Kind {
+    /// The host brings the solver.
+    ModelExchange = 0,
+    /// The instance brings its own.
+    CoSimulation = 1,
+}
+
+/// fmi2ModelExchange of fmi2Type.
+pub const MODEL_EXCHANGE: c_int = Kind::ModelExchange as c_int;
 /// fmi2CoSimulation of fmi2Type.
-pub const CO_SIMULATION: c_int = 1;
+pub const CO_SIMULATION: c_int = Kind::CoSimulation as c_int;
 
 /// fmi2DoStepStatus of fmi2StatusKind.
 pub const DO_STEP_STATUS: c_int = 0;
@@ -46,6 +59,24 @@ pub const TERMINATED: c_int = 3;
 /// fmi2CallbackLogger; variadic as printf.
 pub type Logger =
     unsafe extern "C" fn(env: *mut c_void, instance: Text, status: Status, category: Text, message: Text, ...);
+
+/// fmi2EventInfo.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EventInfo {
+    /// Whether fmi2NewDiscreteStates is to be called again.
+    pub new_discrete_states_needed: Boolean,
+    /// Whether the simulation is to end.
+    pub terminate_simulation: Boolean,
+    /// Whether nominal values of states changed.
+    pub nominals_changed: Boolean,
+    /// Whether states changed.
+    pub states_changed: Boolean,
+    /// Whether the next event is known.
+    pub next_event_defined: Boolean,
+    /// When it comes [s].
+    pub next_event: f64,
+}
 
 /// fmi2CallbackFunctions. Only the logger is used; memory is the library's own.
 #[repr(C)]

@@ -18,14 +18,16 @@ fn type_name(row: &Variable) -> &'static str {
     }
 }
 
-fn row(reference: u32) -> Answer<&'static Variable> {
+/// The row of a value reference.
+pub fn row(reference: u32) -> Answer<&'static Variable> {
     let rows = &table().rows;
     usize::try_from(reference).ok().and_then(|i| rows.get(i)).ok_or_else(|| {
         Refusal::error(format!("value reference {reference} does not exist; they go from 0 to {}", rows.len() - 1))
     })
 }
 
-fn wrong_type(row: &Variable) -> Refusal {
+/// Refuses a call for another type.
+pub fn wrong_type(row: &Variable) -> Refusal {
     Refusal::error(format!("{} is of type {}", row.name, type_name(row)))
 }
 
@@ -51,6 +53,7 @@ impl Instance {
     pub fn get_real(&mut self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> Answer {
         let mut motion: Option<Motion> = None;
         let mut books: Option<Books> = None;
+        let (mut states, mut rates) = (None, None);
         for (&reference, value) in references.iter().zip(values) {
             let row = row(reference)?;
             value.write(match row.access {
@@ -64,6 +67,8 @@ impl Instance {
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
                         OutputSource::Books(of) => of(books.get_or_insert_with(|| simulation.books())),
+                        OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],
+                        OutputSource::Rate(k) => rates.get_or_insert_with(|| simulation.state_rates())[k],
                     }
                 }
                 _ => return Err(wrong_type(row)),
@@ -114,6 +119,7 @@ impl Instance {
                 _ => {}
             }
         }
+        self.end_derivatives_of(references);
         self.changed(tuned);
         Ok(())
     }
@@ -164,7 +170,7 @@ impl Instance {
             Access::Input(_) => true,
             Access::Real(_) | Access::Output(_) => {
                 self.check_settable(row)?;
-                self.now.phase == Phase::StepComplete || !value.is_finite()
+                self.now.phase.is_running() || !value.is_finite()
             }
             _ => return Err(wrong_type(row)),
         };
@@ -177,7 +183,11 @@ impl Instance {
     fn check_settable(&self, row: &Variable) -> Answer {
         match (row.access, row.variability) {
             (Access::Output(_), _) => Err(Refusal::error(format!("{} is an output and cannot be set", row.name))),
-            (_, Variability::Fixed) if self.now.phase == Phase::StepComplete => Err(Refusal::error(format!(
+            (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(Refusal::error(format!(
+                "{} is a parameter: between events it cannot be set, enter event mode first",
+                row.name
+            ))),
+            (_, Variability::Fixed) if self.now.phase.is_running() => Err(Refusal::error(format!(
                 "{} is a fixed parameter: it can be set only before fmi2ExitInitializationMode",
                 row.name
             ))),
@@ -189,10 +199,13 @@ impl Instance {
     fn changed(&mut self, parameters: bool) {
         let now = &mut self.now;
         match &mut now.simulation {
-            Some(simulation) if now.phase == Phase::StepComplete => {
+            Some(simulation) if now.phase.is_running() => {
                 simulation.set_inputs(&now.inputs);
                 if parameters {
                     simulation.tune(&now.parameters);
+                }
+                if simulation.is_handed_over() {
+                    simulation.follow_commands();
                 }
             }
             _ => now.simulation = None,

@@ -25,6 +25,28 @@ pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
     p.effects.tooth_fault && !state.fault && (inputs.fault > 0.5 || onset > 0.0 && state.time >= onset)
 }
 
+/// Sets imposed speeds to their commands and leaves everything else as it is.
+pub fn follow(model: &Model, inputs: &Inputs, state: &mut State) {
+    state.carrier_command = inputs.carrier_speed;
+    let ideal = &model.ideal;
+    let (plan, layout) = (&ideal.plan, &model.layout);
+    for s in (0..2).filter(|&s| plan.side_imposed[s]) {
+        state.v[layout.end(s)] = inputs.side_speed[s];
+    }
+    if plan.carrier_imposed {
+        state.v[CARRIER] = match &model.gears {
+            Gears::Rigid(rigid) => rigid.carrier_speed(state, inputs.carrier_speed),
+            Gears::Teeth(teeth) => teeth.full.carrier_speed(state, inputs.carrier_speed),
+        };
+    }
+    for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
+        state.v[layout.planet(g)] = inputs.planet_spin;
+    }
+    if let Gears::Rigid(rigid) = &model.gears {
+        rigid.constrain(state);
+    }
+}
+
 /// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
 pub fn apply(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;

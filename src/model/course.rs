@@ -29,11 +29,16 @@ impl Inputs {
         fault: 0.0,
     };
 
+    /// All inputs in a row.
+    pub fn as_array(&self) -> [f64; 9] {
+        let ([left, right], [left_speed, right_speed]) = (self.load_torque, self.side_speed);
+        let Self { carrier_speed, carrier_torque, planet_spin, lock, fault, .. } = *self;
+        [carrier_speed, carrier_torque, left, right, left_speed, right_speed, planet_spin, lock, fault]
+    }
+
     /// Whether all inputs are finite numbers.
     pub fn is_finite(&self) -> bool {
-        let ([left, right], [left_speed, right_speed]) = (self.load_torque, self.side_speed);
-        let others = [self.carrier_speed, self.carrier_torque, self.planet_spin, self.lock, self.fault];
-        others.into_iter().chain([left, right, left_speed, right_speed]).all(f64::is_finite)
+        self.as_array().into_iter().all(f64::is_finite)
     }
 
     /// self + factor · other.
@@ -56,10 +61,17 @@ impl Course {
     /// Inputs that stay as they are.
     pub const STILL: Self = Self { rates: [Inputs::ZERO; ORDERS] };
 
+    /// Whether all derivatives are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        self.rates.iter().all(Inputs::is_finite)
+    }
+
     /// Inputs, and how they go on from there, `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
         let [first, second] = &self.rates;
-        let inputs = inputs.plus(time, first).plus(0.5 * time * time, second);
+        let mut inputs = inputs.plus(time, first).plus(0.5 * time * time, second);
+        // commands have two ends
+        (inputs.lock, inputs.fault) = (inputs.lock.clamp(0.0, 1.0), inputs.fault.clamp(0.0, 1.0));
         (inputs, Self { rates: [first.plus(time, second), *second] })
     }
 }

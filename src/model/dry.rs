@@ -244,6 +244,14 @@ impl Clamp {
         turn.position - (turn.position - anchor).max(-most).min(most)
     }
 
+    /// How far the hold is from its switch, positive before: torque left while stuck [N·m], speed while sliding [rad/s].
+    pub fn margin(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> f64 {
+        match hold.mode {
+            Mode::Stuck => self.breakaway(by) - self.torque(hold, turn, by).abs(),
+            mode => mode.direction() * turn.speed,
+        }
+    }
+
     /// Whether [`Self::settle`] has something to do.
     pub fn is_due(&self, hold: &Hold, turn: &Turn, by: &Pressing) -> bool {
         self.settle(&mut hold.clone(), turn, by, 0.0, &mut [0.0; CAUSES])

@@ -444,6 +444,18 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             .reduce(f64::min)
     }
 
+    /// How far each hold is from its switch, where there is one.
+    pub(super) fn margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
+        let mut margins = [None; HOLDS];
+        if FULL && self.clamps.iter().any(Clamp::is_on) {
+            let presses = self.presses(at);
+            for i in (0..2 + G).filter(|&i| self.clamp(i).0.is_on()) {
+                margins[i] = Some(self.clamp(i).0.margin(&self.holds[i], &self.turn(at, i), &presses[i]));
+            }
+        }
+        margins
+    }
+
     /// Whether a hold is due to switch at `at`.
     pub(super) fn hold_is_due(&self, at: &Point<N>) -> bool {
         if !self.clamps.iter().any(Clamp::is_on) {

@@ -6,6 +6,7 @@ mod causes;
 mod combinations;
 mod commands;
 mod constants;
+mod continuous;
 mod course;
 mod cycle;
 mod dry;
@@ -29,7 +30,9 @@ mod records;
 mod resultants;
 mod rigid;
 mod run;
+mod sensitivity;
 mod simulation;
+mod sizes;
 mod solid;
 mod start;
 mod state;
@@ -43,6 +46,7 @@ mod tooth_effects;
 
 pub use bodies::Inertias;
 pub use causes::{CAUSES, Cause};
+pub use continuous::{Accepted, BODIES, Body, INDICATORS, STATES, Update};
 pub use course::{Course, ORDERS};
 pub use effect_specs::{
     BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
@@ -57,5 +61,6 @@ pub use parameters::{
 };
 pub use plan::{Group, Plan};
 pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};
+pub use sensitivity::{Along, Direction};
 pub use simulation::{CostClass, Simulation};
 pub use state::State;

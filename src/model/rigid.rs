@@ -175,7 +175,12 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// The equations `time` [s] later, as far as inputs go.
     fn later(&self, time: f64) -> Self {
         let (inputs, course) = self.course.after(time, &self.inputs);
-        Self { inputs, course, ..*self }
+        self.under(&inputs, &course)
+    }
+
+    /// The same equations under other inputs.
+    pub(super) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
+        Self { inputs: *inputs, course: *course, ..*self }
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
@@ -230,7 +235,7 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// The part of the accelerations that inputs `inputs` on the course `course` have, for accelerations are linear in both.
     pub(super) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
         let part = |inputs: &Inputs, course: &Course| {
-            let these = Self { inputs: *inputs, course: *course, ..*self };
+            let these = self.under(inputs, course);
             let (sum, imposed) = these.forces(at, &mut Power::default());
             these.accelerations(&sum, &imposed)
         };
@@ -264,6 +269,12 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     fn stored(&self, at: &Point<N>) -> f64 {
         let bodies: f64 = self.rigid.bodies.iter().map(|e| e.energy(&self.bodies(at))).sum();
         bodies + (0..2).map(|s| self.clamp.energy(&self.holds[s], at.q[s])).sum::<f64>()
+    }
+
+    /// How far each hold is from its switch, where there is one.
+    pub(super) fn margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
+        let margin = |s: usize| self.clamp.margin(&self.holds[s], &self.turn(at, s), &Pressing::default());
+        std::array::from_fn(|i| (i < 2 && self.clamp.is_on()).then(|| margin(i)))
     }
 
     /// Whether a hold is due to switch.

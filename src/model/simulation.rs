@@ -5,94 +5,25 @@ use std::sync::Arc;
 use super::bodies::Inertias;
 use super::causes::{CAUSES, Cause};
 use super::constants::{Gears, Model};
+use super::continuous::Accepted;
 use super::course::Course;
 use super::dry::Mode;
-use super::equations::Equations;
 use super::failure::StepFailure;
 use super::layout::{CARRIER, MAX_PLANETS};
 use super::loads::ToothLoad;
 use super::parameters::{Inputs, Parameters, Start};
 use super::plan::Plan;
 use super::readings::{Books, Forces, Motion};
-use super::rigid::RigidEquations;
 use super::run;
+use super::sizes::{by_rigid_size, by_size, with_equations};
 use super::state::State;
 use super::{commands, resultants, start};
 use crate::friction::FrictionLaw;
 use crate::geometry::Pair;
-use crate::integrate::{Point, SecondOrder};
+use crate::integrate::SecondOrder;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::ToothDamage;
-
-/// Evaluates an expression with the type `E` set to the equations of a model with teeth, in the size it needs and with
-/// effects only where there are some, and `N` to its number of degrees of freedom.
-macro_rules! by_size {
-    ($teeth:expr, $full:expr, $body:expr) => {{
-        let layout = &$teeth.layout;
-        match (layout.groups, layout.pins, layout.ends, $full) {
-            (1, false, false, false) => by_size!(@ 4, 1, 0, false, $body),
-            (2, false, false, false) => by_size!(@ 5, 2, 0, false, $body),
-            (_, false, false, false) => by_size!(@ 7, 4, 0, false, $body),
-            (1, false, false, true) => by_size!(@ 4, 1, 0, true, $body),
-            (2, false, false, true) => by_size!(@ 5, 2, 0, true, $body),
-            (_, false, false, true) => by_size!(@ 7, 4, 0, true, $body),
-            (1, false, true, _) => by_size!(@ 6, 1, 0, true, $body),
-            (2, false, true, _) => by_size!(@ 7, 2, 0, true, $body),
-            (_, false, true, _) => by_size!(@ 9, 4, 0, true, $body),
-            (1, true, false, _) => by_size!(@ 7, 1, 1, true, $body),
-            (2, true, false, _) => by_size!(@ 9, 2, 1, true, $body),
-            (_, true, false, _) => by_size!(@ 13, 4, 1, true, $body),
-            (1, true, true, _) => by_size!(@ 9, 1, 1, true, $body),
-            (2, true, true, _) => by_size!(@ 11, 2, 1, true, $body),
-            (_, true, true, _) => by_size!(@ 15, 4, 1, true, $body),
-        }
-    }};
-    (@ $n:literal, $g:literal, $p:literal, $full:literal, $body:expr) => {{
-        #[allow(unused)]
-        const N: usize = $n;
-        type E<'a> = Equations<'a, $n, $g, $p, $full>;
-        $body
-    }};
-}
-
-/// The same for an ideal differential with effects.
-macro_rules! by_rigid_size {
-    ($model:expr, $body:expr) => {
-        if $model.ideal.plan.ends {
-            type E<'a> = RigidEquations<'a, 6>;
-            $body
-        } else {
-            type E<'a> = RigidEquations<'a, 4>;
-            $body
-        }
-    };
-}
-
-/// Evaluates an expression with the equations of any model bound to `$equations`, `N` their degrees of freedom.
-macro_rules! with_equations {
-    ($model:expr, $state:expr, $inputs:expr, |$equations:ident| $body:expr) => {
-        match &$model.gears {
-            Gears::Rigid(rigid) if $model.ideal.plan.ends => {
-                const N: usize = 6;
-                let $equations = RigidEquations::<N>::new(rigid, $inputs, $state);
-                $body
-            }
-            Gears::Rigid(rigid) => {
-                const N: usize = 4;
-                let $equations = RigidEquations::<N>::new(rigid, $inputs, $state);
-                $body
-            }
-            Gears::Teeth(teeth) => {
-                let full = teeth.full.acts($state);
-                by_size!(teeth, full, {
-                    let $equations = E::new(teeth, $inputs, $state);
-                    $body
-                })
-            }
-        }
-    };
-}
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.
 const FIRST_STEP: f64 = 1e-6;
@@ -115,10 +46,12 @@ pub enum CostClass {
 /// A simulation; cloning it takes a snapshot (constants are shared, the state is copied).
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    model: Arc<Model>,
-    state: State,
-    inputs: Inputs,
-    forces: Option<Forces>,
+    pub(super) model: Arc<Model>,
+    pub(super) state: State,
+    pub(super) inputs: Inputs,
+    pub(super) forces: Option<Forces>,
+    /// Where the last step ended that a solver of the host's completed.
+    pub(super) accepted: Option<Accepted>,
 }
 
 impl Simulation {
@@ -148,7 +81,7 @@ impl Simulation {
     /// A simulation of `parameters` that goes on from `state`.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters)?);
-        Ok(Self { model, state, inputs: *inputs, forces: None })
+        Ok(Self { model, state, inputs: *inputs, forces: None, accepted: None })
     }
 
     /// Sets the inputs that act from now on.
@@ -300,55 +233,6 @@ impl Simulation {
         found.map(|what| Problem::new("tooth_friction.law", format!("{what} at t = {} s; told once", state.time)))
     }
 
-    /// Number n of degrees of freedom.
-    pub fn freedoms(&self) -> usize {
-        self.model.ideal.plan.layout().count()
-    }
-
-    /// The equations of motion by themselves, for solvers of others: rates of positions and accelerations [rad/s,
-    /// rad/s², m/s²] at the first n of positions `q` and velocities `v`, under the present inputs.
-    pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
-        let (inputs, state) = (&self.inputs, &self.state);
-        with_equations!(self.model, state, inputs, |equations| {
-            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let (acceleration, _) = equations.evaluate(&at);
-            dq[..N].copy_from_slice(&equations.rates(&at.v));
-            dv[..N].copy_from_slice(&acceleration);
-        });
-    }
-
-    /// Derivatives of what [`Self::rates`] gives by positions and velocities: 2n rows of 2n columns, row by row, ordered
-    /// (positions, velocities).
-    pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
-        let (inputs, state) = (&self.inputs, &self.state);
-        with_equations!(self.model, state, inputs, |equations| {
-            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let linearisation = equations.linearise(&at);
-            let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
-            equations.times_rates(&mut rates);
-            for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
-                let (by_position, by_velocity) = row.split_at_mut(N);
-                if i < N {
-                    by_position.fill(0.0);
-                    by_velocity.copy_from_slice(&rates[i]);
-                } else {
-                    by_position.copy_from_slice(&linearisation.by_position[i - N]);
-                    by_velocity.copy_from_slice(&linearisation.by_velocity[i - N]);
-                }
-            }
-        });
-    }
-
-    /// The same simulation moved to positions `q` and velocities `v`, for its outputs there; the ledger stays behind.
-    pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
-        let mut moved = self.clone();
-        let n = self.freedoms();
-        moved.state.q[..n].copy_from_slice(&q[..n]);
-        moved.state.v[..n].copy_from_slice(&v[..n]);
-        moved.forces = None;
-        moved
-    }
-
     /// Ledger and solver statistics.
     pub fn books(&self) -> Books {
         let (s, f) = (&self.state.statistics, &self.state.fatigue);
@@ -372,6 +256,16 @@ impl Simulation {
             rhs_calls: s.evaluations as f64,
             step_size: self.state.control.last,
         }
+    }
+
+    /// Where the host's solver last completed a step, for snapshots.
+    pub fn accepted(&self) -> Option<&Accepted> {
+        self.accepted.as_ref()
+    }
+
+    /// The same simulation with the host's solver last at `accepted`.
+    pub fn from_accepted(self, accepted: Option<Accepted>) -> Self {
+        Self { accepted, ..self }
     }
 
     /// The state, for snapshots.
@@ -470,12 +364,12 @@ fn go_on(inputs: &mut Inputs, state: &mut State, time: f64) {
 }
 
 /// Kinetic and stored energy [J].
-fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
+pub(super) fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
     with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
 }
 
 /// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.
-fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
+pub(super) fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     if commands::breaks_tooth(model, inputs, state) {
         let before = energy(model, inputs, state);
         state.fault = true;
@@ -484,7 +378,7 @@ fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 }
 
 /// Lets the lock follow its command, catches bodies that dry friction takes hold of, and lets go of those it releases.
-fn catch_holds(model: &Model, inputs: &Inputs, state: &mut State) {
+pub(super) fn catch_holds(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     let was_locked = state.lock > 0.0;
     state.lock = inputs.lock;

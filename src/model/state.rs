@@ -6,7 +6,6 @@ use super::causes::CAUSES;
 use super::course::Course;
 use super::dry::Hold;
 use super::layout::{CARRIER, HOLDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
-use super::parameters::Inputs;
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
 
@@ -156,7 +155,7 @@ impl State {
         let numbers =
             [self.time, self.work, self.energy_at_start, self.control.last_error, self.bias.time, self.carrier_command];
         let anchors = self.holds.map(|h| h.anchor);
-        let course = self.course.is_none_or(|course| course.rates.iter().all(Inputs::is_finite));
+        let course = self.course.is_none_or(|course| course.is_finite());
         self.q.iter().chain(&self.v).chain(&numbers).chain(&self.heat).chain(&anchors).all(|x| x.is_finite())
             && course
             && (0.0..=1.0).contains(&self.lock)

@@ -13,6 +13,8 @@ pub(super) fn row(name: &'static str, access: Access, description: &'static str)
         unit: None,
         display: None,
         range: None,
+        nominal: None,
+        derivative_of: None,
         access,
     }
 }

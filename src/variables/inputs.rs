@@ -24,6 +24,8 @@ fn input(
         unit: Some(unit),
         display,
         range: Some(Range { min: -limit, max: limit }),
+        nominal: None,
+        derivative_of: None,
         access: Access::Input(at),
     }
 }

@@ -22,6 +22,7 @@ mod inputs;
 mod outputs;
 mod parameters;
 mod row;
+mod states;
 mod table;
 pub mod units;
 

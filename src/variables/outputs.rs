@@ -19,6 +19,8 @@ fn output(
         unit: Some(unit),
         display,
         range: None,
+        nominal: None,
+        derivative_of: None,
         access: Access::Output(source),
     }
 }

@@ -13,6 +13,7 @@ pub enum Causality {
     Parameter,
     Input,
     Output,
+    Local,
 }
 
 /// FMI variability of a variable.
@@ -62,6 +63,10 @@ pub enum OutputSource {
     Forces(fn(&Forces) -> f64),
     /// From the ledger and the solver's statistics.
     Books(fn(&Books) -> f64),
+    /// A continuous state, by its number.
+    State(usize),
+    /// The rate of one.
+    Rate(usize),
 }
 
 /// Type of a variable and the way to its value.
@@ -77,7 +82,7 @@ pub enum Access {
     Enumeration(&'static EnumType, fn(&Parameters) -> i32, fn(&mut Parameters, i32)),
     /// A real input.
     Input(fn(&mut Inputs) -> &mut f64),
-    /// A real output.
+    /// A real output, or a local variable.
     Output(OutputSource),
 }
 
@@ -98,6 +103,10 @@ pub struct Variable {
     pub display: Option<DisplayUnit>,
     /// Allowed values of a number.
     pub range: Option<Range>,
+    /// Magnitude that errors of a continuous state are to be measured by.
+    pub nominal: Option<f64>,
+    /// Index of the variable that this one is the time derivative of.
+    pub derivative_of: Option<usize>,
     /// Type and access.
     pub access: Access,
 }

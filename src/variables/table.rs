@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::sync::OnceLock;
 
 use super::row::{Access, Causality, Range, Variable};
-use crate::model::{Inputs, Parameters};
+use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
 
 /// All variables; the value reference of a variable is its index.
@@ -15,6 +15,10 @@ pub struct Table {
     pub outputs: Vec<usize>,
     /// Indices of the inputs, ascending.
     pub inputs: Vec<usize>,
+    /// Indices of the continuous states, in their order.
+    pub states: [usize; STATES],
+    /// Indices of their derivatives.
+    pub derivatives: [usize; STATES],
 }
 
 /// The table.
@@ -24,9 +28,10 @@ pub fn table() -> &'static Table {
         let mut rows = super::parameters::rows();
         rows.extend(super::inputs::rows());
         rows.extend(super::outputs::rows());
+        let (states, derivatives) = super::states::complete(&mut rows);
         let of = |c: Causality| (0..rows.len()).filter(|&i| rows[i].causality == c).collect();
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
-        Table { rows, outputs, inputs }
+        Table { rows, outputs, inputs, states, derivatives }
     })
 }
 

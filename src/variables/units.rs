@@ -113,6 +113,8 @@ units! {
     SECOND = "s", base(0, 0, 1, 0), [];
     /// Speed.
     M_PER_S = "m/s", base(0, 1, -1, 0), [];
+    /// Acceleration.
+    M_PER_S2 = "m/s2", base(0, 1, -2, 0), [];
     /// Line load, and stiffness.
     N_PER_M = "N/m", base(1, 0, -2, 0), [N_PER_MM, N_PER_UM];
     /// Stiffness per width.

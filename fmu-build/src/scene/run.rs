@@ -102,6 +102,8 @@ impl<'a> Run<'a> {
             Access::Output(OutputSource::Motion(of)) => of(&self.simulation.motion()),
             Access::Output(OutputSource::Forces(of)) => of(self.simulation.forces()),
             Access::Output(OutputSource::Books(of)) => of(&self.simulation.books()),
+            Access::Output(OutputSource::State(k)) => self.simulation.states()[k],
+            Access::Output(OutputSource::Rate(k)) => self.simulation.state_rates()[k],
             _ => f64::NAN,
         }
     }

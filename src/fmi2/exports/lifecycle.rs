@@ -11,7 +11,7 @@ use super::super::log::Log;
 use super::super::pointers::{self, Component, run};
 use super::super::quiet;
 use super::super::refusal::Refusal;
-use super::super::types::{Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Status, Text};
+use super::super::types::{Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Kind, MODEL_EXCHANGE, Status, Text};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.
@@ -58,15 +58,20 @@ fn instantiate(
     let named = name.filter(|n| !n.is_empty());
     let label = named.map_or_else(|| CString::new(MODEL_NAME).unwrap_or_default(), CStr::to_owned);
     let log = Log::new(callbacks, label, verbose);
-    let problem = if kind != CO_SIMULATION {
-        format!("type {kind} is not available, only co-simulation ({CO_SIMULATION})")
-    } else if named.is_none() {
+    let made_for = match kind {
+        CO_SIMULATION => Some(Kind::CoSimulation),
+        MODEL_EXCHANGE => Some(Kind::ModelExchange),
+        _ => None,
+    };
+    let problem = if named.is_none() {
         "the instance name is NULL or empty".to_owned()
     } else if asked.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
         let asked = asked.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
         format!("the GUID {asked} of the model description is not this binary's GUID \"{}\"", guid())
+    } else if let Some(kind) = made_for {
+        return Some(Instance::new(kind, log));
     } else {
-        return Some(Instance::new(log));
+        format!("type {kind} is neither model exchange ({MODEL_EXCHANGE}) nor co-simulation ({CO_SIMULATION})")
     };
     log.status(Status::Error, &format!("fmi2Instantiate: {problem}"));
     None

@@ -7,11 +7,15 @@
 #![allow(clippy::missing_safety_doc)] // told above, once for all
 #![allow(non_snake_case)] // FMI's names
 
+mod derivatives;
+mod exchange;
 mod lifecycle;
 mod states;
 mod stepping;
 mod variables;
 
+pub use derivatives::*;
+pub use exchange::*;
 pub use lifecycle::*;
 pub use states::*;
 pub use stepping::*;

@@ -49,7 +49,14 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: ComponentPointer, state: *mut FmuSta
 pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: the host's promise, see the module
-        instance.now = unsafe { snapshot(state) }?.clone();
+        let snapshot = unsafe { snapshot(state) }?;
+        if snapshot.kind != instance.now.kind {
+            return Err(Refusal::error(format!(
+                "the state is of an instance made for {:?}, this one was made for {:?}",
+                snapshot.kind, instance.now.kind
+            )));
+        }
+        instance.now = snapshot.clone();
         Ok(())
     };
     // SAFETY: the host's promise, see the module

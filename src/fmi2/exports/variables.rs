@@ -1,11 +1,11 @@
-//! Getting and setting variables, and the derivatives, which this FMU does not offer.
+//! Getting and setting variables.
 
 use libc::c_int;
 
 use super::super::calls::Call;
 use super::super::instance::Instance;
 use super::super::pointers::{array, room, run};
-use super::super::refusal::{Answer, Refusal};
+use super::super::refusal::Answer;
 use super::super::types::{Boolean, ComponentPointer, Status, Text, ValueReference};
 use super::super::values::refuse_string;
 
@@ -92,51 +92,4 @@ pub unsafe extern "C" fn fmi2SetString(
 ) -> Status {
     // SAFETY: the host's promise, see the module
     unsafe { run(c, Call::SetString, |_| no_strings(references, count)) }
-}
-
-/// Asking for nothing is always granted; for more, only what the model description claims.
-fn unclaimed(count: usize, flag: &str) -> Answer {
-    if count == 0 { Ok(()) } else { Err(Refusal::error(format!("not available, the model description says {flag}"))) }
-}
-
-/// fmi2GetDirectionalDerivative. Not claimed.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
-    c: ComponentPointer,
-    _unknown: *const ValueReference,
-    unknown_count: usize,
-    _known: *const ValueReference,
-    _known_count: usize,
-    _known_values: *const f64,
-    _unknown_values: *mut f64,
-) -> Status {
-    let body = |_: &mut Instance| unclaimed(unknown_count, "providesDirectionalDerivative = false");
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetDirectionalDerivative, body) }
-}
-
-/// fmi2SetRealInputDerivatives. Not claimed: inputs are constant through a step.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
-    c: ComponentPointer,
-    _references: *const ValueReference,
-    count: usize,
-    _orders: *const c_int,
-    _values: *const f64,
-) -> Status {
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetRealInputDerivatives, |_| unclaimed(count, "canInterpolateInputs = false")) }
-}
-
-/// fmi2GetRealOutputDerivatives. Not claimed.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    c: ComponentPointer,
-    _references: *const ValueReference,
-    count: usize,
-    _orders: *const c_int,
-    _values: *mut f64,
-) -> Status {
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetRealOutputDerivatives, |_| unclaimed(count, "maxOutputDerivativeOrder = 0")) }
 }

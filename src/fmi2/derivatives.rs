@@ -1,0 +1,269 @@
+//! Derivatives: of inputs, as the host tells them; of outputs by time; of anything along a direction.
+
+use std::mem::MaybeUninit;
+
+use super::calls::Phase;
+use super::instance::Instance;
+use super::refusal::{Answer, Refusal};
+use super::snapshot::Snapshot;
+use super::types::Kind;
+use super::values::{row, wrong_type};
+use crate::model::{Course, Direction, Inputs, ORDERS, STATES, Simulation};
+use crate::variables::{Access, OutputSource, Variable, check_value, table};
+
+/// Highest order of output derivatives.
+pub const OUTPUT_ORDER: i32 = 1;
+
+/// Places and weights of central differences of order 4, for derivatives of the start.
+const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// Distance of the places as a part of what is changed.
+const APART: f64 = 1e-4;
+
+/// Bit of an input in `Snapshot::told`.
+fn bit(reference: u32) -> u32 {
+    let place = table().inputs.iter().position(|&i| i as u32 == reference);
+    place.map_or(0, |place| 1 << place)
+}
+
+impl Instance {
+    /// fmi2SetRealInputDerivatives. They hold for the next step, and go on after it until the host tells otherwise.
+    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
+        if self.now.kind == Kind::ModelExchange {
+            return Err(Refusal::error("in model exchange inputs are set at every evaluation; they have no derivatives"));
+        }
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            let row = row(reference)?;
+            let Access::Input(_) = row.access else {
+                return Err(Refusal::error(format!("{} is not an input, so that it has no input derivative", row.name)));
+            };
+            if !(1..=ORDERS as i32).contains(&order) {
+                return Err(Refusal::error(format!(
+                    "{}: derivatives of order {order} are not taken, only of order 1 to {ORDERS}",
+                    row.name
+                )));
+            }
+            if !value.is_finite() {
+                return Err(Refusal::discard(format!(
+                    "the derivative of order {order} of {} is {value}, not a finite number",
+                    row.name
+                )));
+            }
+        }
+        let now = &mut self.now;
+        let mut course = now.course.unwrap_or(Course::STILL);
+        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+            if let Access::Input(slot) = row(reference)?.access {
+                *slot(&mut course.rates[order as usize - 1]) = value;
+                now.told |= bit(reference);
+            }
+        }
+        self.set_course(course);
+        Ok(())
+    }
+
+    /// A value set without derivatives since the last step holds as it is.
+    pub fn end_derivatives_of(&mut self, references: &[u32]) {
+        let Some(mut course) = self.now.course else { return };
+        for &reference in references.iter().filter(|&&r| self.now.told & bit(r) == 0) {
+            if let Ok(Variable { access: Access::Input(slot), .. }) = row(reference) {
+                course.rates.iter_mut().for_each(|rates| *slot(rates) = 0.0);
+            }
+        }
+        self.set_course(course);
+    }
+
+    fn set_course(&mut self, course: Course) {
+        let now = &mut self.now;
+        now.course = (course != Course::STILL).then_some(course);
+        if let (Phase::StepComplete, Some(simulation)) = (now.phase, &mut now.simulation) {
+            simulation.set_course(now.course);
+        }
+    }
+
+    /// Refuses a step of `h` [s] at whose end an input would be out of its range.
+    pub fn check_course(&self, h: f64) -> Answer {
+        let Some(course) = self.now.course else { return Ok(()) };
+        let (mut end, _) = course.after(h, &self.now.inputs);
+        for &index in &table().inputs {
+            let row = &table().rows[index];
+            if let Access::Input(slot) = row.access {
+                check_value(row, *slot(&mut end)).map_err(|problem| {
+                    Refusal::error(format!("with its derivatives an input leaves its range within the step: {problem}"))
+                })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// fmi2GetRealOutputDerivatives.
+    pub fn get_output_derivatives(
+        &mut self,
+        references: &[u32],
+        orders: &[i32],
+        values: &mut [MaybeUninit<f64>],
+    ) -> Answer {
+        for (&reference, &order) in references.iter().zip(orders) {
+            let row = row(reference)?;
+            if order != OUTPUT_ORDER {
+                return Err(Refusal::error(format!(
+                    "{}: derivatives of order {order} are not known, only of order {OUTPUT_ORDER}",
+                    row.name
+                )));
+            }
+            readable(row)?;
+        }
+        let simulation = self.simulation()?;
+        let direction = simulation.time_direction();
+        let mut slopes = Slopes::new(simulation, &direction);
+        for (&reference, value) in references.iter().zip(values) {
+            let source = readable(row(reference)?)?;
+            value.write(match source {
+                OutputSource::Books(of) => of(&simulation.book_rates()),
+                _ => slopes.of(source),
+            });
+        }
+        Ok(())
+    }
+
+    /// fmi2GetDirectionalDerivative.
+    pub fn get_directional_derivative(
+        &mut self,
+        unknown: &[u32],
+        known: (&[u32], &[f64]),
+        values: &mut [MaybeUninit<f64>],
+    ) -> Answer {
+        let sources = unknown.iter().map(|&r| row(r).and_then(readable)).collect::<Result<Vec<_>, _>>()?;
+        if let Some(bad) = known.1.iter().find(|x| !x.is_finite()) {
+            return Err(Refusal::discard(format!("{bad} in the direction is not a finite number")));
+        }
+        if self.now.phase == Phase::Initialization {
+            return at_the_start(&self.now, &sources, known, values);
+        }
+        let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
+        for (&reference, &change) in known.0.iter().zip(known.1) {
+            let row = row(reference)?;
+            let state = table().states.iter().position(|&i| i as u32 == reference);
+            match (row.access, state) {
+                (Access::Input(slot), _) => *slot(&mut inputs) += change,
+                (_, Some(k)) => states[k] += change,
+                _ => {
+                    return Err(Refusal::error(format!(
+                        "{} is neither an input nor a continuous state, so that nothing can be derived by it",
+                        row.name
+                    )));
+                }
+            }
+        }
+        let simulation = self.simulation()?;
+        let direction = simulation.direction(&states, &inputs, simulation.is_handed_over());
+        let mut slopes = Slopes::new(simulation, &direction);
+        for (source, value) in sources.into_iter().zip(values) {
+            value.write(slopes.of(source));
+        }
+        Ok(())
+    }
+}
+
+/// Where a variable that has derivatives is read.
+fn readable(row: &Variable) -> Answer<OutputSource> {
+    match row.access {
+        Access::Output(source) => Ok(source),
+        Access::Real(_) | Access::Input(_) => {
+            Err(Refusal::error(format!("{} is set by the host, so that it has no derivative", row.name)))
+        }
+        _ => Err(wrong_type(row)),
+    }
+}
+
+/// Derivatives along a direction, each kind computed when it is asked for.
+struct Slopes<'a> {
+    simulation: &'a Simulation,
+    direction: &'a Direction,
+    motion: Option<crate::model::Motion>,
+    forces: Option<crate::model::Along>,
+    rates: Option<[f64; STATES]>,
+}
+
+impl<'a> Slopes<'a> {
+    fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
+        Self { simulation, direction, motion: None, forces: None, rates: None }
+    }
+
+    fn of(&mut self, source: OutputSource) -> f64 {
+        let Self { simulation, direction, .. } = *self;
+        match source {
+            OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
+            OutputSource::Forces(of) => self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of),
+            // the ledger changes with time alone
+            OutputSource::Books(_) => 0.0,
+            OutputSource::State(k) => simulation.gather(|i| direction.q[i], &direction.v)[k],
+            OutputSource::Rate(k) => {
+                self.rates.get_or_insert_with(|| {
+                    let [q, v] = simulation.rate_slopes(direction);
+                    simulation.gather(|i| q[i], &v)
+                })[k]
+            }
+        }
+    }
+}
+
+/// Derivatives of what initialisation gives, by inputs and parameters: by differences, for it is a solution of its own.
+fn at_the_start(
+    now: &Snapshot,
+    sources: &[OutputSource],
+    (references, change): (&[u32], &[f64]),
+    values: &mut [MaybeUninit<f64>],
+) -> Answer {
+    let mut size = 0.0f64;
+    for (&reference, &change) in references.iter().zip(change) {
+        let row = row(reference)?;
+        let mut origin = now.clone();
+        let value = match row.access {
+            Access::Input(slot) => *slot(&mut origin.inputs),
+            Access::Real(slot) => *slot(&mut origin.parameters),
+            _ => {
+                return Err(Refusal::error(format!(
+                    "{} is neither an input nor a real parameter, so that nothing can be derived by it",
+                    row.name
+                )));
+            }
+        };
+        size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
+    }
+    let apart = if size > 0.0 { APART / size } else { 1.0 };
+    let mut sums = vec![0.0; sources.len()];
+    for (place, weight) in PLACES {
+        let mut moved = now.clone();
+        for (&reference, &change) in references.iter().zip(change) {
+            match row(reference)?.access {
+                Access::Input(slot) => *slot(&mut moved.inputs) += place * apart * change,
+                Access::Real(slot) => *slot(&mut moved.parameters) += place * apart * change,
+                _ => {}
+            }
+        }
+        let mut simulation = moved.start().map_err(|problems| {
+            Refusal::error(format!(
+                "there is no derivative here, for beside it initialisation fails:\n{}",
+                crate::problem::list(&problems)
+            ))
+        })?;
+        for (sum, source) in sums.iter_mut().zip(sources) {
+            *sum += weight * read(&mut simulation, *source);
+        }
+    }
+    for (sum, value) in sums.into_iter().zip(values) {
+        value.write(sum / apart);
+    }
+    Ok(())
+}
+
+/// What a variable reads.
+pub fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
+    match source {
+        OutputSource::Motion(of) => of(&simulation.motion()),
+        OutputSource::Forces(of) => of(simulation.forces()),
+        OutputSource::Books(of) => of(&simulation.books()),
+        OutputSource::State(k) => simulation.states()[k],
+        OutputSource::Rate(k) => simulation.state_rates()[k],
+    }
+}

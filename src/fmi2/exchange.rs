@@ -1,0 +1,127 @@
+//! Model exchange: the host's solver moves the state, the instance tells rates and events.
+
+use std::mem::MaybeUninit;
+
+use super::calls::Phase;
+use super::instance::Instance;
+use super::refusal::{Answer, Refusal};
+use super::types::{EventInfo, Kind};
+use crate::model::{INDICATORS, STATES, Simulation};
+use crate::variables::table;
+
+impl Instance {
+    /// The simulation of an instance that was made for model exchange.
+    fn exchanged(&mut self) -> Answer<&mut Simulation> {
+        if self.now.kind != Kind::ModelExchange {
+            return Err(Refusal::error("this instance was made for co-simulation, the call is for model exchange"));
+        }
+        self.simulation()
+    }
+
+    /// fmi2EnterEventMode.
+    pub fn enter_event_mode(&mut self) -> Answer {
+        self.now.phase = Phase::Event;
+        Ok(())
+    }
+
+    /// fmi2EnterContinuousTimeMode.
+    pub fn enter_continuous_time_mode(&mut self) -> Answer {
+        self.now.phase = Phase::ContinuousTime;
+        Ok(())
+    }
+
+    /// fmi2NewDiscreteStates: one iteration is always enough.
+    pub fn new_discrete_states(&mut self) -> Answer<EventInfo> {
+        let update = self.exchanged()?.update();
+        Ok(EventInfo {
+            states_changed: i32::from(update.states_changed),
+            next_event_defined: i32::from(update.next.is_some()),
+            next_event: update.next.unwrap_or(0.0),
+            ..EventInfo::default()
+        })
+    }
+
+    /// fmi2CompletedIntegratorStep. Whether an event is due.
+    pub fn completed_integrator_step(&mut self) -> Answer<bool> {
+        let outcome = self.exchanged()?.complete_step();
+        if outcome.is_ok() && self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
+            self.watch();
+        }
+        outcome.map_err(|failure| {
+            self.now.phase = Phase::Error;
+            Refusal::error(format!("{failure}; go on with fmi2SetFMUstate or fmi2Reset"))
+        })
+    }
+
+    /// fmi2SetTime.
+    pub fn set_time(&mut self, time: f64) -> Answer {
+        if !time.is_finite() {
+            return Err(Refusal::error(format!("time {time} s is not a finite number")));
+        }
+        self.exchanged()?.set_time(time);
+        Ok(())
+    }
+
+    /// fmi2SetContinuousStates.
+    pub fn set_continuous_states(&mut self, values: &[f64]) -> Answer {
+        let states: &[f64; STATES] = values.try_into().map_err(|_| wrong_count("states", STATES, values.len()))?;
+        if let Some(k) = states.iter().position(|x| !x.is_finite()) {
+            let name = table().rows[table().states[k]].name;
+            return Err(Refusal::discard(format!("{name} = {} is not a finite number", states[k])));
+        }
+        self.exchanged()?.set_states(states);
+        Ok(())
+    }
+
+    /// fmi2GetContinuousStates.
+    pub fn get_continuous_states(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
+        let states = self.exchanged()?.states();
+        fill("states", &states, values)
+    }
+
+    /// fmi2GetDerivatives.
+    pub fn get_derivatives(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
+        let rates = self.exchanged()?.state_rates();
+        if let Some(k) = rates.iter().position(|x| !x.is_finite()) {
+            let name = table().rows[table().derivatives[k]].name;
+            return Err(Refusal::discard(format!(
+                "{name} is not a finite number at these states; take a shorter step, or look at the inputs"
+            )));
+        }
+        fill("derivatives", &rates, values)
+    }
+
+    /// fmi2GetEventIndicators.
+    pub fn get_event_indicators(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
+        let indicators = self.exchanged()?.indicators();
+        fill("event indicators", &indicators, values)
+    }
+
+    /// fmi2GetNominalsOfContinuousStates.
+    pub fn get_nominals(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
+        if self.now.kind != Kind::ModelExchange {
+            return Err(Refusal::error("this instance was made for co-simulation, the call is for model exchange"));
+        }
+        let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
+        fill("nominals", &nominals, values)
+    }
+}
+
+/// Hands `numbers` out, if the host has room for just as many. Nobody reads what it did not ask for: [`INDICATORS`] and
+/// [`STATES`] stand in the model description.
+fn fill(what: &str, numbers: &[f64], values: &mut [MaybeUninit<f64>]) -> Answer {
+    if numbers.len() != values.len() {
+        return Err(wrong_count(what, numbers.len(), values.len()));
+    }
+    for (number, value) in numbers.iter().zip(values) {
+        value.write(*number);
+    }
+    Ok(())
+}
+
+fn wrong_count(what: &str, has: usize, asked: usize) -> Refusal {
+    Refusal::error(format!("there are {has} {what}, not {asked}"))
+}
+
+/// How many event indicators there are.
+pub const EVENT_INDICATORS: usize = INDICATORS;

@@ -1,0 +1,72 @@
+//! Derivatives of inputs, of outputs, and along directions.
+
+use libc::c_int;
+
+use super::super::calls::Call;
+use super::super::instance::Instance;
+use super::super::pointers::{array, room, run};
+use super::super::types::{ComponentPointer, Status, ValueReference};
+
+/// fmi2GetDirectionalDerivative.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: ComponentPointer,
+    unknown: *const ValueReference,
+    unknown_count: usize,
+    known: *const ValueReference,
+    known_count: usize,
+    known_values: *const f64,
+    unknown_values: *mut f64,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let (unknown, known) =
+            unsafe { (array("vUnknown_ref", unknown, unknown_count)?, array("vKnown_ref", known, known_count)?) };
+        // SAFETY: as above
+        let (change, values) =
+            unsafe { (array("dvKnown", known_values, known_count)?, room("dvUnknown", unknown_values, unknown_count)?) };
+        instance.get_directional_derivative(unknown, (known, change), values)
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::GetDirectionalDerivative, body) }
+}
+
+/// fmi2SetRealInputDerivatives.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: ComponentPointer,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const c_int,
+    values: *const f64,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let (references, orders) = unsafe { (array("vr", references, count)?, array("order", orders, count)?) };
+        // SAFETY: as above
+        let values = unsafe { array("value", values, count) }?;
+        instance.set_input_derivatives(references, orders, values)
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::SetRealInputDerivatives, body) }
+}
+
+/// fmi2GetRealOutputDerivatives.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: ComponentPointer,
+    references: *const ValueReference,
+    count: usize,
+    orders: *const c_int,
+    values: *mut f64,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let (references, orders) = unsafe { (array("vr", references, count)?, array("order", orders, count)?) };
+        // SAFETY: as above
+        let values = unsafe { room("value", values, count) }?;
+        instance.get_output_derivatives(references, orders, values)
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::GetRealOutputDerivatives, body) }
+}

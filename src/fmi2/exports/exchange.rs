@@ -1,0 +1,98 @@
+//! Model exchange.
+
+use super::super::calls::Call;
+use super::super::instance::Instance;
+use super::super::pointers::{array, place, room, run};
+use super::super::types::{Boolean, ComponentPointer, EventInfo, Status};
+
+macro_rules! modes {
+    ($($function:ident $call:ident $method:ident;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
+            // SAFETY: the host's promise, see the module
+            unsafe { run(c, Call::$call, Instance::$method) }
+        }
+    )+};
+}
+
+macro_rules! getters {
+    ($($function:ident $call:ident $method:ident;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
+            let body = |instance: &mut Instance| {
+                // SAFETY: the host's promise, see the module
+                let values = unsafe { room("the array", values, count) }?;
+                instance.$method(values)
+            };
+            // SAFETY: the host's promise, see the module
+            unsafe { run(c, Call::$call, body) }
+        }
+    )+};
+}
+
+modes! {
+    fmi2EnterEventMode EnterEventMode enter_event_mode;
+    fmi2EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode;
+}
+
+getters! {
+    fmi2GetDerivatives GetDerivatives get_derivatives;
+    fmi2GetEventIndicators GetEventIndicators get_event_indicators;
+    fmi2GetContinuousStates GetContinuousStates get_continuous_states;
+    fmi2GetNominalsOfContinuousStates GetNominals get_nominals;
+}
+
+/// fmi2NewDiscreteStates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2NewDiscreteStates(c: ComponentPointer, info: *mut EventInfo) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let place = unsafe { place("fmi2EventInfo", info) }?;
+        place.write(instance.new_discrete_states()?);
+        Ok(())
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::NewDiscreteStates, body) }
+}
+
+/// fmi2CompletedIntegratorStep. Snapshots hold all that is needed, so whether the host may go back makes no difference.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
+    c: ComponentPointer,
+    _never_back: Boolean,
+    enter_event_mode: *mut Boolean,
+    terminate_simulation: *mut Boolean,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let (event, end) = unsafe {
+            (place("enterEventMode", enter_event_mode)?, place("terminateSimulation", terminate_simulation)?)
+        };
+        event.write(Boolean::from(instance.completed_integrator_step()?));
+        end.write(0);
+        Ok(())
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::CompletedIntegratorStep, body) }
+}
+
+/// fmi2SetTime.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetTime(c: ComponentPointer, time: f64) -> Status {
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::SetTime, |instance| instance.set_time(time)) }
+}
+
+/// fmi2SetContinuousStates.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: the host's promise, see the module
+        let states = unsafe { array("x", states, count) }?;
+        instance.set_continuous_states(states)
+    };
+    // SAFETY: the host's promise, see the module
+    unsafe { run(c, Call::SetContinuousStates, body) }
+}
