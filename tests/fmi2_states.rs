@@ -125,7 +125,7 @@ fn damaged_truncated_and_foreign_bytes_are_refused_and_nothing_is_lost() {
         changed
     };
     refuse(&changed(0, 1), &["no serialised state"]);
-    refuse(&changed(8, 1), &["format 5"]);
+    refuse(&changed(8, 1), &["format 4"]);
     refuse(&changed(12, 1), &["another version"]);
     refuse(&changed(bytes.len() / 2, 1), &["checksum"]);
     refuse(&[bytes.as_slice(), &[0]].concat(), &["do not belong"]);

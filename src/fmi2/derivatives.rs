@@ -29,12 +29,17 @@ impl Instance {
     /// fmi2SetRealInputDerivatives. They hold for the next step, and go on after it until the host tells otherwise.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
         if self.now.kind == Kind::ModelExchange {
-            return Err(Refusal::error("in model exchange inputs are set at every evaluation; they have no derivatives"));
+            return Err(Refusal::error(
+                "in model exchange inputs are set at every evaluation; they have no derivatives",
+            ));
         }
         for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
             let row = row(reference)?;
             let Access::Input(_) = row.access else {
-                return Err(Refusal::error(format!("{} is not an input, so that it has no input derivative", row.name)));
+                return Err(Refusal::error(format!(
+                    "{} is not an input, so that it has no input derivative",
+                    row.name
+                )));
             };
             if !(1..=ORDERS as i32).contains(&order) {
                 return Err(Refusal::error(format!(
@@ -112,6 +117,9 @@ impl Instance {
             }
             readable(row)?;
         }
+        if references.is_empty() {
+            return Ok(());
+        }
         let simulation = self.simulation()?;
         let direction = simulation.time_direction();
         let mut slopes = Slopes::new(simulation, &direction);
@@ -135,6 +143,9 @@ impl Instance {
         let sources = unknown.iter().map(|&r| row(r).and_then(readable)).collect::<Result<Vec<_>, _>>()?;
         if let Some(bad) = known.1.iter().find(|x| !x.is_finite()) {
             return Err(Refusal::discard(format!("{bad} in the direction is not a finite number")));
+        }
+        if unknown.is_empty() {
+            return Ok(());
         }
         if self.now.phase == Phase::Initialization {
             return at_the_start(&self.now, &sources, known, values);
@@ -197,12 +208,10 @@ impl<'a> Slopes<'a> {
             // the ledger changes with time alone
             OutputSource::Books(_) => 0.0,
             OutputSource::State(k) => simulation.gather(|i| direction.q[i], &direction.v)[k],
-            OutputSource::Rate(k) => {
-                self.rates.get_or_insert_with(|| {
-                    let [q, v] = simulation.rate_slopes(direction);
-                    simulation.gather(|i| q[i], &v)
-                })[k]
-            }
+            OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
+                let [q, v] = simulation.rate_slopes(direction);
+                simulation.gather(|i| q[i], &v)
+            })[k],
         }
     }
 }

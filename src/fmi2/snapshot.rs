@@ -127,9 +127,20 @@ impl Snapshot {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
         payload.check()?;
-        let Payload { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, .. } = payload;
-        let mut snapshot =
-            Self { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, simulation: None };
+        let Payload { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, .. } =
+            payload;
+        let mut snapshot = Self {
+            kind,
+            phase,
+            parameters,
+            inputs,
+            course,
+            told,
+            start_time,
+            stop_time,
+            tolerance_chosen,
+            simulation: None,
+        };
         if let Some(state) = payload.state {
             let resumed = Simulation::resume(&snapshot.effective(), &inputs, state).map_err(|p| problem::list(&p))?;
             snapshot.simulation = Some(resumed.from_accepted(payload.accepted));

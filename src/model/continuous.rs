@@ -17,7 +17,7 @@ use super::records::{Records, Scene};
 use super::simulation::{Simulation, break_tooth, catch_holds, energy};
 use super::sizes::{by_size, with_equations};
 use super::state::State;
-use crate::integrate::{Point, SecondOrder, Step};
+use crate::integrate::{Erased, Point, SecondOrder, Step};
 
 /// A body with a state of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -205,8 +205,8 @@ impl Simulation {
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let mut equations = equations;
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (first, power_first) = equations.under(&from.inputs, &Course::STILL).evaluate(&start);
-                let (last, power_last) = equations.evaluate(&end);
+                let (first, power_first) = Erased(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
+                let (last, power_last) = Erased(&equations).evaluate(&end);
                 let (rate_first, rate_last) = (equations.rates(&start.v), equations.rates(&end.v));
                 // the cubic through both ends
                 let halfway = |a: f64, b: f64, da: f64, db: f64| 0.5 * (a + b) + 0.125 * h * (da - db);
@@ -214,7 +214,7 @@ impl Simulation {
                     q: std::array::from_fn(|i| halfway(start.q[i], end.q[i], rate_first[i], rate_last[i])),
                     v: std::array::from_fn(|i| halfway(start.v[i], end.v[i], first[i], last[i])),
                 };
-                let (_, power_middle) = equations.under(&middle, &Course::STILL).evaluate(&at);
+                let (_, power_middle) = Erased(&equations.under(&middle, &Course::STILL)).evaluate(&at);
                 let power = [power_first, power_middle, power_last];
                 let step = Step { h, time: state.time, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;

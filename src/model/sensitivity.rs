@@ -11,7 +11,7 @@ use super::parameters::Inputs;
 use super::readings::{Books, Forces, Motion};
 use super::simulation::Simulation;
 use super::sizes::with_equations;
-use crate::integrate::{Point, SecondOrder};
+use crate::integrate::{Erased, Point, SecondOrder};
 
 /// Distance of neighbouring places along a direction, in natural magnitudes.
 const APART: f64 = 3e-4;
@@ -35,13 +35,8 @@ pub struct Direction {
 
 impl Direction {
     /// No change.
-    pub const NONE: Self = Self {
-        q: [0.0; MAX_DOF],
-        v: [0.0; MAX_DOF],
-        inputs: Inputs::ZERO,
-        rates: Inputs::ZERO,
-        carrier_command: 0.0,
-    };
+    pub const NONE: Self =
+        Self { q: [0.0; MAX_DOF], v: [0.0; MAX_DOF], inputs: Inputs::ZERO, rates: Inputs::ZERO, carrier_command: 0.0 };
 }
 
 /// Forces at the places along a direction.
@@ -69,7 +64,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
             let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let (acceleration, _) = equations.evaluate(&at);
+            let (acceleration, _) = Erased(&equations).evaluate(&at);
             dq[..N].copy_from_slice(&equations.rates(&at.v));
             dv[..N].copy_from_slice(&acceleration);
         });
@@ -81,7 +76,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
             let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let linearisation = equations.linearise(&at);
+            let linearisation = Erased(&equations).linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);
             for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
@@ -169,7 +164,7 @@ impl Simulation {
     /// Rates of the ledger.
     pub fn book_rates(&self) -> Books {
         let (inputs, state) = (&self.inputs, &self.state);
-        let heat = with_equations!(self.model, state, inputs, |equations| equations
+        let heat = with_equations!(self.model, state, inputs, |equations| Erased(&equations)
             .evaluate(&state.point::<N>())
             .1
             .heat);
@@ -197,7 +192,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {
-            let weights = equations.weights(&state.point::<N>());
+            let weights = Erased(&equations).weights(&state.point::<N>());
             for i in 0..N {
                 largest = largest.max((weights.q[i] * direction.q[i]).abs());
                 largest = largest.max((weights.v[i] * direction.v[i]).abs());

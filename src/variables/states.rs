@@ -118,7 +118,8 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);
     let bodies = bodies();
     let number = |body: &Body| BODIES.iter().position(|b| b == body).unwrap_or(0);
-    let numbered = || bodies.iter().flat_map(|(body, pair)| [0, 1].map(|i| (number(body) + i * BODIES.len(), &pair[i])));
+    let numbered =
+        || bodies.iter().flat_map(|(body, pair)| [0, 1].map(|i| (number(body) + i * BODIES.len(), &pair[i])));
     for (k, state) in numbered() {
         let found = rows.iter().position(|row| row.name == state.name);
         indices[k] = found.unwrap_or_else(|| {

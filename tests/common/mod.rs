@@ -80,6 +80,29 @@ impl Host {
         Self { c, lines }
     }
 
+    /// A fresh instance for model exchange.
+    pub fn for_exchange() -> Self {
+        let host = Self::instantiate(Some("test"), MODEL_EXCHANGE, Some(variables::guid()), None);
+        assert!(!host.c.is_null(), "{:?}", host.log());
+        host
+    }
+
+    /// From instantiated to continuous-time mode.
+    pub fn start_exchange(&self) {
+        self.start();
+        self.update();
+        // SAFETY: a live component
+        assert_eq!(unsafe { fmi2EnterContinuousTimeMode(self.c) }, Status::Ok);
+    }
+
+    /// fmi2NewDiscreteStates.
+    pub fn update(&self) -> EventInfo {
+        let mut info = EventInfo::default();
+        // SAFETY: a live component and a place for the answer
+        assert_eq!(unsafe { fmi2NewDiscreteStates(self.c, &mut info) }, Status::Ok, "{:?}", self.log());
+        info
+    }
+
     /// An instance on a level: 1 ideal, 3 tooth; wheels with some inertia, so that loads may differ.
     pub fn on_level(level: i32) -> Self {
         let host = Self::new();

@@ -87,11 +87,7 @@ pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h
 }
 
 /// The same of a driven system from a time on.
-pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
-    s: &S,
-    (at, time): (&Point<N>, f64),
-    h: f64,
-) -> Trial<N> {
+pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time): (&Point<N>, f64), h: f64) -> Trial<N> {
     let lin = if M::IMPLICIT {
         s.linearise_at(at, time)
     } else {

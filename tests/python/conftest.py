@@ -63,10 +63,10 @@ def run(unpacked, description, literals):
 class Opened:
     """An instance to be called function by function, with all that it logs."""
 
-    def __init__(self, unpacked, description, reference, literals):
+    def __init__(self, unpacked, description, reference, literals, kind="CoSimulation"):
         self.log = []
         self.description, self.reference, self.literals = description, reference, literals
-        self.fmu = instantiate_fmu(unpacked, description, logger=self.hear)
+        self.fmu = instantiate_fmu(unpacked, description, fmi_type=kind, logger=self.hear)
 
     def hear(self, _environment, _instance, _status, _category, message):
         self.log.append(message.decode())
@@ -91,8 +91,8 @@ def open_fmu(unpacked, description, reference, literals):
     """A context with an opened instance, freed at its end."""
 
     @contextmanager
-    def opened():
-        instance = Opened(unpacked, description, reference, literals)
+    def opened(kind="CoSimulation"):
+        instance = Opened(unpacked, description, reference, literals, kind)
         try:
             yield instance
         finally:

@@ -23,8 +23,9 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
         let (unknown, known) =
             unsafe { (array("vUnknown_ref", unknown, unknown_count)?, array("vKnown_ref", known, known_count)?) };
         // SAFETY: as above
-        let (change, values) =
-            unsafe { (array("dvKnown", known_values, known_count)?, room("dvUnknown", unknown_values, unknown_count)?) };
+        let (change, values) = unsafe {
+            (array("dvKnown", known_values, known_count)?, room("dvUnknown", unknown_values, unknown_count)?)
+        };
         instance.get_directional_derivative(unknown, (known, change), values)
     };
     // SAFETY: the host's promise, see the module

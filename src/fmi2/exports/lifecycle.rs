@@ -11,7 +11,9 @@ use super::super::log::Log;
 use super::super::pointers::{self, Component, run};
 use super::super::quiet;
 use super::super::refusal::Refusal;
-use super::super::types::{Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Kind, MODEL_EXCHANGE, Status, Text};
+use super::super::types::{
+    Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Kind, MODEL_EXCHANGE, Status, Text,
+};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.

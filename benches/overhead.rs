@@ -1,0 +1,157 @@
+//! What the face of FMI costs: a step of the ideal level with all that a host does around it, and the way from
+//! instantiation to the first step. The functions are looked up in the shared library, as a host written in C does.
+
+#[path = "../tests/common/mod.rs"]
+mod common;
+
+use std::ffi::{CString, c_char, c_void};
+use std::hint::black_box;
+use std::mem::transmute_copy;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use bevel_differential::fmi2::{CO_SIMULATION, Status};
+use bevel_differential::variables::guid;
+use common::reference;
+
+type Component = *mut c_void;
+
+/// Steps of a run, and runs; the median is what to quote.
+const STEPS: u32 = 20_000;
+const RUNS: usize = 41;
+
+const INPUTS: [&str; 3] = ["carrier.speed_command", "left.load_torque", "right.load_torque"];
+const OUTPUTS: [&str; 10] = [
+    "carrier.angle",
+    "carrier.speed",
+    "left.angle",
+    "left.speed",
+    "right.angle",
+    "right.speed",
+    "carrier.torque",
+    "left.shaft_torque",
+    "right.shaft_torque",
+    "planet[1].spin_speed",
+];
+
+/// The functions in use, as C declares them.
+struct Fmu {
+    instantiate:
+        unsafe extern "C" fn(*const c_char, i32, *const c_char, *const c_char, *const c_void, i32, i32) -> Component,
+    free: unsafe extern "C" fn(Component),
+    setup: unsafe extern "C" fn(Component, i32, f64, f64, i32, f64) -> Status,
+    enter: unsafe extern "C" fn(Component) -> Status,
+    exit: unsafe extern "C" fn(Component) -> Status,
+    set_real: unsafe extern "C" fn(Component, *const u32, usize, *const f64) -> Status,
+    set_integer: unsafe extern "C" fn(Component, *const u32, usize, *const i32) -> Status,
+    get_real: unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> Status,
+    do_step: unsafe extern "C" fn(Component, f64, f64, i32) -> Status,
+}
+
+impl Fmu {
+    fn load() -> Self {
+        let path = library();
+        let name = CString::new(path.as_os_str().as_encoded_bytes()).unwrap();
+        // SAFETY: a path that ends with NUL
+        let library = unsafe { libc::dlopen(name.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
+        assert!(!library.is_null(), "{} cannot be loaded", path.display());
+        let find = |name: &str| {
+            let name = CString::new(name).unwrap();
+            // SAFETY: a loaded library and a name that ends with NUL
+            let address = unsafe { libc::dlsym(library, name.as_ptr()) };
+            assert!(!address.is_null(), "{name:?} is missing");
+            address
+        };
+        macro_rules! function {
+            ($name:literal) => {
+                // SAFETY: the function has the type that FMI gives it
+                unsafe { transmute_copy(&find($name)) }
+            };
+        }
+        Self {
+            instantiate: function!("fmi2Instantiate"),
+            free: function!("fmi2FreeInstance"),
+            setup: function!("fmi2SetupExperiment"),
+            enter: function!("fmi2EnterInitializationMode"),
+            exit: function!("fmi2ExitInitializationMode"),
+            set_real: function!("fmi2SetReal"),
+            set_integer: function!("fmi2SetInteger"),
+            get_real: function!("fmi2GetReal"),
+            do_step: function!("fmi2DoStep"),
+        }
+    }
+
+    /// An instance that is ready to step, on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
+    fn ready(&self, level: i32) -> Component {
+        let guid = CString::new(guid()).unwrap();
+        // SAFETY: texts that end with NUL, no callbacks, and arrays of the lengths told
+        unsafe {
+            let c = (self.instantiate)(
+                c"overhead".as_ptr(),
+                CO_SIMULATION,
+                guid.as_ptr(),
+                c"".as_ptr(),
+                std::ptr::null(),
+                0,
+                0,
+            );
+            assert!(!c.is_null());
+            let ok = (self.set_integer)(c, &reference("scene.gear_contact"), 1, &level);
+            let started = [(self.setup)(c, 0, 0.0, 0.0, 0, 0.0), (self.enter)(c), (self.exit)(c)];
+            assert_eq!((ok, started), (Status::Ok, [Status::Ok; 3]));
+            c
+        }
+    }
+}
+
+/// The shared library that was built along with this program.
+fn library() -> PathBuf {
+    let here = std::env::current_exe().unwrap();
+    let name = format!("{}bevel_differential{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+    let found = here.ancestors().skip(1).take(2).map(|folder| folder.join(&name)).find(|path| path.is_file());
+    found.unwrap_or_else(|| panic!("{name} is not beside {}", here.display()))
+}
+
+fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+fn main() {
+    let fmu = Fmu::load();
+    let [inputs, outputs] = [INPUTS.to_vec(), OUTPUTS.to_vec()].map(|names| names.into_iter().map(reference).collect());
+    let (inputs, outputs): (Vec<u32>, Vec<u32>) = (inputs, outputs);
+    let times = (0..RUNS).map(|_| {
+        let c = fmu.ready(1);
+        let (mut values, mut ok) = ([0.0; OUTPUTS.len()], true);
+        let begin = Instant::now();
+        for k in 0..STEPS {
+            let command = [50.0, 835.0 + f64::from(k % 7), 835.0];
+            // SAFETY: a live component and arrays of the lengths told
+            unsafe {
+                ok &= (fmu.set_real)(c, inputs.as_ptr(), inputs.len(), command.as_ptr()) == Status::Ok;
+                ok &= (fmu.do_step)(c, f64::from(k) * 1e-3, 1e-3, 1) == Status::Ok;
+                ok &= (fmu.get_real)(c, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) == Status::Ok;
+            }
+            black_box(&values);
+        }
+        let time = begin.elapsed().as_secs_f64();
+        assert!(ok);
+        // SAFETY: a live component
+        unsafe { (fmu.free)(c) };
+        time / f64::from(STEPS)
+    });
+    let step = median(times.collect());
+    println!("3 inputs set, a step of the ideal level, 10 outputs got: {:.3} us", step * 1e6);
+    for (level, name) in [(1, "ideal"), (2, "lumped"), (3, "tooth"), (4, "solid")] {
+        let times = (0..RUNS).map(|_| {
+            let begin = Instant::now();
+            let c = fmu.ready(level);
+            let time = begin.elapsed().as_secs_f64();
+            // SAFETY: a live component
+            unsafe { (fmu.free)(c) };
+            time
+        });
+        println!("instantiated and initialised, {name}: {:.3} ms", median(times.collect()) * 1e3);
+    }
+}

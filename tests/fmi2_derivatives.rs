@@ -1,0 +1,248 @@
+//! Derivatives of inputs and outputs, and directional derivatives, against steps and differences.
+
+mod common;
+
+use bevel_differential::fmi2::*;
+use bevel_differential::variables::{Access, OutputSource, table};
+use common::{Host, assert_tells, reference};
+
+fn tell(host: &Host, name: &str, order: i32, value: f64) {
+    // SAFETY: a live component and one value each
+    let status = unsafe { fmi2SetRealInputDerivatives(host.c, &reference(name), 1, &order, &value) };
+    assert_eq!(status, Status::Ok, "{:?}", host.log());
+}
+
+fn along(host: &Host, unknown: &str, known: &[(&str, f64)]) -> f64 {
+    let references: Vec<u32> = known.iter().map(|(name, _)| reference(name)).collect();
+    let change: Vec<f64> = known.iter().map(|(_, change)| *change).collect();
+    let mut value = f64::NAN;
+    // SAFETY: a live component and arrays of the lengths told
+    let status = unsafe {
+        let (known, count) = (references.as_ptr(), references.len());
+        fmi2GetDirectionalDerivative(host.c, &reference(unknown), 1, known, count, change.as_ptr(), &mut value)
+    };
+    assert_eq!(status, Status::Ok, "{unknown}: {:?}", host.log());
+    value
+}
+
+fn rate(host: &Host, name: &str) -> f64 {
+    let mut value = f64::NAN;
+    // SAFETY: a live component and one value each
+    let status = unsafe { fmi2GetRealOutputDerivatives(host.c, &reference(name), 1, &1, &mut value) };
+    assert_eq!(status, Status::Ok, "{name}: {:?}", host.log());
+    value
+}
+
+/// A torque-driven differential whose wheels have inertia, on a level.
+fn driven_by_torque(level: i32) -> Host {
+    let host = Host::on_level(level);
+    assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
+    host
+}
+
+#[test]
+fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
+    for level in [1, 2, 3] {
+        let host = driven_by_torque(level);
+        host.start();
+        let inertia = {
+            // the whole turns with the carrier: momentum by an impulse of 1 N·m·s without any load
+            let trial = driven_by_torque(1);
+            assert_eq!(trial.set_many(&["left.load_torque", "right.load_torque"], &[0.0; 2]), Status::Ok);
+            assert_eq!(trial.set("carrier.torque_command", 100.0), Status::Ok);
+            trial.start();
+            let before = trial.get("carrier.speed");
+            trial.steps(0.0, 1e-2, 1);
+            1.0 / (trial.get("carrier.speed") - before)
+        };
+        let before = host.get("carrier.speed");
+        tell(&host, "carrier.torque_command", 1, 2000.0);
+        tell(&host, "carrier.torque_command", 2, -3e4);
+        let h = 0.05;
+        host.steps(0.0, h, 1);
+        let impulse = 2000.0 * h * h / 2.0 - 3e4 * h * h * h / 6.0;
+        let gained = (host.get("carrier.speed") - before) * inertia;
+        // teeth swing a little about what the whole does
+        let bound = if level == 1 { 1e-9 } else { 2e-2 };
+        assert!((gained / impulse - 1.0).abs() < bound, "level {level}: {gained} instead of {impulse} N·m·s");
+        assert_eq!(host.get("carrier.torque_command"), 1670.0 + 2000.0 * h - 1.5e4 * h * h);
+    }
+}
+
+#[test]
+fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_acceleration() {
+    for level in [1, 2, 3] {
+        let host = Host::on_level(level);
+        host.start();
+        let (speed, angle) = (host.get("carrier.speed"), host.get("carrier.angle"));
+        let torque = host.get("carrier.torque");
+        tell(&host, "carrier.speed_command", 1, 200.0);
+        let h = 0.02;
+        host.steps(0.0, h, 1);
+        assert!((host.get("carrier.speed") - speed - 200.0 * h).abs() < 1e-9);
+        let turned = host.get("carrier.angle") - angle;
+        assert!((turned - speed * h - 100.0 * h * h).abs() < 1e-9, "{turned}");
+        // left to itself the course goes on
+        host.steps(h, h, 1);
+        assert!((host.get("carrier.speed") - speed - 400.0 * h).abs() < 1e-9);
+        // 1 kg·m² of wheels and 0.02 kg·m² of carrier and gears, at least
+        let more = host.get("carrier.torque") - torque;
+        assert!((200.0..230.0).contains(&more), "level {level}: {more} N·m");
+        assert!(host.get("solver.energy_residual").abs() < 1e-4, "{}", host.get("solver.energy_residual"));
+    }
+}
+
+#[test]
+fn one_long_step_on_a_course_comes_to_what_many_short_ones_come_to() {
+    for level in [1, 3] {
+        let run = |h: f64, with_rates: bool| {
+            let host = Host::on_level(level);
+            assert_eq!(host.set_integer("scene.planet_spin", 2), Status::Ok);
+            assert_eq!(host.set("solver.relative_tolerance", 1e-9), Status::Ok);
+            host.start();
+            let steps = (0.01 / h).round() as usize;
+            for i in 0..steps {
+                let t = i as f64 * h;
+                // held at the middle of short steps
+                let at = if with_rates { t } else { t + 0.5 * h };
+                assert_eq!(host.set("left.load_torque", 835.0 + 3e4 * at), Status::Ok);
+                assert_eq!(host.set("planet.spin_command", 200.0 * at), Status::Ok);
+                if with_rates {
+                    tell(&host, "left.load_torque", 1, 3e4);
+                    tell(&host, "planet.spin_command", 1, 200.0);
+                }
+                assert_eq!(host.step(t, h), Status::Ok, "{:?}", host.log());
+            }
+            (host.get("left.speed"), host.get("planet[1].spin_angle"))
+        };
+        let (long, short) = (run(1e-2, true), run(1e-5, false));
+        assert!((long.0 - short.0).abs() < 2e-3, "{long:?} {short:?}");
+        assert!((long.1 - short.1).abs() < 1e-6, "{long:?} {short:?}");
+        assert!((long.1 - 100.0 * 1e-4).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_value_set_anew_holds_unless_its_derivative_is_told_again() {
+    let host = Host::on_level(1);
+    host.start();
+    tell(&host, "left.load_torque", 1, 1e4);
+    assert_eq!(host.set("left.load_torque", 500.0), Status::Ok, "in either order before a step");
+    host.steps(0.0, 1e-3, 1);
+    assert_eq!(host.get("left.load_torque"), 510.0);
+    assert_eq!(host.set("left.load_torque", 600.0), Status::Ok);
+    host.steps(1e-3, 1e-3, 1);
+    assert_eq!(host.get("left.load_torque"), 600.0);
+    // the range is checked where the step will end
+    tell(&host, "left.load_torque", 1, 1e12);
+    assert_eq!(host.step(2e-3, 1e-3), Status::Error);
+    assert_tells(&host.last(), &["left.load_torque", "N.m", "100000000"]);
+    tell(&host, "left.load_torque", 1, 0.0);
+    host.steps(2e-3, 1e-3, 1);
+}
+
+#[test]
+fn a_course_is_part_of_the_state() {
+    let host = Host::on_level(3);
+    host.start();
+    tell(&host, "left.load_torque", 1, 1e4);
+    host.steps(0.0, 1e-3, 1);
+    let state = host.get_state();
+    let bytes = host.serialize(state);
+    let on = |host: &Host| {
+        host.steps(1e-3, 1e-3, 3);
+        host.outputs()
+    };
+    let expected = on(&host);
+    assert_eq!(host.set_state(state), Status::Ok);
+    assert!(on(&host) == expected);
+    let other = Host::new();
+    let (status, copy) = other.deserialize(&bytes);
+    assert_eq!((status, other.set_state(copy)), (Status::Ok, Status::Ok));
+    assert!(on(&other) == expected);
+    other.free_state(copy);
+    host.free_state(state);
+}
+
+/// Outputs whose derivatives are known by time: not of the books, nor such as jump.
+fn smooth_outputs() -> Vec<&'static str> {
+    let rows = table().outputs.iter().map(|&i| &table().rows[i]);
+    let smooth = rows.filter(|row| !matches!(row.access, Access::Output(OutputSource::Books(_))));
+    smooth.map(|row| row.name).filter(|name| !name.ends_with("_pairs")).collect()
+}
+
+#[test]
+fn output_derivatives_are_what_differences_of_outputs_come_to() {
+    for level in [1, 2, 3] {
+        // rolling under a torque that rises, so that everything moves
+        let begin = || {
+            let host = driven_by_torque(level);
+            assert_eq!(host.set_integer("scene.start", 2), Status::Ok);
+            assert_eq!(host.set("solver.relative_tolerance", 1e-10), Status::Ok);
+            assert_eq!(host.set("right.load_torque", 700.0), Status::Ok);
+            host.start();
+            host.steps(0.0, 1e-3, 13);
+            tell(&host, "carrier.torque_command", 1, 1e4);
+            tell(&host, "left.load_torque", 1, -5e3);
+            host
+        };
+        let (host, h) = (begin(), 2e-7);
+        let state = host.get_state();
+        let at = |steps: usize, name: &str| {
+            assert_eq!(host.set_state(state), Status::Ok);
+            host.steps(13e-3, h, steps);
+            host.get(name)
+        };
+        for name in smooth_outputs() {
+            assert_eq!(host.set_state(state), Status::Ok);
+            let told = rate(&host, name);
+            let [a, b, c] = [0, 1, 2].map(|n| at(n, name));
+            let differs = (-3.0 * a + 4.0 * b - c) / (2.0 * h);
+            // a difference of numbers that are right to some last places, over h
+            let noise = 1e-5 * differs.abs() + 1e-12 * a.abs() / h + 1e-3;
+            assert!((told - differs).abs() <= noise, "level {level}: d({name})/dt = {told}, differences {differs}");
+        }
+        host.free_state(state);
+    }
+}
+
+#[test]
+fn directional_derivatives_by_inputs_are_what_differences_of_outputs_come_to() {
+    for level in [1, 2, 3] {
+        let host = driven_by_torque(level);
+        host.start();
+        host.steps(0.0, 1e-3, 5);
+        for input in ["carrier.torque_command", "left.load_torque", "right.load_torque", "carrier.speed_command"] {
+            let value = host.get(input);
+            let d = 1e-3 * value;
+            for name in smooth_outputs() {
+                let told = along(&host, name, &[(input, 2.0)]);
+                let [high, low] = [d, -d].map(|d| {
+                    assert_eq!(host.set(input, value + d), Status::Ok);
+                    host.get(name)
+                });
+                assert_eq!(host.set(input, value), Status::Ok);
+                let differs = (high - low) / d;
+                let bound = 1e-7 * differs.abs() + 1e-9 * (1.0 + high.abs() / d.abs());
+                assert!((told - differs).abs() < bound, "{level}: d({name})/d({input}): {told}, {differs}");
+            }
+        }
+        // exact where it is a matter of a formula: what a wheel gets is its load and its inertia's
+        let by_load = along(&host, "left.shaft_torque", &[("left.load_torque", 1.0)]);
+        let acceleration = along(&host, "left.acceleration", &[("left.load_torque", 1.0)]);
+        assert!((by_load - 1.0 - 0.5 * acceleration).abs() < 1e-9, "{by_load} {acceleration}");
+    }
+}
+
+#[test]
+fn at_the_start_outputs_are_derived_by_inputs_and_parameters() {
+    let host = driven_by_torque(3);
+    assert_eq!(host.setup(), Status::Ok);
+    assert_eq!(host.enter(), Status::Ok);
+    // preloaded by equal loads, a stiffness twice as large bends by less: a ~ K^(-2/3)
+    let bent = host.get("planet[1].left_transmission_error");
+    let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", 1.824_63e10)]);
+    assert!((by_stiffness / (-2.0 / 3.0 * bent) - 1.0).abs() < 1e-6, "{by_stiffness} {bent}");
+    let by_speed = along(&host, "carrier.speed", &[("carrier.speed_command", 3.0)]);
+    assert!((by_speed - 3.0).abs() < 1e-9);
+}

@@ -1,0 +1,87 @@
+"""Model exchange: fmpy's CVode moves the state, and comes to what the FMU's own solver comes to."""
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+from fmpy.fmi2 import FMU2Model, fmi2EventInfo
+
+WHEELS = {"inertia.left_end": 0.5, "inertia.right_end": 0.5}
+SCENES = {
+    "straight": {},
+    "turn": {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": 954 * np.pi / 180,
+             "planet.spin_command": 200 * np.pi / 180},
+    "lumped": {**WHEELS, "scene.gear_contact": "lumped", "left.load_torque": 800.0},
+    "ideal": {**WHEELS, "scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.load_torque": 800.0},
+    "half-shafts": {**WHEELS, "effects.half_shaft": True, "scene.carrier_drive": "torque", "left.load_torque": 820.0},
+    "solid": {"scene.gear_contact": "solid"},
+    "limited slip": {**WHEELS, "scene.gear_contact": "ideal", "effects.limited_slip": True, "left.load_torque": 400.0},
+}
+OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "carrier.torque", "left.shaft_torque", "left.normal_force",
+           "planet[1].spin_angle", "planet[2].left_transmission_error"]
+
+
+@pytest.fixture
+def simulate(unpacked, description, literals):
+    def run(kind, values, stop, tolerance, **options):
+        values = {name: literals[name][value] if name in literals else value for name, value in values.items()}
+        return simulate_fmu(unpacked, model_description=description, fmi_type=kind, start_values=values, stop_time=stop,
+                            output_interval=1e-3, relative_tolerance=tolerance, output=OUTPUTS,
+                            logger=lambda *_: None, **options)
+
+    return run
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_cvode_comes_to_what_the_own_solver_comes_to(simulate, scene):
+    values, stop = SCENES[scene], 0.02
+    own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-9}, stop, None)
+    theirs = simulate("ModelExchange", values, stop, 1e-8, solver="CVode")
+    # CVode's records may have more rows: at events
+    at = np.interp(own["time"], theirs["time"], np.arange(len(theirs)))
+    rows = theirs[np.round(at).astype(int)]
+    np.testing.assert_allclose(rows["time"], own["time"], atol=1e-12)
+    for name in OUTPUTS:
+        size = np.max(np.abs(own[name])) + 1e-12
+        assert np.max(np.abs(rows[name] - own[name])) < 1e-4 * size, name
+
+
+def test_what_cvode_comes_to_converges_to_the_own_solver(simulate):
+    values = SCENES["lumped"]
+    own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-11}, 0.01, None)
+    errors = []
+    for tolerance in [1e-4, 1e-6, 1e-8]:
+        theirs = simulate("ModelExchange", values, 0.01, tolerance, solver="CVode")
+        errors.append(np.max(np.abs(theirs["left.normal_force"][-1] - own["left.normal_force"][-1])))
+    assert errors[2] < 1e-2 * errors[0] and errors[2] < 0.1, errors
+
+
+def test_states_and_derivatives_stand_in_the_model_structure(description):
+    derivatives = [unknown.variable for unknown in description.derivatives]
+    assert len(derivatives) == 30
+    names = [variable.derivative.name for variable in derivatives]
+    assert names[0] == "left.relative_angle" and names[15] == "left.speed" and len(set(names)) == 30
+    assert all(variable.derivative.nominal for variable in derivatives)
+    assert description.numberOfEventIndicators == 22
+
+
+def test_states_are_read_in_the_order_of_the_model_structure(unpacked, description, reference):
+    fmu = FMU2Model(guid=description.guid, unzipDirectory=unpacked, instanceName="exchange",
+                    modelIdentifier=description.modelExchange.modelIdentifier)
+    fmu.instantiate()
+    fmu.setupExperiment()
+    fmu.enterInitializationMode()
+    fmu.exitInitializationMode()
+    info = fmi2EventInfo()
+    fmu.fmi2NewDiscreteStates(fmu.component, info)
+    fmu.enterContinuousTimeMode()
+    count = len(description.derivatives)
+    import ctypes
+    states, rates = (ctypes.c_double * count)(), (ctypes.c_double * count)()
+    fmu.getContinuousStates(states, count)
+    fmu.getDerivatives(rates, count)
+    by_name = {"state": [v.variable.derivative.name for v in description.derivatives],
+               "rate": [v.variable.name for v in description.derivatives]}
+    for kind, values in [("state", states), ("rate", rates)]:
+        assert list(values) == fmu.getReal([reference[name] for name in by_name[kind]])
+    fmu.terminate()
+    fmu.freeInstance()

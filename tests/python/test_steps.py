@@ -1,0 +1,102 @@
+"""The trajectory does not hang on the communication steps; a state goes on in another process as in this one."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": 954 * np.pi / 180,
+        "planet.spin_command": 200 * np.pi / 180}
+SCENES = {
+    "turn": TURN,
+    "by torque": {"scene.carrier_drive": "torque", "inertia.left_end": 0.5, "inertia.right_end": 0.8,
+                  "left.load_torque": 820.0},
+    "with effects": {**TURN, "effects.tooth_friction": True, "effects.half_shaft": True, "inertia.left_end": 0.5,
+                     "inertia.right_end": 0.5, "effects.bearing_drag": True},
+}
+OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "planet[1].spin_angle", "left.tangential_force",
+           "right.normal_force", "carrier.torque"]
+STOP = 0.2
+
+
+def irregular(seed):
+    """Steps of 1e-5 to 1e-1 s in a random order, to the end."""
+    random, steps, time = np.random.default_rng(seed), [], 0.0
+    while time < STOP - 1e-12:
+        steps.append(min(10.0 ** random.uniform(-5, -1), STOP - time))
+        time += steps[-1]
+    return steps
+
+
+WAYS = {"1e-1": [0.1] * 2, "1e-2": [0.01] * 20, "1e-3": [0.001] * 200, "1e-4": [1e-4] * 2000, "1e-5": [1e-5] * 20000,
+        "a third": [STOP / 7] * 7, "irregular": irregular(1), "irregular again": irregular(2)}
+
+
+def end(open_fmu, scene, steps):
+    with open_fmu() as opened:
+        for name, value in SCENES[scene].items():
+            opened.set(name, value)
+        opened.initialise()
+        time = 0.0
+        for step in steps:
+            # added up as hosts do it, with all the rounding that brings
+            opened.fmu.doStep(time, step)
+            time += step
+        assert time == pytest.approx(STOP, rel=1e-9)
+        return np.array([opened.get(name) for name in OUTPUTS])
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_the_trajectory_does_not_hang_on_the_communication_steps(open_fmu, scene):
+    ends = {way: end(open_fmu, scene, steps) for way, steps in WAYS.items()}
+    finest = ends["1e-5"]
+    for way, values in ends.items():
+        # ten times the solver's tolerance of 1e-6
+        np.testing.assert_allclose(values, finest, rtol=1e-5, err_msg=way)
+
+
+GO_ON = """
+import json, sys
+from fmpy import instantiate_fmu, read_model_description
+folder, blob, names = sys.argv[1], sys.argv[2], json.loads(sys.argv[3])
+description = read_model_description(folder)
+fmu = instantiate_fmu(folder, description)
+reference = {v.name: v.valueReference for v in description.modelVariables}
+state = fmu.deSerializeFMUstate(open(blob, "rb").read())
+fmu.setFMUstate(state)
+for step in range(20):
+    fmu.doStep(0.0305 + step * 1e-3, 1e-3)
+print(json.dumps([value.hex() for value in fmu.getReal([reference[name] for name in names])]))
+"""
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_a_state_goes_on_in_another_process_as_in_this_one(open_fmu, unpacked, tmp_path, description, scene):
+    names = [v.name for v in description.modelVariables if v.causality == "output"]
+    with open_fmu() as opened:
+        for name, value in SCENES[scene].items():
+            opened.set(name, value)
+        opened.initialise()
+        for step in range(61):
+            opened.fmu.doStep(step * 5e-4, 5e-4)
+        # in mid contact: teeth carry the load
+        assert opened.get("planet[1].left_pairs") >= 1.0 and opened.get("left.normal_force") > 1e4
+        state = opened.fmu.getFMUstate()
+        (tmp_path / "state").write_bytes(opened.fmu.serializeFMUstate(state))
+        for step in range(20):
+            opened.fmu.doStep(0.0305 + step * 1e-3, 1e-3)
+        here = [opened.get(name).hex() for name in names]
+        # and once more here
+        opened.fmu.setFMUstate(state)
+        for step in range(20):
+            opened.fmu.doStep(0.0305 + step * 1e-3, 1e-3)
+        assert [opened.get(name).hex() for name in names] == here
+        opened.fmu.freeFMUstate(state)
+    command = [sys.executable, "-c", GO_ON, unpacked, str(tmp_path / "state"), json.dumps(names)]
+    done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
+    assert done.returncode == 0, done.stderr
+    there = json.loads(done.stdout.strip().splitlines()[-1])
+    assert there == here
