@@ -7,22 +7,27 @@ communication point nothing is left to interpolate. It records outputs before it
 
 import csv
 import os
+import re
 import subprocess
 import tempfile
 from pathlib import Path
 
 import common
 
+QUIET = os.environ | {"RUST_BACKTRACE": "0"}
+
 
 def load():
     program = os.environ.get("FMI_SIM", "")
     if not os.path.isfile(program):
         raise ImportError("FMI_SIM does not name the program fmi-sim")
-    return told([program, "--version"]).split()[-1]
+    # it tells its version as an error
+    asked = subprocess.run([program, "--version"], capture_output=True, text=True, env=QUIET)
+    return re.search(r"fmi-sim (\S+)", asked.stdout + asked.stderr).group(1)
 
 
 def told(command):
-    ended = subprocess.run(command, capture_output=True, text=True)
+    ended = subprocess.run(command, capture_output=True, text=True, env=QUIET)
     if ended.returncode != 0:
         raise SystemExit(f"fmi-sim fails: {ended.stderr.strip() or ended.stdout.strip()}")
     return ended.stdout

@@ -152,9 +152,10 @@ fn markdown(results: &[Hosted], scenes: &[Scene]) -> String {
     for Scene { name, told, .. } in scenes {
         text.push_str(&format!("| `{name}` | {}; steps of {} s |\n", told.description, told.step));
     }
-    let (compared, different) = results.iter().flat_map(|result| &result.deviations).fold((0, 0), |sum, deviation| {
-        (sum.0 + deviation.compared, sum.1 + deviation.different)
-    });
+    let (compared, different) = results
+        .iter()
+        .flat_map(|result| &result.deviations)
+        .fold((0, 0), |sum, deviation| (sum.0 + deviation.compared, sum.1 + deviation.different));
     text.push_str(&format!(
         "\nDeviations are from fmpy, the largest over all outputs and communication points, relative to the value or, where \
          that is smaller, to the output's natural scale, which the scene tells. {compared} values were compared, {different} \

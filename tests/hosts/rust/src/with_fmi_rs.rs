@@ -18,11 +18,14 @@ pub fn run(fmu: &str, scene: &Scene) -> Result<Rows, Box<dyn Error>> {
     let instance = builder.instantiate_cs("differential")?;
     for (name, value) in scene.start(is_real)? {
         let reference = [find(name)?.valueReference];
-        done(name, match value {
-            Typed::Real(value) => instance.setReal(&reference, &[value]),
-            Typed::Integer(value) => instance.setInteger(&reference, &[value]),
-            Typed::Boolean(value) => instance.setBoolean(&reference, &[value.into()]),
-        })?;
+        done(
+            name,
+            match value {
+                Typed::Real(value) => instance.setReal(&reference, &[value]),
+                Typed::Integer(value) => instance.setInteger(&reference, &[value]),
+                Typed::Boolean(value) => instance.setBoolean(&reference, &[value.into()]),
+            },
+        )?;
     }
     done("fmi2SetupExperiment", instance.setupExperiment(None, 0.0, Some(scene.stop())))?;
     done("fmi2EnterInitializationMode", instance.enterInitializationMode())?;
