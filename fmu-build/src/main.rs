@@ -8,12 +8,13 @@ use anyhow::{Result, bail};
 use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
 use fmu_build::geometry::command::Geometry;
+use fmu_build::hosts::Hosts;
 use fmu_build::pattern::Pattern;
 use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, real_time, study};
+use fmu_build::{describe, foreign, off, package, peers, places, plain_types, real_time, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -21,7 +22,8 @@ usage: cargo run --release [-- COMMAND]
 
   study [--readme]       package the FMU, simulate the study through fmpy, print the comparison (default);
                          --readme: also renew the table in README.md and the pictures in docs/images
-  package                build target/fmu/BevelDifferential.fmu
+  package [--integers]   build target/fmu/BevelDifferential.fmu; --integers: also BevelDifferential_integers.fmu, described
+                         without enumerations for hosts that know none (libcosim, Ecos)
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
   scene [FILE|NAME] [--run] [--csv OUT.csv]
                          tell what a scene simulates; without one list the scenes; --run: simulate it and sum up its
@@ -57,13 +59,17 @@ usage: cargo run --release [-- COMMAND]
                          own (a few minutes); --quick: a few rows, once; --write: also renew docs/compare.md
   foreign [--quick] [--write]  run scipy's LSODA and Radau and CVODE on the same equations beside this program's method
                          (many minutes); --quick: two cases, once; --write: also renew docs/foreign-solvers.md
+  hosts [--write] [--require] [--with-fmi-sim]
+                         run the FMU in other FMI hosts, all of them on the same scenes, and compare their answers with
+                         fmpy's; --require: a host that cannot be loaded is an error; --with-fmi-sim: also hosts in Rust,
+                         fmi-sim, fmi-rs and fmu-runner (builds for many minutes); --write: also renew docs/hosts.md
   real-time [--write]    count the instructions of every communication step of the fixed-step method; fails if one costs
                          more than twice the median (needs valgrind); --write: also renew the table in docs/cost.md
   help                   show this";
 
 enum Job {
     Study { readme: bool },
-    Package,
+    Package { integers: bool },
     Describe { check: bool },
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
@@ -77,6 +83,7 @@ enum Job {
     Peers { quick: bool, write: bool },
     Foreign { quick: bool, write: bool },
     RealTime { write: bool },
+    Hosts(Hosts),
     Help,
 }
 
@@ -113,6 +120,10 @@ fn parse() -> Result<Job> {
                 *write = true
             }
             (Long("write"), Some(Job::RealTime { write })) => *write = true,
+            (Long("integers"), Some(Job::Package { integers })) => *integers = true,
+            (Long("require"), Some(Job::Hosts(hosts))) => hosts.require = true,
+            (Long("write"), Some(Job::Hosts(hosts))) => hosts.write = true,
+            (Long("with-fmi-sim"), Some(Job::Hosts(hosts))) => hosts.with_rust = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -163,7 +174,7 @@ fn file_that_follows(arguments: &mut lexopt::Parser) -> Result<Option<PathBuf>> 
 fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
     Ok(match name {
         "study" => Job::Study { readme: false },
-        "package" => Job::Package,
+        "package" => Job::Package { integers: false },
         "describe" => Job::Describe { check: false },
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
@@ -176,6 +187,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
         "foreign" => Job::Foreign { quick: false, write: false },
+        "hosts" => Job::Hosts(Hosts::default()),
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -188,13 +200,17 @@ fn run(job: Job) -> Result<()> {
         Job::Off { quick, write } => off::run(quick, write)?,
         Job::Peers { quick, write } => peers::run(quick, write)?,
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
+        Job::Hosts(hosts) => hosts.run()?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
-        Job::Package => {
+        Job::Package { integers } => {
             let progress = Progress::start("packaging the FMU");
             let fmu = package::package()?;
+            let plain = if integers { Some(plain_types::package(&fmu)?) } else { None };
             progress.finish();
-            println!("{}", places::shown(&fmu));
+            for file in std::iter::once(fmu).chain(plain) {
+                println!("{}", places::shown(&file));
+            }
         }
         Job::Describe { check } => {
             let file = places::model_description();

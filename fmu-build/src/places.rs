@@ -40,6 +40,11 @@ pub fn foreign() -> PathBuf {
     workspace().join("benches").join("foreign")
 }
 
+/// The scripts and scenes of other hosts.
+pub fn hosts() -> PathBuf {
+    workspace().join("tests").join("hosts")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

@@ -45,6 +45,13 @@ impl Environment {
         Self { folder: places::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(tell)
     }
 
+    /// The environment with FMI hosts; it lies where their results are.
+    pub fn for_hosts(tell: impl Fn(&str)) -> Result<Self> {
+        let requirements = places::hosts().join("requirements.txt");
+        let folder = places::target().join("hosts").join("venv");
+        Self { folder, requirements, holds: "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox" }.made(tell)
+    }
+
     /// Itself, made if it does not exist yet or has other requirements.
     fn made(self, tell: impl Fn(&str)) -> Result<Self> {
         let wanted = fs::read_to_string(&self.requirements)

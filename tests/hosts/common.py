@@ -1,0 +1,104 @@
+"""What every host's script needs: the scene, the variables of the FMU by name, and the table that is written.
+
+usage of each script: HOST.py FMU SCENE.json OUT.csv
+
+All do the same. Parameters and inputs are set before initialisation; inputs that change at a communication point are set
+before the step that begins there; outputs are read after initialisation, where the host can, and after every step. The
+table has a line for each communication point, with 17 significant digits, from which a double is had back bit by bit. A
+line of JSON on standard output tells the host's version and the seconds from loading the FMU to freeing it. A host that
+cannot be loaded on this machine ends with status 3 and says why in one line.
+"""
+
+import json
+import sys
+import time
+import zipfile
+from dataclasses import dataclass
+from xml.etree import ElementTree
+
+CANNOT_LOAD = 3
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A variable as the model description tells it."""
+
+    name: str
+    reference: int
+    kind: str
+    """Real, Integer, Boolean or Enumeration."""
+    literals: dict[str, int]
+
+
+def variables(fmu):
+    """All variables by name."""
+    with zipfile.ZipFile(fmu) as archive:
+        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+    types = {kind.get("name"): {item.get("name"): int(item.get("value")) for item in kind.iter("Item")}
+             for kind in root.iter("SimpleType")}
+    found = {}
+    for variable in root.iter("ScalarVariable"):
+        kind = next(child for child in variable if child.tag != "Annotations")
+        name, reference = variable.get("name"), int(variable.get("valueReference"))
+        found[name] = Variable(name, reference, kind.tag, types.get(kind.get("declaredType"), {}))
+    return found
+
+
+def description(fmu):
+    """GUID and model identifier."""
+    with zipfile.ZipFile(fmu) as archive:
+        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
+    return root.get("guid"), root.find("CoSimulation").get("modelIdentifier")
+
+
+class Scene:
+    """What is simulated: values by name in SI, enumerations as numbers, and the outputs to record."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            told = json.load(file)
+        self.step, self.stop = told["step"], told["stop"]
+        self.steps = round(self.stop / self.step)
+        self.parameters, self.outputs = told["parameters"], list(told["outputs"])
+        # an input is a number or a series of [time, value], each value from that communication point on
+        self.series = {name: value if isinstance(value, list) else [[0.0, value]]
+                       for name, value in told["inputs"].items()}
+
+    def start(self, known):
+        """(variable, value) of all that is set before initialisation."""
+        values = self.parameters | {name: series[0][1] for name, series in self.series.items()}
+        return [(known[name], self.number(known[name], value)) for name, value in values.items()]
+
+    @staticmethod
+    def number(variable, value):
+        """A literal's number; a Real as float and a Boolean as bool, whatever JSON made of it."""
+        if isinstance(value, str):
+            return variable.literals[value]
+        return {"Real": float, "Boolean": bool}.get(variable.kind, int)(value)
+
+    def changes(self, k):
+        """Names and values of the inputs that change at communication point k."""
+        if k == 0:
+            return {}
+        return {name: float(value) for name, series in self.series.items() for time, value in series
+                if round(time / self.step) == k}
+
+
+def main(load, run):
+    """`load` imports the host and returns its version; `run(fmu, scene)` returns {communication point: values}."""
+    if len(sys.argv) != 4:
+        raise SystemExit(f"usage: {sys.argv[0]} FMU SCENE.json OUT.csv")
+    fmu, scene = sys.argv[1], Scene(sys.argv[2])
+    try:
+        version = load()
+    except (ImportError, OSError) as error:
+        print(error, file=sys.stderr)
+        raise SystemExit(CANNOT_LOAD) from None
+    begin = time.perf_counter()
+    rows = run(fmu, scene)
+    seconds = time.perf_counter() - begin
+    with open(sys.argv[3], "w", encoding="utf-8") as file:
+        print("point", *scene.outputs, sep=",", file=file)
+        for k, values in sorted(rows.items()):
+            print(k, *(f"{value:.17g}" for value in values), sep=",", file=file)
+    print(json.dumps({"version": version, "seconds": seconds}))

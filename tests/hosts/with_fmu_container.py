@@ -1,0 +1,48 @@
+"""The FMU inside another FMU: FMU Manipulation Toolbox puts it into a container, a C program that imports it. FMPy only
+turns the crank of the container. Enumerations are Integers there, parameters get the inner FMU's name in front.
+"""
+
+import subprocess
+import sys
+import tempfile
+from importlib.metadata import version
+from pathlib import Path
+
+import common
+import with_fmpy
+
+
+def load():
+    import fmu_manipulation_toolbox  # noqa: F401
+
+    with_fmpy.load()
+    return version("fmu-manipulation-toolbox")
+
+
+def run(fmu, scene):
+    """{communication point: values}"""
+    inner = common.variables(fmu)
+    with tempfile.TemporaryDirectory() as folder:
+        outer = contained(Path(fmu).resolve(), scene.step, Path(folder))
+        found = common.variables(outer)
+        prefix = Path(fmu).stem.lower() + "."
+        known = {name: found.get(name) or found[prefix + name] for name in inner}
+        literals = {name: variable.literals for name, variable in inner.items()}
+        known = {name: common.Variable(name, v.reference, v.kind, literals[name]) for name, v in known.items()}
+        return with_fmpy.stepped(outer, scene, known, scene.outputs)
+
+
+def contained(fmu, step, folder):
+    """The container, which takes steps of its own of this length."""
+    (folder / fmu.name).write_bytes(fmu.read_bytes())
+    (folder / "container.csv").write_text(f"rule;from_fmu;from_port;to_fmu;to_port\nFMU;{fmu.name};;;\n")
+    command = [sys.executable, "-c", "from fmu_manipulation_toolbox.cli.fmucontainer import fmucontainer; fmucontainer()",
+               "-fmu-directory", str(folder), "-container", f"container.csv:{step!r}", "-auto-parameter"]
+    made = subprocess.run(command, capture_output=True, text=True)
+    if not (folder / "container.fmu").is_file():
+        raise SystemExit(f"no container was made: {made.stdout.strip()} {made.stderr.strip()}")
+    return str(folder / "container.fmu")
+
+
+if __name__ == "__main__":
+    common.main(load, run)
