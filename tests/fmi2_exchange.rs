@@ -176,7 +176,10 @@ fn a_clutch_that_lets_go_and_catches_is_an_event() {
         level(host, 1);
         assert_eq!(host.set_boolean("effects.limited_slip", 1), Status::Ok);
         assert_eq!(host.set_many(&["left.load_torque", "right.load_torque"], &[835.0; 2]), Status::Ok);
-        assert_eq!(host.set("limited_slip.preload", 50.0), Status::Ok);
+        assert_eq!(
+            host.set_many(&["limited_slip.preload", "limited_slip.torque_coefficient"], &[50.0, 0.0]),
+            Status::Ok
+        );
     };
     // 80 N·m on each side hold, 800 N·m slide, equal ones catch again
     let loads = [(845.0, 0.01), (400.0, 0.02), (1250.0, 0.06)];
@@ -214,7 +217,8 @@ fn a_tooth_that_breaks_is_an_event_whose_time_is_known() {
     });
     let info = solver.event();
     assert_eq!((info.next_event_defined, info.next_event), (1, onset));
-    solver.steps(1e-6, 1500);
+    solver.steps(1e-6, 1499);
+    solver.set(onset, &solver.states());
     let info = solver.event();
     assert_eq!((info.next_event_defined, info.states_changed), (0, 0));
 }
@@ -297,7 +301,7 @@ fn a_tooth_that_would_jump_ends_the_run_with_time_and_place() {
     let mut solver = Solver::new(|host| level(host, 3));
     solver.steps(1e-6, 3);
     let mut x = solver.states();
-    x[0] -= 0.05;
+    x[0] -= 0.2;
     solver.set(solver.time + 1e-6, &x);
     // SAFETY: a live component and places for the answers
     assert_eq!(unsafe { fmi2CompletedIntegratorStep(solver.host.c, 1, &mut 0, &mut 0) }, Status::Error);
@@ -347,7 +351,7 @@ fn directional_derivatives_are_those_of_the_rates() {
                 fmi2GetDirectionalDerivative(solver.host.c, unknown, STATES, &known, 1, &1.0, room)
             };
             assert_eq!(status, Status::Ok, "{:?}", solver.host.log());
-            let d = if k < STATES { 1e-7 * table().rows[table().states[k]].nominal.unwrap().max(1e-3) } else { 1e-2 };
+            let d = if k < STATES { 1e-6 * table().rows[table().states[k]].nominal.unwrap() } else { 1e-2 };
             let at = |place: f64| {
                 if k < STATES {
                     let mut y = x;
@@ -361,9 +365,10 @@ fn directional_derivatives_are_those_of_the_rates() {
                 rates
             };
             let (high, low) = (at(1.0), at(-1.0));
+            let steepest = told.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
             for i in 0..STATES {
                 let differs = (high[i] - low[i]) / (2.0 * d);
-                let noise = 1e-5 * differs.abs() + 1e-12 * (1.0 + high[i].abs()) / d + 1e-6;
+                let noise = 1e-5 * differs.abs() + 1e-6 * steepest;
                 assert!((told[i] - differs).abs() < noise, "{gears} {extra}: rate {i} by {k}: {} {differs}", told[i]);
             }
         }

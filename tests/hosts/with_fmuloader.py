@@ -1,31 +1,13 @@
-"""fmuloader: the C functions by ctypes, nothing else. It reads no model description; common.py does.
+"""fmuloader: the C functions by ctypes, nothing else. It reads no model description; common.py does."""
 
-It asks every FMU for the functions of model exchange too. One that has none, as FMI allows, gives it stand-ins here that
-nobody calls.
-"""
-
-import ctypes
 from importlib.metadata import version
 
 import common
 
 
-class Lenient(ctypes.CDLL):
-    """A library whose missing functions are missed when called, not before."""
-
-    def __getattr__(self, name):
-        try:
-            return super().__getattr__(name)
-        except AttributeError:
-            if not name.startswith("fmi2"):
-                raise
-            return ctypes.CFUNCTYPE(ctypes.c_int)(lambda *_: 3)
-
-
 def load():
-    import fmuloader.fmi2
+    import fmuloader  # noqa: F401 - fails here where it is missing
 
-    fmuloader.fmi2.CDLL = Lenient
     return version("fmuloader")
 
 

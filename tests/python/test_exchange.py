@@ -14,7 +14,8 @@ SCENES = {
     "ideal": {**WHEELS, "scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.load_torque": 800.0},
     "half-shafts": {**WHEELS, "effects.half_shaft": True, "scene.carrier_drive": "torque", "left.load_torque": 820.0},
     "solid": {"scene.gear_contact": "solid"},
-    "limited slip": {**WHEELS, "scene.gear_contact": "ideal", "effects.limited_slip": True, "left.load_torque": 400.0},
+    "limited slip": {**WHEELS, "scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0,
+                     "left.load_torque": 400.0},
 }
 OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "carrier.torque", "left.shaft_torque", "left.normal_force",
            "planet[1].spin_angle", "planet[2].left_transmission_error"]
