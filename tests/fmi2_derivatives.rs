@@ -89,7 +89,9 @@ fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_accelera
         let more = host.get("carrier.torque") - torque;
         // lumped meshes still swing about it
         assert!(level == 2 || (200.0..230.0).contains(&more), "level {level}: {more} N·m");
-        assert!(host.get("solver.energy_residual").abs() < 1e-4, "{}", host.get("solver.energy_residual"));
+        // of the energy that went through
+        let through = host.get("power.in") * 2.0 * h;
+        assert!(host.get("solver.energy_residual").abs() < 1e-6 * through, "{}", host.get("solver.energy_residual"));
     }
 }
 
@@ -242,8 +244,9 @@ fn at_the_start_outputs_are_derived_by_inputs_and_parameters() {
     assert_eq!(host.setup(), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
     // preloaded by equal loads, a stiffness twice as large bends by less: a ~ K^(-2/3)
+    let stiffness = host.get("contact.stiffness");
     let bent = host.get("planet[1].left_transmission_error");
-    let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", 1.824_63e10)]);
+    let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", stiffness)]);
     assert!((by_stiffness / (-2.0 / 3.0 * bent) - 1.0).abs() < 1e-6, "{by_stiffness} {bent}");
     let by_speed = along(&host, "carrier.speed", &[("carrier.speed_command", 3.0)]);
     assert!((by_speed - 3.0).abs() < 1e-9);

@@ -90,6 +90,11 @@ pub struct Accepted {
 }
 
 impl Accepted {
+    /// `state` as it was there.
+    pub(super) fn of(&self, state: &State) -> State {
+        State { time: self.time, q: self.q, v: self.v, ..*state }
+    }
+
     /// Whether all numbers are finite.
     pub fn is_valid(&self) -> bool {
         self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
@@ -195,8 +200,7 @@ impl Simulation {
         let mut is_due = false;
         let h = state.time - from.time;
         if h > 0.0 {
-            let mut begin = *state;
-            (begin.time, begin.q, begin.v) = (from.time, from.q, from.v);
+            let mut begin = from.of(state);
             let before = energy(model, inputs, &begin);
             commands::follow(model, inputs, &mut begin);
             // the energy of a jump of imposed speeds is impulsive work of the input

@@ -48,7 +48,10 @@ pub struct Along {
 impl Along {
     /// Derivative of what `of` reads.
     pub fn slope(&self, of: impl Fn(&Forces) -> f64) -> f64 {
-        PLACES.iter().zip(&self.forces).map(|((_, weight), forces)| weight * of(forces)).sum::<f64>() / self.apart
+        // what does not change has no slope, to the last bit
+        let first = of(&self.forces[0]);
+        let sum: f64 = PLACES.iter().zip(&self.forces).map(|((_, weight), forces)| weight * (of(forces) - first)).sum();
+        sum / self.apart
     }
 }
 
@@ -240,6 +243,7 @@ impl Simulation {
                 Gears::Teeth(teeth) => teeth.full.carrier_speed(&state, command),
             }
         };
-        PLACES.iter().map(|(place, weight)| weight * at(*place)).sum::<f64>() / APART
+        let here = at(0.0);
+        PLACES.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
     }
 }

@@ -142,9 +142,10 @@ impl Simulation {
         integrate(model, inputs, state, until)
     }
 
-    /// Kinetic and stored energy [J].
+    /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
     fn energy(&self) -> f64 {
-        energy(&self.model, &self.inputs, &self.state)
+        let known = self.accepted.as_ref().map(|accepted| accepted.of(&self.state));
+        energy(&self.model, &self.inputs, known.as_ref().unwrap_or(&self.state))
     }
 
     /// Time [s].
