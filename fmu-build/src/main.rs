@@ -13,7 +13,7 @@ use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, real_time, study};
+use fmu_build::{describe, foreign, off, package, peers, places, platforms, real_time, study, toolchains};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -21,7 +21,13 @@ usage: cargo run --release [-- COMMAND]
 
   study [--readme]       package the FMU, simulate the study through fmpy, print the comparison (default);
                          --readme: also renew the table in README.md and the pictures in docs/images
-  package                build target/fmu/BevelDifferential.fmu
+  package                build target/fmu/BevelDifferential.fmu, for every platform whose tool chain is there
+  toolchains [linux64|win64]
+                         make the tool chains for old Linux systems and for Windows, with wine, or one of them, in
+                         target/toolchains (Debian on x86-64, 400 MB to download, 2 GB on disk); packaging takes them from
+                         then on
+  platforms [--write]    simulate the same scenes with the library for each platform, Windows under wine, and compare the
+                         bits of all outputs; fails if any differ; --write: also renew docs/platforms.md
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
   scene [FILE|NAME] [--run] [--csv OUT.csv]
                          tell what a scene simulates; without one list the scenes; --run: simulate it and sum up its
@@ -64,6 +70,8 @@ usage: cargo run --release [-- COMMAND]
 enum Job {
     Study { readme: bool },
     Package,
+    Toolchains { platform: Option<String> },
+    Platforms { write: bool },
     Describe { check: bool },
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
@@ -113,6 +121,8 @@ fn parse() -> Result<Job> {
                 *write = true
             }
             (Long("write"), Some(Job::RealTime { write })) => *write = true,
+            (Value(name), Some(Job::Toolchains { platform })) if platform.is_none() => *platform = Some(name.string()?),
+            (Long("write"), Some(Job::Platforms { write })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -164,6 +174,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
     Ok(match name {
         "study" => Job::Study { readme: false },
         "package" => Job::Package,
+        "toolchains" => Job::Toolchains { platform: None },
+        "platforms" => Job::Platforms { write: false },
         "describe" => Job::Describe { check: false },
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
@@ -192,10 +204,15 @@ fn run(job: Job) -> Result<()> {
         Job::Study { readme } => study::run(readme)?,
         Job::Package => {
             let progress = Progress::start("packaging the FMU");
-            let fmu = package::package()?;
+            let packed = package::packed()?;
             progress.finish();
-            println!("{}", places::shown(&fmu));
+            println!("{}", places::shown(&packed.fmu));
+            if !packed.left_out.is_empty() {
+                println!("{}", packed.left_out.join("; "));
+            }
         }
+        Job::Toolchains { platform } => toolchains::run(platform.as_deref())?,
+        Job::Platforms { write } => platforms::run(write)?,
         Job::Describe { check } => {
             let file = places::model_description();
             if check && describe::is_stale(&file)? {
