@@ -5,6 +5,7 @@
 # library, the MinGW linker, and wine. Nothing is installed and no rights are needed; FOLDER/bin holds what is to be called.
 # Versions are those of the Debian release at hand: archives keep no older ones, so they cannot be pinned.
 set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 root=$folder/root
@@ -56,6 +57,10 @@ script wine64 env "WINEDLLPATH='$root/usr/lib/x86_64-linux-gnu/wine'" "WINEPREFI
 "$folder/bin/rustc" --version
 "$folder/bin/x86_64-w64-mingw32-gcc" --version | head -n 1
 echo "preparing wine"
+if [ ! -e "$root/usr/lib/x86_64-linux-gnu/wine/x86_64-windows/bcryptprimitives.dll" ]; then
+    "$folder/bin/x86_64-w64-mingw32-gcc" -shared -O1 -o "$folder/wine/drive_c/windows/system32/bcryptprimitives.dll" \
+        "$here/bcryptprimitives.c" -ladvapi32
+fi
 "$folder/bin/wine64" --version
 # the first run makes the prefix; the code that comes back proves that Windows programs run
 code=0

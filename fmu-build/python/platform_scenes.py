@@ -12,26 +12,26 @@ LONGEST = 0.5
 
 
 def all_scenes(folder):
-    """(name, start values, events, tables, duration [s], communication step [s]) of each scene."""
+    """(name, start values, events, tables, duration [s]) of each scene."""
     for level, duration in [("tooth", 0.5), ("lumped", 0.5), ("ideal", 0.5), ("solid", 0.05)]:
-        yield f"study, straight, {level}", {"scene.gear_contact": level}, [], [], duration, 1e-3
-        yield f"study, turn, {level}", TURN | {"scene.gear_contact": level}, [], [], duration, 1e-3
-    yield "study, turn, from mid-play", TURN | {"scene.start": "rolling"}, [], [], 0.1, 1e-4
+        yield f"study, straight, {level}", {"scene.gear_contact": level}, [], [], duration
+        yield f"study, turn, {level}", TURN | {"scene.gear_contact": level}, [], [], duration
+    yield "study, turn, from mid-play", TURN | {"scene.start": "rolling"}, [], [], 0.1
     for law in ["line", "line_weber"]:
         values = TURN | {"contact.law": law, "contact.damping_model": "restitution"}
-        yield f"turn, {law}, restitution", values, [], [], 0.1, 1e-3
+        yield f"turn, {law}, restitution", values, [], [], 0.1
     for method in ["fixed_step", "radau", "rodas4", "dormand_prince"]:
-        yield f"turn, {method}", TURN | {"solver.method": method}, [], [], 0.05, 1e-3
+        yield f"turn, {method}", TURN | {"solver.method": method}, [], [], 0.05
     for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
         friction = {"effects.tooth_friction": True, "tooth_friction.law": law}
-        yield f"turn, friction {law}", TURN | friction, [], [], 0.05, 1e-3
-    yield "nine effects", MANY, [], [], 0.1, 1e-3
-    yield "nine effects, line", MANY | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05, 1e-3
+        yield f"turn, friction {law}", TURN | friction, [], [], 0.05
+    yield "nine effects", MANY, [], [], 0.1
+    yield "nine effects, line", MANY | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05
     for file in sorted(folder.glob("*.toml")):
         scene = tomllib.loads(file.read_text(encoding="utf-8"))
         duration = min(float(scene["stop_time"]), LONGEST)
         yield (f"scenes/{file.name}", flat(scene["set"]), [flat(event) for event in scene.get("at", [])],
-               scene.get("table", []), duration, float(scene["step"]))
+               scene.get("table", []), duration)
 
 
 def flat(table, prefix=""):

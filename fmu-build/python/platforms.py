@@ -7,13 +7,11 @@ fmpy's server under WINE64. Prints the tables of docs/platforms.md; fails if any
 "progress FRACTION WHAT" on standard error tells how far it is.
 """
 
-import os
 import subprocess
 import sys
 import time
 from pathlib import Path
 
-import fmpy
 import numpy as np
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.util import add_remoting
@@ -24,8 +22,11 @@ import platform_scenes
 # what is timed, each as one step of this length [s], and how often
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 0.05}
 REPEATS = 3
-# seconds that the server gets to start, and pause between attempts
-PATIENCE, PAUSE = 30.0, 0.5
+# communication steps of a scene: each call of fmpy's server takes tens of milliseconds, and a bit that differs anywhere
+# before a communication point shows there
+STEPS = 10
+# port of fmpy's server, seconds that it gets to start, and pause between looks
+PORT, PATIENCE, PAUSE = 8080, 60.0, 0.1
 
 
 class Platform:
@@ -35,16 +36,9 @@ class Platform:
         self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
         self.description = read_model_description(str(self.folder))
         self.binary = next((self.folder / "binaries").glob("*/*"))
-        self.windows = self.binary.suffix == ".dll"
+        self.windows, self.wine = self.binary.suffix == ".dll", wine
         if self.windows:
             add_remoting(str(self.folder), "linux64", "win64")
-            server = self.binary.parent / "server_tcp.exe"
-            # before anything connects: it loads the library first, which takes longer than fmpy's client waits
-            self.server = subprocess.Popen([wine, str(server), "Z:" + str(self.binary).replace("/", "\\")],
-                                           stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(5.0)
-            if self.server.poll() is not None:
-                sys.exit(f"fmpy's server did not start under wine: it ended with {self.server.returncode}")
         self.variables = {v.name: v for v in self.description.modelVariables}
         self.outputs = [v for v in self.description.modelVariables if v.causality == "output"]
         self.factors = {(kind.name, shown.name): shown.factor for kind in self.description.unitDefinitions
@@ -54,11 +48,39 @@ class Platform:
         if self.server:
             self.server.terminate()
             self.server.wait()
+            self.server = None
+
+    def opened(self, logger):
+        """A new instance; under wine with a server of its own, as that ends with the instance."""
+        if self.windows:
+            self.close()
+            self.serve()
+        return instantiate_fmu(str(self.folder), self.description, logger=logger)
+
+    def serve(self):
+        """Starts fmpy's server before anything connects: its client waits less long than wine takes to load the library."""
+        deadline = time.monotonic() + PATIENCE
+        while is_listening():
+            self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
+        library = "Z:" + str(self.binary).replace("/", "\\")
+        server = str(self.binary.parent / "server_tcp.exe")
+        self.server = subprocess.Popen([self.wine, server, library], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+        while not is_listening():
+            if self.server.poll() is not None:
+                sys.exit(f"fmpy's server did not start under wine: it ended with {self.server.returncode}")
+            self.wait(deadline, "fmpy's server did not start under wine")
+
+    @staticmethod
+    def wait(deadline, problem):
+        if time.monotonic() > deadline:
+            sys.exit(f"{problem}: given up after {PATIENCE:g} s")
+        time.sleep(PAUSE)
 
     def start(self, values):
         """An initialised instance with what it logged."""
         log = []
-        fmu = instantiate_fmu(str(self.folder), self.description, logger=lambda *message: log.append(message[-1]))
+        fmu = self.opened(lambda *message: log.append(message[-1]))
         for name, value in values.items():
             self.set(fmu, name, value)
         try:
@@ -86,12 +108,13 @@ class Platform:
         kind = variable.unit or variable.declaredType.unit
         return float(number) / (1.0 if unit == kind else float(self.factors[kind, unit]))
 
-    def record(self, values, events, tables, duration, step):
+    def record(self, values, events, tables, duration):
         """All outputs at all communication points."""
+        step = duration / STEPS
         fmu = self.start(values)
         real, rest = ([v.valueReference for v in self.outputs if (v.type == "Real") == wanted] for wanted in (True, False))
         rows, events = [], sorted(events, key=lambda event: event["time"])
-        for k in range(round(duration / step) + 1):
+        for k in range(STEPS + 1):
             rows.append(fmu.getReal(real) + (fmu.getInteger(rest) if rest else []))
             now = k * step
             while events and events[0]["time"] <= now + 1e-9 * step:
@@ -103,7 +126,7 @@ class Platform:
                 place = now % table["period"] if "period" in table else now
                 points = [self.si(variable, value) for value in table["value"]]
                 fmu.setReal([variable.valueReference], [float(np.interp(place, table["time"], points))])
-            if k < round(duration / step):
+            if k < STEPS:
                 fmu.doStep(now, step)
         fmu.terminate()
         fmu.freeInstance()
@@ -123,7 +146,7 @@ class Platform:
 
     def refuses(self):
         """What comes back for a wrong value and for one that would panic: statuses, while the library lives on."""
-        fmu = instantiate_fmu(str(self.folder), self.description, logger=lambda *_: None)
+        fmu = self.opened(lambda *_: None)
         statuses = []
         for call in [lambda: fmu.setReal([10**6], [1.0]),
                      lambda: fmu.doStep(0.0, 1e-3),
@@ -137,6 +160,13 @@ class Platform:
         fmu.reset()
         fmu.freeInstance()
         return statuses
+
+
+def is_listening():
+    """Whether a server waits on the port; a look that does not connect, as the server takes one client."""
+    with open("/proc/net/tcp", encoding="ascii") as sockets:
+        rows = [line.split() for line in sockets][1:]
+    return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)
 
 
 def described(platform):

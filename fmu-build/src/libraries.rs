@@ -33,6 +33,19 @@ pub struct Library {
     pub file: PathBuf,
     /// What a machine must have, in words.
     pub needs: String,
+    /// What the linker adds to the crates and Rust's standard library.
+    pub added: Vec<Added>,
+}
+
+/// A part of a compiler's runtime that is linked in.
+#[derive(Clone, Debug)]
+pub struct Added {
+    /// Its name.
+    pub name: &'static str,
+    /// Its licence by its SPDX name.
+    pub licence: &'static str,
+    /// The file with the text.
+    pub text: PathBuf,
 }
 
 /// The libraries that could be built, and what could not with how to get it.
@@ -78,7 +91,13 @@ pub fn for_this_machine() -> Result<Library> {
         "win64" => "Windows on x86-64",
         _ => "macOS",
     };
-    Ok(Library { platform: HOST.0, ending: HOST.1, file: build_library(CRATE)?, needs: needs.into() })
+    Ok(Library {
+        platform: HOST.0,
+        ending: HOST.1,
+        file: build_library(CRATE)?,
+        needs: needs.into(),
+        added: Vec::new(),
+    })
 }
 
 /// Builds the dynamic library of `package` for this machine with cargo, quietly, and tells where it is.
@@ -97,11 +116,17 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         .env("PATH", toolchains::path_with(&programs)?)
         .env("ZIG_GLOBAL_CACHE_DIR", places::toolchains().join("zig-cache"));
     let file = crossed(command, "linux64", "so")?;
+    let unwinder = Added {
+        name: "LLVM libunwind",
+        licence: "Apache-2.0 WITH LLVM-exception",
+        text: tools.packages()?.join("ziglang").join("lib").join("libunwind").join("LICENSE.TXT"),
+    };
     Ok(Library {
         platform: "linux64",
         ending: "so",
         file,
         needs: format!("Linux on x86-64 with glibc {GLIBC} or newer"),
+        added: vec![unwinder],
     })
 }
 
@@ -115,7 +140,7 @@ fn for_windows(tools: &Windows) -> Result<Library> {
         // Debian's Rust is a stable one, and building the standard library is not yet
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", programs.join("x86_64-w64-mingw32-gcc"));
-    windows_library(command)
+    windows_library(command, &tools.root())
 }
 
 /// The library for Windows by rustup's own target and the system's MinGW, if both are installed.
@@ -128,12 +153,18 @@ fn rustup_for_windows() -> Result<Option<Library>> {
     }
     let mut command = Command::new(cargo());
     command.args(["build", "--target", WINDOWS_TARGET]);
-    windows_library(command).map(Some)
+    windows_library(command, Path::new("/")).map(Some)
 }
 
-fn windows_library(command: Command) -> Result<Library> {
+/// The library that `command` builds with the MinGW under `root`.
+fn windows_library(command: Command, root: &Path) -> Result<Library> {
     let file = crossed(command, "win64", "dll")?;
-    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, nothing beside it".into() })
+    let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
+    let added = vec![
+        Added { name: "MinGW-w64 runtime", licence: "MIT, ZPL-2.1 and public domain", text: text("mingw-w64-common") },
+        Added { name: "libgcc", licence: "GPL-3.0-or-later WITH GCC-exception-3.1", text: text("gcc-mingw-w64-base") },
+    ];
+    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, nothing beside it".into(), added })
 }
 
 /// Built for other machines than this one: in a folder of its own, as the compiler may be another, and without the names of

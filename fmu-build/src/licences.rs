@@ -9,9 +9,8 @@ use std::process::Command;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 
-use crate::libraries::{CRATE, cargo};
+use crate::libraries::{CRATE, Library, cargo};
 use crate::places;
-use crate::toolchains::Windows;
 
 /// Beginnings of the names of files that hold licences, in small letters.
 const NAMES: [&str; 6] = ["license", "licence", "copying", "copyright", "notice", "unlicense"];
@@ -44,8 +43,8 @@ pub struct Licences {
     pub linked: Vec<Linked>,
 }
 
-/// Collects the licences; `windows`: also of what the library for Windows contains. A crate without a text is an error.
-pub fn collected(windows: bool) -> Result<Licences> {
+/// Collects the licences of `libraries`. A part without a text is an error.
+pub fn collected(libraries: &[Library]) -> Result<Licences> {
     let mut found = Licences { files: Vec::new(), linked: Vec::new() };
     for (name, folder) in linked_crates()? {
         let own = folder.path == places::workspace();
@@ -67,13 +66,10 @@ pub fn collected(windows: bool) -> Result<Licences> {
         found.linked.push(Linked { name, licence: folder.licence, files });
     }
     standard_library(&mut found)?;
-    if windows && let Some(tools) = Windows::found() {
-        for (name, licence, package) in [
-            ("MinGW-w64 runtime", "MIT, ZPL-2.1 and public domain", "mingw-w64-common"),
-            ("libgcc", "GPL-3.0-or-later WITH GCC-exception-3.1", "gcc-mingw-w64-base"),
-        ] {
-            let file = tools.root().join("usr").join("share").join("doc").join(package).join("copyright");
-            add(&mut found, name, licence, "windows", &[(package, file)])?;
+    for library in libraries {
+        for part in &library.added {
+            let file = part.name.replace(' ', "-");
+            add(&mut found, part.name, part.licence, library.platform, &[(&file, part.text.clone())])?;
         }
     }
     found.files.sort_by(|a, b| a.path.cmp(&b.path));

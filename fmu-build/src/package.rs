@@ -65,7 +65,7 @@ fn entries(libraries: &[Library]) -> Result<Vec<Entry>> {
         let path = format!("binaries/{}/{MODEL_NAME}.{}", library.platform, library.ending);
         entries.push(Entry { path, content: read(&library.file)?, permissions: EXECUTABLE });
     }
-    let licences = licences::collected(libraries.iter().any(|library| library.platform == "win64"))?;
+    let licences = licences::collected(libraries)?;
     let page = documentation::page(libraries, &licences.linked)?;
     entries.push(plain("documentation/index.html".into(), page.into_bytes()));
     for figure in documentation::FIGURES {

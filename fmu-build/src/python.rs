@@ -67,6 +67,13 @@ impl Environment {
         self.folder.join(if cfg!(windows) { "Scripts" } else { "bin" })
     }
 
+    /// The folder with its packages.
+    pub fn packages(&self) -> Result<PathBuf> {
+        let mut command = self.command();
+        let told = command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output()?;
+        Ok(PathBuf::from(String::from_utf8_lossy(&told.stdout).trim()))
+    }
+
     /// Itself, made if it does not exist yet or has other requirements.
     fn made(self, tell: impl Fn(&str)) -> Result<Self> {
         let stamp = self.wanted_stamp()?;

@@ -111,10 +111,11 @@ def test_the_library_for_windows_needs_windows_alone(libraries):
 
 
 def test_libraries_name_no_folder_of_the_machine_that_built_them(libraries, page):
-    home = str(Path.home()).encode()
+    folders = [b".cargo", str(ROOT).encode()]
     for platform, file in libraries.items():
-        if "as new as the machine" not in page.text or platform != "linux64":
-            assert home not in file.read_bytes() or home == b"/"
+        if platform != "linux64" or "as new as the machine" not in page.text:
+            content = file.read_bytes()
+            assert not any(folder in content for folder in folders), platform
 
 
 def test_the_description_is_valid_by_the_standard_s_schema(archive):
@@ -144,11 +145,12 @@ def test_every_variable_is_in_the_documentation(page, description):
 
 def test_licences_of_all_that_is_linked_in_are_there(archive, page):
     texts = {name: archive.read(name).decode("utf-8") for name in archive.namelist() if "/licenses/" in name}
-    assert all(len(text.strip()) > 200 for text in texts.values())
+    for folder in {PurePosixPath(name).parent for name in texts}:
+        assert max(len(text) for name, text in texts.items() if PurePosixPath(name).parent == folder) > 400, folder
     assert {f"documentation/{link}" for link in page.links} == set(texts)
     lock = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
     own = re.search(r'name = "bevel-differential"\nversion = "[^"]*"\ndependencies = \[\n(.*?)\]', lock, re.DOTALL)
-    crates = set(re.findall(r'"([^" ]+)', own[1])) - {"serde_json"}  # for tests alone
+    crates = set(re.findall(r'^ "([^" ]+)', own[1], re.MULTILINE)) - {"serde_json"}  # for tests alone
     assert len(crates) >= 6
     for crate in crates:
         assert re.search(rf"\b{crate}-\d", page.text), crate
