@@ -22,9 +22,8 @@ import platform_scenes
 # what is timed, each as one step of this length [s], and how often
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 0.05}
 REPEATS = 3
-# communication steps of a scene: each call of fmpy's server takes tens of milliseconds, and a bit that differs anywhere
-# before a communication point shows there
-STEPS = 10
+# communication steps of a scene
+STEPS = 100
 # port of fmpy's server, seconds that it gets to start, and pause between looks
 PORT, PATIENCE, PAUSE = 8080, 60.0, 0.1
 
@@ -56,6 +55,13 @@ class Platform:
             self.close()
             self.serve()
         return instantiate_fmu(str(self.folder), self.description, logger=logger)
+
+    def end(self, fmu):
+        """Frees an instance; under wine with its server, as fmpy's client waits for ever for one it did not start."""
+        if self.windows:
+            self.close()
+        else:
+            fmu.freeInstance()
 
     def serve(self):
         """Starts fmpy's server before anything connects: its client waits less long than wine takes to load the library."""
@@ -128,8 +134,7 @@ class Platform:
                 fmu.setReal([variable.valueReference], [float(np.interp(place, table["time"], points))])
             if k < STEPS:
                 fmu.doStep(now, step)
-        fmu.terminate()
-        fmu.freeInstance()
+        self.end(fmu)
         return np.array(rows, dtype=float)
 
     def seconds(self, values, duration):
@@ -140,8 +145,7 @@ class Platform:
             begin = time.perf_counter()
             fmu.doStep(0.0, duration)
             least = min(least, time.perf_counter() - begin)
-            fmu.terminate()
-            fmu.freeInstance()
+            self.end(fmu)
         return least
 
     def refuses(self):
@@ -158,7 +162,7 @@ class Platform:
             except Exception as problem:
                 statuses.append(str(getattr(problem, "status", problem)))
         fmu.reset()
-        fmu.freeInstance()
+        self.end(fmu)
         return statuses
 
 
