@@ -14,7 +14,7 @@ use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, plain_types, real_time, study};
+use fmu_build::{describe, foreign, off, package, peers, places, plain_types, platforms, real_time, study, toolchains};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -22,8 +22,15 @@ usage: cargo run --release [-- COMMAND]
 
   study [--readme]       package the FMU, simulate the study through fmpy, print the comparison (default);
                          --readme: also renew the table in README.md and the pictures in docs/images
-  package [--integers]   build target/fmu/BevelDifferential.fmu; --integers: also BevelDifferential_integers.fmu, described
-                         without enumerations for hosts that know none (libcosim, Ecos)
+  package [--integers]   build target/fmu/BevelDifferential.fmu, for every platform whose tool chain is there; --integers: also
+                         BevelDifferential_integers.fmu, described without enumerations for hosts that know none
+                         (libcosim, Ecos)
+  toolchains [linux64|win64]
+                         make the tool chains for old Linux systems and for Windows, with wine, or one of them, in
+                         target/toolchains (Debian on x86-64, 400 MB to download, 2 GB on disk); packaging takes them from
+                         then on
+  platforms [--write]    simulate the same scenes with the library for each platform, Windows under wine, and compare the
+                         bits of all outputs; fails if any differ; --write: also renew docs/platforms.md
   describe [--check]     write modelDescription/modelDescription.xml; --check: only tell whether it is stale
   scene [FILE|NAME] [--run] [--csv OUT.csv]
                          tell what a scene simulates; without one list the scenes; --run: simulate it and sum up its
@@ -70,6 +77,8 @@ usage: cargo run --release [-- COMMAND]
 enum Job {
     Study { readme: bool },
     Package { integers: bool },
+    Toolchains { platform: Option<String> },
+    Platforms { write: bool },
     Describe { check: bool },
     Scene(scene_job::Scene),
     Loads(scene_job::Loads),
@@ -124,6 +133,8 @@ fn parse() -> Result<Job> {
             (Long("require"), Some(Job::Hosts(hosts))) => hosts.require = true,
             (Long("write"), Some(Job::Hosts(hosts))) => hosts.write = true,
             (Long("with-fmi-sim"), Some(Job::Hosts(hosts))) => hosts.with_rust = true,
+            (Value(name), Some(Job::Toolchains { platform })) if platform.is_none() => *platform = Some(name.string()?),
+            (Long("write"), Some(Job::Platforms { write })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -175,6 +186,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
     Ok(match name {
         "study" => Job::Study { readme: false },
         "package" => Job::Package { integers: false },
+        "toolchains" => Job::Toolchains { platform: None },
+        "platforms" => Job::Platforms { write: false },
         "describe" => Job::Describe { check: false },
         "scene" => Job::Scene(scene_job::Scene::default()),
         "loads" => Job::Loads(scene_job::Loads::default()),
@@ -205,13 +218,18 @@ fn run(job: Job) -> Result<()> {
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {
             let progress = Progress::start("packaging the FMU");
-            let fmu = package::package()?;
-            let plain = if integers { Some(plain_types::package(&fmu)?) } else { None };
+            let packed = package::packed()?;
+            let plain = if integers { Some(plain_types::package(&packed.fmu)?) } else { None };
             progress.finish();
-            for file in std::iter::once(fmu).chain(plain) {
-                println!("{}", places::shown(&file));
+            for file in std::iter::once(&packed.fmu).chain(&plain) {
+                println!("{}", places::shown(file));
+            }
+            if !packed.left_out.is_empty() {
+                println!("{}", packed.left_out.join("; "));
             }
         }
+        Job::Toolchains { platform } => toolchains::run(platform.as_deref())?,
+        Job::Platforms { write } => platforms::run(write)?,
         Job::Describe { check } => {
             let file = places::model_description();
             if check && describe::is_stale(&file)? {

@@ -25,6 +25,11 @@ pub fn fmu() -> PathBuf {
     target().join("fmu").join(format!("{}.fmu", bevel_differential::variables::MODEL_NAME))
 }
 
+/// The tool chains for machines other than this one.
+pub fn toolchains() -> PathBuf {
+    target().join("toolchains")
+}
+
 /// Results of the study.
 pub fn study() -> PathBuf {
     target().join("study")

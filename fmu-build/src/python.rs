@@ -52,11 +52,38 @@ impl Environment {
         Self { folder, requirements, holds: "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox" }.made(tell)
     }
 
+    /// The environment with the linker for old Linux systems.
+    pub fn for_old_linux(tell: impl Fn(&str)) -> Result<Self> {
+        Self::of_old_linux().made(tell)
+    }
+
+    /// The same if it has been made, for these requirements.
+    pub fn old_linux() -> Option<Self> {
+        let environment = Self::of_old_linux();
+        let stamp = environment.wanted_stamp().ok()?;
+        environment.is_stamped(&stamp).then_some(environment)
+    }
+
+    fn of_old_linux() -> Self {
+        let requirements = places::workspace().join("fmu-build").join("cross").join("requirements.txt");
+        Self { folder: places::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
+    }
+
+    /// The folder with its programs.
+    pub fn programs(&self) -> PathBuf {
+        self.folder.join(if cfg!(windows) { "Scripts" } else { "bin" })
+    }
+
+    /// The folder with its packages.
+    pub fn packages(&self) -> Result<PathBuf> {
+        let mut command = self.command();
+        let told = command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output()?;
+        Ok(PathBuf::from(String::from_utf8_lossy(&told.stdout).trim()))
+    }
+
     /// Itself, made if it does not exist yet or has other requirements.
     fn made(self, tell: impl Fn(&str)) -> Result<Self> {
-        let wanted = fs::read_to_string(&self.requirements)
-            .with_context(|| format!("{} cannot be read", self.requirements.display()))?;
-        let stamp = format!("{:016x}\n", variables::fnv1a(wanted.bytes()));
+        let stamp = self.wanted_stamp()?;
         fs::create_dir_all(self.folder.parent().unwrap_or(&self.folder))?;
         // released when the file is closed, be it by a crash
         let lock = File::create(self.folder.with_extension("lock")).context("the environment cannot be locked")?;
@@ -66,6 +93,13 @@ impl Environment {
             fs::write(self.stamp(), stamp)?;
         }
         Ok(self)
+    }
+
+    /// What the stamp of an environment with these requirements says.
+    fn wanted_stamp(&self) -> Result<String> {
+        let wanted = fs::read_to_string(&self.requirements)
+            .with_context(|| format!("{} cannot be read", self.requirements.display()))?;
+        Ok(format!("{:016x}\n", variables::fnv1a(wanted.bytes())))
     }
 
     fn stamp(&self) -> PathBuf {

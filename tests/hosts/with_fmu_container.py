@@ -26,7 +26,9 @@ def run(fmu, scene):
         outer = contained(Path(fmu).resolve(), scene.step, Path(folder))
         found = common.variables(outer)
         prefix = Path(fmu).stem.lower() + "."
-        known = {name: found.get(name) or found[prefix + name] for name in inner}
+        # what is local inside is not seen from outside
+        names = {name: next((n for n in (name, prefix + name) if n in found), None) for name in inner}
+        known = {name: found[seen] for name, seen in names.items() if seen}
         literals = {name: variable.literals for name, variable in inner.items()}
         known = {name: common.Variable(name, v.reference, v.kind, literals[name]) for name, v in known.items()}
         return with_fmpy.stepped(outer, scene, known, scene.outputs)

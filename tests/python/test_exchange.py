@@ -1,7 +1,10 @@
 """Model exchange: fmpy's CVode moves the state, and comes to what the FMU's own solver comes to."""
 
+import ctypes
+
 import numpy as np
 import pytest
+from callbacks import silent
 from fmpy import simulate_fmu
 from fmpy.fmi2 import FMU2Model, fmi2EventInfo
 
@@ -68,7 +71,7 @@ def test_states_and_derivatives_stand_in_the_model_structure(description):
 def test_states_are_read_in_the_order_of_the_model_structure(unpacked, description, reference):
     fmu = FMU2Model(guid=description.guid, unzipDirectory=unpacked, instanceName="exchange",
                     modelIdentifier=description.modelExchange.modelIdentifier)
-    fmu.instantiate()
+    fmu.instantiate(callbacks=silent())
     fmu.setupExperiment()
     fmu.enterInitializationMode()
     fmu.exitInitializationMode()
@@ -76,7 +79,6 @@ def test_states_are_read_in_the_order_of_the_model_structure(unpacked, descripti
     fmu.fmi2NewDiscreteStates(fmu.component, info)
     fmu.enterContinuousTimeMode()
     count = len(description.derivatives)
-    import ctypes
     states, rates = (ctypes.c_double * count)(), (ctypes.c_double * count)()
     fmu.getContinuousStates(states, count)
     fmu.getDerivatives(rates, count)

@@ -6,6 +6,7 @@ from threading import Barrier
 
 import numpy as np
 import pytest
+from callbacks import silent
 from fmpy.fmi2 import FMU2Slave
 
 OUTPUTS = ["left.speed", "right.speed", "left.angle", "left.normal_force", "heat.contact", "solver.steps"]
@@ -19,7 +20,7 @@ class Instance:
         self.reference, self.time = reference, 0.0
         self.slave = FMU2Slave(guid=description.guid, unzipDirectory=str(folder), instanceName=name,
                                modelIdentifier=description.coSimulation.modelIdentifier)
-        self.slave.instantiate()
+        self.slave.instantiate(callbacks=silent())
         self.slave.setInteger([reference["scene.start"]], [2])
         self.slave.setReal([reference[f"{side}.load_torque"] for side in ("left", "right")], [load, load])
         self.slave.setupExperiment(startTime=0.0)

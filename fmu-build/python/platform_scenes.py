@@ -1,0 +1,42 @@
+"""The scenes that every platform's library simulates: the study, laws, methods, effects, and those in scenes/*.toml."""
+
+import tomllib
+
+TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
+MANY = TURN | ENDS | {f"effects.{name}": True for name in [
+    "tooth_errors", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag",
+    "final_drive", "strength"]}
+# seconds of a scene that are compared
+LONGEST = 0.5
+
+
+def all_scenes(folder):
+    """(name, start values, events, tables, duration [s]) of each scene."""
+    for level, duration in [("tooth", 0.5), ("lumped", 0.5), ("ideal", 0.5), ("solid", 0.05)]:
+        yield f"study, straight, {level}", {"scene.gear_contact": level}, [], [], duration
+        yield f"study, turn, {level}", TURN | {"scene.gear_contact": level}, [], [], duration
+    yield "study, turn, from mid-play", TURN | {"scene.start": "rolling"}, [], [], 0.1
+    for law in ["line", "line_weber"]:
+        values = TURN | {"contact.law": law, "contact.damping_model": "restitution"}
+        yield f"turn, {law}, restitution", values, [], [], 0.1
+    for method in ["fixed_step", "radau", "rodas4", "dormand_prince"]:
+        yield f"turn, {method}", TURN | {"solver.method": method}, [], [], 0.05
+    for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
+        friction = {"effects.tooth_friction": True, "tooth_friction.law": law}
+        yield f"turn, friction {law}", TURN | friction, [], [], 0.05
+    yield "nine effects", MANY, [], [], 0.1
+    yield "nine effects, line", MANY | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05
+    for file in sorted(folder.glob("*.toml")):
+        scene = tomllib.loads(file.read_text(encoding="utf-8"))
+        duration = min(float(scene["stop_time"]), LONGEST)
+        yield (f"scenes/{file.name}", flat(scene["set"]), [flat(event) for event in scene.get("at", [])],
+               scene.get("table", []), duration)
+
+
+def flat(table, prefix=""):
+    """A TOML table of tables as one with dotted names."""
+    values = {}
+    for key, value in table.items():
+        values |= flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
+    return values

@@ -1,0 +1,259 @@
+"""Simulates the same scenes with the library for each platform through fmpy and compares the bits of all outputs.
+
+usage: platforms.py SCENES WINE64 NAME=FMU...
+
+Each FMU holds the library for one platform; the first one is what the others are compared with. One for win64 runs in
+fmpy's server under WINE64. Prints the tables of docs/platforms.md; fails if any bits differ. A line
+"progress FRACTION WHAT" on standard error tells how far it is.
+"""
+
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+from fmpy import extract, instantiate_fmu, read_model_description
+from fmpy.util import add_remoting
+
+import binaries
+import platform_scenes
+
+# what is timed, each as one step of this length [s], and how often
+TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 0.05}
+REPEATS = 3
+# communication steps of a scene
+STEPS = 100
+# port of fmpy's server, seconds that it gets to start, and pause between looks
+PORT, PATIENCE, PAUSE = 8080, 60.0, 0.1
+
+
+class Platform:
+    """An FMU with one library, and a server of its own if that is for Windows."""
+
+    def __init__(self, name, fmu, wine):
+        self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
+        self.description = read_model_description(str(self.folder))
+        self.binary = next((self.folder / "binaries").glob("*/*"))
+        self.windows, self.wine = self.binary.suffix == ".dll", wine
+        if self.windows:
+            add_remoting(str(self.folder), "linux64", "win64")
+        self.variables = {v.name: v for v in self.description.modelVariables}
+        self.outputs = [v for v in self.description.modelVariables if v.causality == "output"]
+        self.factors = {(kind.name, shown.name): shown.factor for kind in self.description.unitDefinitions
+                        for shown in kind.displayUnits}
+
+    def close(self):
+        if self.server:
+            self.server.terminate()
+            self.server.wait()
+            self.server = None
+
+    def opened(self, logger):
+        """A new instance; under wine with a server of its own, as that ends with the instance."""
+        if self.windows:
+            self.close()
+            self.serve()
+        return instantiate_fmu(str(self.folder), self.description, logger=logger)
+
+    def end(self, fmu):
+        """Frees an instance; under wine with its server, as fmpy's client waits for ever for one it did not start."""
+        if self.windows:
+            self.close()
+        else:
+            fmu.freeInstance()
+
+    def serve(self):
+        """Starts fmpy's server before anything connects: its client waits less long than wine takes to load the library."""
+        deadline = time.monotonic() + PATIENCE
+        while is_listening():
+            self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
+        library = "Z:" + str(self.binary).replace("/", "\\")
+        server = str(self.binary.parent / "server_tcp.exe")
+        self.server = subprocess.Popen([self.wine, server, library], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+        while not is_listening():
+            if self.server.poll() is not None:
+                sys.exit(f"fmpy's server did not start under wine: it ended with {self.server.returncode}")
+            self.wait(deadline, "fmpy's server did not start under wine")
+
+    @staticmethod
+    def wait(deadline, problem):
+        if time.monotonic() > deadline:
+            sys.exit(f"{problem}: given up after {PATIENCE:g} s")
+        time.sleep(PAUSE)
+
+    def start(self, values):
+        """An initialised instance with what it logged."""
+        log = []
+        fmu = self.opened(lambda *message: log.append(message[-1]))
+        for name, value in values.items():
+            self.set(fmu, name, value)
+        try:
+            fmu.setupExperiment(startTime=0.0)
+            fmu.enterInitializationMode()
+            fmu.exitInitializationMode()
+        except Exception as problem:
+            raise RuntimeError(f"{problem}: {log[-3:]}") from problem
+        return fmu
+
+    def set(self, fmu, name, value):
+        variable = self.variables[name]
+        if variable.type == "Enumeration":
+            value = next(int(item.value) for item in variable.declaredType.items if item.name == value)
+            fmu.setInteger([variable.valueReference], [value])
+        elif variable.type == "Real":
+            fmu.setReal([variable.valueReference], [self.si(variable, value)])
+        else:
+            getattr(fmu, "set" + variable.type)([variable.valueReference], [value])
+
+    def si(self, variable, value):
+        if not isinstance(value, str):
+            return float(value)
+        number, unit = value.split()
+        kind = variable.unit or variable.declaredType.unit
+        return float(number) / (1.0 if unit == kind else float(self.factors[kind, unit]))
+
+    def record(self, values, events, tables, duration):
+        """All outputs at all communication points."""
+        step = duration / STEPS
+        fmu = self.start(values)
+        real, rest = ([v.valueReference for v in self.outputs if (v.type == "Real") == wanted] for wanted in (True, False))
+        rows, events = [], sorted(events, key=lambda event: event["time"])
+        for k in range(STEPS + 1):
+            rows.append(fmu.getReal(real) + (fmu.getInteger(rest) if rest else []))
+            now = k * step
+            while events and events[0]["time"] <= now + 1e-9 * step:
+                event = events.pop(0)
+                for name in event.keys() - {"time"}:
+                    self.set(fmu, name, event[name])
+            for table in tables:
+                variable = self.variables[table["input"]]
+                place = now % table["period"] if "period" in table else now
+                points = [self.si(variable, value) for value in table["value"]]
+                fmu.setReal([variable.valueReference], [float(np.interp(place, table["time"], points))])
+            if k < STEPS:
+                fmu.doStep(now, step)
+        self.end(fmu)
+        return np.array(rows, dtype=float)
+
+    def seconds(self, values, duration):
+        """The least time that one step of `duration` takes."""
+        least = np.inf
+        for _ in range(REPEATS):
+            fmu = self.start(values)
+            begin = time.perf_counter()
+            fmu.doStep(0.0, duration)
+            least = min(least, time.perf_counter() - begin)
+            self.end(fmu)
+        return least
+
+    def refuses(self):
+        """What comes back for a wrong value and for one that would panic: statuses, while the library lives on."""
+        fmu = self.opened(lambda *_: None)
+        statuses = []
+        for call in [lambda: fmu.setReal([10**6], [1.0]),
+                     lambda: fmu.doStep(0.0, 1e-3),
+                     lambda: fmu.setReal([self.variables["geometry.module"].valueReference], [float("nan")])
+                     or fmu.setupExperiment() or fmu.enterInitializationMode() or fmu.exitInitializationMode()]:
+            try:
+                call()
+                statuses.append("ok")
+            except Exception as problem:
+                statuses.append(str(getattr(problem, "status", problem)))
+        fmu.reset()
+        self.end(fmu)
+        return statuses
+
+
+def is_listening():
+    """Whether a server waits on the port; a look that does not connect, as the server takes one client."""
+    with open("/proc/net/tcp", encoding="ascii") as sockets:
+        rows = [line.split() for line in sockets][1:]
+    return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)
+
+
+def described(platform):
+    """A row of the table of platforms."""
+    if platform.windows:
+        exported, needed = binaries.of_windows(platform.binary)
+        version = "–"
+    else:
+        exported, needed, glibc = binaries.of_linux(platform.binary)
+        version = ".".join(str(part) for part in glibc)
+    others = [name for name in exported if not name.startswith("fmi2")]
+    size = platform.binary.stat().st_size / 1e6
+    return [platform.name, f"{size:.2f} MB", version, ", ".join(needed), str(len(exported)),
+            ", ".join(others) or "none"]
+
+
+def compared(one, other):
+    """Whether all bits agree, and in words."""
+    if one.shape != other.shape:
+        return False, f"{len(other)} communication points in place of {len(one)}"
+    different = one.view(np.uint64) != other.view(np.uint64)
+    if not different.any():
+        return True, "same"
+    scale = np.maximum(np.abs(one), np.abs(other))
+    apart = np.abs(one - other)[different] / np.where(scale[different] > 0, scale[different], 1.0)
+    first = np.argwhere(different)[0]
+    return False, f"{different.sum()} of {different.size} differ, by {apart.max():.1e} at most, first at point {first[0]}"
+
+
+def table(head, rows, right=()):
+    lines = [head, ["---:" if i in right else "---" for i in range(len(head))], *rows]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def progress(fraction, what):
+    print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
+
+
+def main():
+    folder, wine, *named = sys.argv[1:]
+    platforms = []
+    try:
+        for name, fmu in (pair.split("=", 1) for pair in named):
+            progress(0.0, f"starting {name}")
+            platforms.append(Platform(name, fmu, wine))
+        told, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder))))
+    finally:
+        for platform in platforms:
+            platform.close()
+    print(told, end="", file=sys.stdout if same else sys.stderr)
+    return 0 if same else 1
+
+
+def tables(platforms, scenes):
+    first, *others = platforms
+    told = table(["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
+                 [described(platform) for platform in platforms], right=(1, 2, 4)) + "\n"
+    same, rows, lines = True, [], []
+    for index, (name, values, *rest) in enumerate(scenes):
+        progress(0.9 * index / len(scenes), name)
+        wanted = first.record(values, *rest)
+        row = [name, str(len(wanted)), str(wanted.size)]
+        for platform in others:
+            agrees, words = compared(wanted, platform.record(values, *rest))
+            same &= agrees
+            row.append(words)
+        rows.append(row)
+    told += table(["scene", "points", "values", *(platform.name for platform in others)], rows, right=(1, 2)) + "\n"
+    for index, (name, duration) in enumerate(TIMED.items()):
+        progress(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
+        values = next(scene[1] for scene in scenes if scene[0] == name)
+        seconds = [platform.seconds(values, duration) for platform in platforms]
+        lines.append([name, f"{duration:g} s", f"{1e3 * seconds[0]:.1f} ms",
+                      *(f"{one / seconds[0]:.2f}" for one in seconds[1:])])
+    told += table(["scene", "simulated", first.name, *(f"{platform.name} / that" for platform in others)], lines,
+                  right=range(1, len(platforms) + 2)) + "\n"
+    statuses = {tuple(platform.refuses()) for platform in platforms}
+    same &= len(statuses) == 1
+    words = "; ".join(", ".join(one) for one in statuses)
+    told += (f"A variable that does not exist, a step before initialisation, and a module that is not a number come back as "
+             f"status: {words} ({'alike on all' if len(statuses) == 1 else 'NOT alike'}).\n")
+    return told, same
+
+
+if __name__ == "__main__":
+    sys.exit(main())

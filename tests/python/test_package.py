@@ -1,0 +1,170 @@
+"""What lies in the packaged FMU: libraries that offer FMI and nothing else, a valid description, complete documentation.
+
+The environment variable PLATFORMS names what the archive must hold, as "linux64-glibc-2.17 win64": where the tool chains are
+there, nothing of that may be missing. Without it, whatever is in the archive is held to what its documentation says."""
+
+import os
+import re
+import sys
+import zipfile
+from html.parser import HTMLParser
+from pathlib import Path, PurePosixPath
+
+import fmpy
+import pytest
+from lxml import etree
+
+ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "fmu-build" / "python"))
+
+import binaries  # noqa: E402
+
+# all functions that the standard's header declares for co-simulation, section 2.1 and 4.2
+COMMON = ["GetTypesPlatform", "GetVersion", "SetDebugLogging", "Instantiate", "FreeInstance", "SetupExperiment",
+          "EnterInitializationMode", "ExitInitializationMode", "Terminate", "Reset", "GetReal", "GetInteger", "GetBoolean",
+          "GetString", "SetReal", "SetInteger", "SetBoolean", "SetString", "GetFMUstate", "SetFMUstate", "FreeFMUstate",
+          "SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate", "GetDirectionalDerivative"]
+STEPPING = ["SetRealInputDerivatives", "GetRealOutputDerivatives", "DoStep", "CancelStep", "GetStatus", "GetRealStatus",
+            "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus"]
+DECLARED = {"fmi2" + name for name in COMMON + STEPPING}
+# libraries that belong to Windows itself, besides the families below
+WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32.dll", "bcrypt.dll", "advapi32.dll",
+               "bcryptprimitives.dll"}
+# libraries that belong to glibc, and the unwinder of a plain build
+LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2"}
+MAX_SIZE = 6e6
+DEMANDED = os.environ.get("PLATFORMS", "").split()
+
+
+class Page(HTMLParser):
+    """Links, pictures and text of a page."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.pictures, self.text = [], [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        attributes = dict(attributes)
+        if "href" in attributes:
+            self.links.append(attributes["href"])
+        if "src" in attributes:
+            self.pictures.append(attributes["src"])
+
+    def handle_data(self, data):
+        self.text += data + " "
+
+
+@pytest.fixture(scope="module")
+def archive(fmu_file):
+    with zipfile.ZipFile(fmu_file) as archive:
+        yield archive
+
+
+@pytest.fixture(scope="module")
+def page(archive):
+    return Page(archive.read("documentation/index.html").decode("utf-8"))
+
+
+@pytest.fixture
+def libraries(archive, tmp_path):
+    """Each library of the archive, unpacked, by its platform."""
+    names = [name for name in archive.namelist() if name.startswith("binaries/")]
+    return {PurePosixPath(name).parts[1]: Path(archive.extract(name, tmp_path)) for name in names}
+
+
+def test_nothing_demanded_is_missing(libraries, page):
+    assert libraries
+    for demanded in DEMANDED:
+        platform, *version = demanded.split("-glibc-")
+        assert platform in libraries
+        for glibc in version:
+            assert f"glibc {glibc} or newer" in page.text
+
+
+def test_libraries_export_the_functions_of_fmi_and_nothing_else(libraries):
+    for platform, file in libraries.items():
+        exported = binaries.of_windows(file)[0] if file.suffix == ".dll" else binaries.of_linux(file)[0]
+        assert len(exported) == len(set(exported))
+        assert set(exported) == DECLARED, platform
+
+
+def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page):
+    if "linux64" not in libraries:
+        pytest.skip("the archive holds no library for Linux")
+    _, needed, glibc = binaries.of_linux(libraries["linux64"])
+    promised = re.search(r"glibc (\d+)\.(\d+) or newer", page.text)
+    if promised:
+        assert glibc <= tuple(int(part) for part in promised.groups())
+        assert set(needed) <= LINUX_OWN
+    else:
+        assert "as new as the machine" in page.text
+        assert set(needed) <= LINUX_OWN | {"libgcc_s.so.1"}
+
+
+def test_the_library_for_windows_needs_windows_alone(libraries):
+    if "win64" not in libraries:
+        pytest.skip("the archive holds no library for Windows")
+    _, needed = binaries.of_windows(libraries["win64"])
+    others = {name.lower() for name in needed if not name.lower().startswith(("api-ms-win-", "ext-ms-win-"))}
+    assert others <= WINDOWS_OWN
+
+
+def test_libraries_name_no_folder_of_the_machine_that_built_them(libraries, page):
+    folders = [b".cargo", str(ROOT).encode()]
+    for platform, file in libraries.items():
+        if platform != "linux64" or "as new as the machine" not in page.text:
+            content = file.read_bytes()
+            assert not any(folder in content for folder in folders), platform
+
+
+def test_the_description_is_valid_by_the_standard_s_schema(archive):
+    folder = Path(fmpy.__file__).parent / "schema" / "fmi2"
+    schema = etree.XMLSchema(etree.parse(str(folder / "fmi2ModelDescription.xsd")))
+    description = etree.fromstring(archive.read("modelDescription.xml"))
+    schema.assertValid(description)
+    description.set("fmiVersion", "3.0")
+    assert not schema.validate(description)
+
+
+def test_pictures_and_links_of_the_documentation_lie_in_the_archive(archive, page):
+    names = set(archive.namelist())
+    assert len(page.pictures) >= 3 and len(page.links) >= 10
+    for link in page.pictures + page.links:
+        assert f"documentation/{link}" in names, link
+    for picture in page.pictures:
+        assert archive.read(f"documentation/{picture}").startswith(b"\x89PNG\r\n\x1a\n")
+
+
+def test_every_variable_is_in_the_documentation(page, description):
+    words = set(page.text.split())
+    for variable in description.modelVariables:
+        if variable.causality in ("parameter", "input", "output"):
+            assert variable.name in words
+
+
+def test_licences_of_all_that_is_linked_in_are_there(archive, page):
+    texts = {name: archive.read(name).decode("utf-8") for name in archive.namelist() if "/licenses/" in name}
+    for folder in {PurePosixPath(name).parent for name in texts}:
+        assert max(len(text) for name, text in texts.items() if PurePosixPath(name).parent == folder) > 400, folder
+    assert {f"documentation/{link}" for link in page.links} == set(texts)
+    lock = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
+    own = re.search(r'name = "bevel-differential"\nversion = "[^"]*"\ndependencies = \[\n(.*?)\]', lock, re.DOTALL)
+    crates = set(re.findall(r'^ "([^" ]+)', own[1], re.MULTILINE)) - {"serde_json"}  # for tests alone
+    assert len(crates) >= 6
+    for crate in crates:
+        assert re.search(rf"\b{crate}-\d", page.text), crate
+
+
+def test_the_archive_is_small_and_the_same_whenever_it_is_packed(archive, fmu_file):
+    assert os.path.getsize(fmu_file) < MAX_SIZE
+    names = archive.namelist()
+    assert names[0] == "modelDescription.xml" and len(names) == len(set(names))
+    assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+
+
+def test_the_icon_is_a_square_picture(archive):
+    picture = archive.read("model.png")
+    assert picture.startswith(b"\x89PNG\r\n\x1a\n")
+    width, height = (int.from_bytes(picture[begin:begin + 4], "big") for begin in (16, 20))
+    assert width == height >= 120
