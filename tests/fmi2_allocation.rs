@@ -6,6 +6,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
 use bevel_differential::fmi2::*;
+use bevel_differential::model::STATES;
 use bevel_differential::variables::table;
 use common::{Host, reference};
 
@@ -55,7 +56,9 @@ fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
             // SAFETY: a live component and arrays of the lengths told
             unsafe {
                 ok &= fmi2SetReal(host.c, inputs.as_ptr(), 3, loads.as_ptr()) == Status::Ok;
+                ok &= fmi2SetRealInputDerivatives(host.c, inputs.as_ptr(), 1, &1, &2e4) == Status::Ok;
                 ok &= fmi2DoStep(host.c, t, 1e-3, 1) == Status::Ok;
+                ok &= fmi2GetRealOutputDerivatives(host.c, outputs.as_ptr(), 1, &1, values.as_mut_ptr()) == Status::Ok;
                 ok &= fmi2GetReal(host.c, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) == Status::Ok;
             }
         }
@@ -63,6 +66,30 @@ fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
         assert!(ok && values.iter().all(|v| v.is_finite()), "{:?}", host.log());
         assert_eq!(allocations, 0, "level {level}");
     }
+}
+
+#[test]
+fn a_solver_of_the_hosts_makes_nothing_allocate() {
+    let host = Host::for_exchange();
+    host.start_exchange();
+    let (mut states, mut rates) = ([0.0; STATES], [0.0; STATES]);
+    let (mut indicators, mut event, mut end) = ([0.0; EVENT_INDICATORS], 0, 0);
+    let before = ALLOCATIONS.get();
+    let mut ok = true;
+    for i in 1..50 {
+        // SAFETY: a live component and arrays of the lengths told
+        unsafe {
+            ok &= fmi2GetContinuousStates(host.c, states.as_mut_ptr(), STATES) == Status::Ok;
+            ok &= fmi2GetDerivatives(host.c, rates.as_mut_ptr(), STATES) == Status::Ok;
+            states.iter_mut().zip(&rates).for_each(|(x, rate)| *x += 1e-8 * rate);
+            ok &= fmi2SetTime(host.c, 1e-8 * f64::from(i)) == Status::Ok;
+            ok &= fmi2SetContinuousStates(host.c, states.as_ptr(), STATES) == Status::Ok;
+            ok &= fmi2GetEventIndicators(host.c, indicators.as_mut_ptr(), EVENT_INDICATORS) == Status::Ok;
+            ok &= fmi2CompletedIntegratorStep(host.c, 1, &mut event, &mut end) == Status::Ok;
+        }
+    }
+    assert!(ok, "{:?}", host.log());
+    assert_eq!(ALLOCATIONS.get() - before, 0);
 }
 
 #[test]
