@@ -20,6 +20,7 @@ from library import Library, Run, declare  # noqa: E402
 
 GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0
 WHEEL_INERTIA, RADIUS, LOAD, SLIP_STIFFNESS, SHAPE, RELAXATION = 1.0, 0.334, 3568.0, 70000.0, 1.4, 0.4
+TYRE_DAMPING, WALK = 1000.0, 2.5
 MASS, DRAG, ROLLING, BREAKAWAY, GRAVITY = 1455.0, 0.4, 0.012, 0.2, 9.81
 STIFFNESS = [DIFFERENTIAL[f"half_shaft.{side}_stiffness"] for side in ("left", "right")]
 DAMPING = [DIFFERENTIAL[f"half_shaft.{side}_damping"] for side in ("left", "right")]
@@ -37,8 +38,9 @@ def engine_rate(t, torque, speed):
     return (asked / sqrt(1.0 + (speed / 300.0) ** 2) - torque) / 0.03
 
 
-def tyre(side, slip):
+def tyre(side, speed, slip, v):
     peak = FRICTION[side] * LOAD
+    slip += TYRE_DAMPING / (1.0 + (v / WALK) ** 2) / SLIP_STIFFNESS * (RADIUS * speed - v)
     return peak * sin(SHAPE * atan(SLIP_STIFFNESS / (SHAPE * peak) * slip))
 
 
@@ -136,7 +138,7 @@ class Whole:
         gears, wheels, slips, v = x[8:], x[3:5], x[5:7], x[7]
         prop, twist_rate = self.prop_shaft(x)
         torques = self.differential.torques(gears, wheels)
-        forces = [tyre("left", slips[0]), tyre("right", slips[1])]
+        forces = [tyre("left", wheels[0], slips[0], v), tyre("right", wheels[1], slips[1], v)]
         resistance = DRAG * v * abs(v) + ROLLING * MASS * GRAVITY * tanh(v / BREAKAWAY)
         return np.concatenate((
             [engine_rate(t, x[0], x[1]), (x[0] - prop / GEAR) / ENGINE_INERTIA, twist_rate],
@@ -154,7 +156,8 @@ class Whole:
                 ("differential", "carrier.speed"): self.differential.carrier_speed(x[8:]),
                 ("differential", "left.shaft_torque"): torques[0], ("differential", "right.shaft_torque"): torques[1],
                 ("left_wheel", "speed"): wheels[0], ("right_wheel", "speed"): wheels[1],
-                ("left_wheel", "force"): tyre("left", x[5]), ("right_wheel", "force"): tyre("right", x[6]),
+                ("left_wheel", "force"): tyre("left", x[3], x[5], x[7]),
+                ("right_wheel", "force"): tyre("right", x[4], x[6], x[7]),
                 ("vehicle", "speed"): x[7]}
 
     def solution(self, times, method, tolerance):

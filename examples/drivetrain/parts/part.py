@@ -8,7 +8,7 @@ short that its own error does not show beside that of the coupling, and its stat
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
 
 # longest step of the part's own integration, classical Runge-Kutta of order 4 [s]
-LONGEST = 2e-5
+LONGEST = 5e-5
 
 
 class Part(Fmi2Slave):

@@ -15,20 +15,24 @@ class Wheel(Part):
         "slip_stiffness": (70000.0, "Slope of the force by slip at no slip, N"),
         "shape": (1.4, "C of the magic formula"),
         "relaxation": (0.4, "Relaxation length, m"),
+        "damping": (1000.0, "Damping of the tyre along the road at standstill, N.s/m"),
+        "walk": (2.5, "Speed of the vehicle at which half of that damping is left, m/s"),
     }
     states = ("speed", "slip")
     inputs = (("shaft_torque", "Torque of the half-shaft, N.m"), ("vehicle_speed", "Speed of the vehicle, m/s"))
     outputs = (("speed", "Speed of the wheel, rad/s"), ("force", "Force of the road on the tyre, N"),
                ("slip", "Slip of the tyre as it has built up"))
 
-    def force(self, slip):
+    def force(self, x, v):
         peak = self.friction * self.load
+        damping = self.damping / (1.0 + (v / self.walk) ** 2)
+        slip = x[1] + damping / self.slip_stiffness * (self.radius * x[0] - v)
         return peak * sin(self.shape * atan(self.slip_stiffness / (self.shape * peak) * slip))
 
     def rates(self, t, x, u):
-        speed, slip = x
-        return [(u[0] - self.radius * self.force(slip)) / self.inertia,
-                (self.radius * speed - u[1] - abs(u[1]) * slip) / self.relaxation]
+        torque, v = u
+        return [(torque - self.radius * self.force(x, v)) / self.inertia,
+                (self.radius * x[0] - v - abs(v) * x[1]) / self.relaxation]
 
     def told(self, x, u):
-        return {"speed": x[0], "force": self.force(x[1]), "slip": x[1]}
+        return {"speed": x[0], "force": self.force(x, u[1]), "slip": x[1]}
