@@ -1,7 +1,6 @@
 """The same archive in hosts written by others, each stepping all parts at once with held inputs."""
 
 import zipfile
-from importlib.util import find_spec
 
 import numpy as np
 from fmpy import read_model_description
@@ -46,22 +45,6 @@ def libcosim(ssp, signals, size, times):
     return np.array(rows)
 
 
-def ecos(ssp, signals, size, times):
-    """NTNU's ecos."""
-    from ecospy import EcosSimulation
-
-    rows = []
-    with EcosSimulation(ssp_path=str(ssp), step_size=size) as simulation:
-        simulation.init(parameter_set="initialValues")
-        done = 0
-        for time in times:
-            count = round(time / size)
-            simulation.step(count - done)
-            done = count
-            rows.append([simulation.get_real(f"{part}::{output}") for part, output in signals])
-    return np.array(rows)
-
-
 def reference(ssp, part, output):
     """Value reference of a part's output."""
     component = next(each for each in read_ssd(ssp).system.elements if each.name == part)
@@ -70,14 +53,4 @@ def reference(ssp, part, output):
     return next(variable.valueReference for variable in variables if variable.name == output)
 
 
-def all_hosts():
-    """Hosts by name; ecos only where it is installed and its library loads."""
-    hosts = {"FMPy": fmpy, "libcosim": libcosim}
-    if find_spec("ecospy"):
-        try:
-            import ecospy  # noqa: F401
-
-            hosts["ecos"] = ecos
-        except OSError:
-            pass
-    return hosts
+HOSTS = {"FMPy": fmpy, "libcosim": libcosim}

@@ -29,6 +29,11 @@ DIFFERENTIAL = {
     "solver.relative_tolerance": 1e-10,
 }
 
+# inputs before anything is exchanged: the differential's own start values are those of a car at 60 km/h, and a host may
+# connect inputs after initialisation only
+AT_REST = {name: 0.0 for name in ("carrier.speed_command", "carrier.torque_command", "left.speed_command",
+                                  "right.speed_command")}
+
 # parts and the class that makes each; in the order of the flow of power, in which Gauss-Seidel goes through them
 PARTS = {"engine": "Engine", "final_drive": "FinalDrive", "differential": "BevelDifferential", "left_wheel": "Wheel",
          "right_wheel": "Wheel", "vehicle": "Vehicle"}
@@ -52,7 +57,7 @@ CONNECTIONS = {
 
 def settings(contact):
     """Parameters that differ from the parts' start values: (part, variable) → value."""
-    values = {("differential", name): value for name, value in DIFFERENTIAL.items()}
+    values = {("differential", name): value for name, value in (DIFFERENTIAL | AT_REST).items()}
     values["differential", "scene.gear_contact"] = CONTACT[contact]
     for side, friction in FRICTION.items():
         values[f"{side}_wheel", "friction"] = friction

@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from parameters import CONTACT, DIFFERENTIAL, FRICTION
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "benches" / "foreign"))
+sys.path.append(str(Path(__file__).parents[2] / "benches" / "foreign"))
 from library import Library, Run, declare  # noqa: E402
 
 GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0

@@ -117,9 +117,9 @@ def growth(system, master, size):
     return np.max(np.abs(np.linalg.eigvals(np.array(columns).T)))
 
 
-def limit(system, master, low=1e-5, high=2e-2):
+def limit(system, master, low=1e-4, high=1e-2):
     """Longest communication step [s] below which nothing grows (or every repetition converges)."""
-    sizes = np.geomspace(low, high, 60)
+    sizes = np.geomspace(low, high, 40)
     grows = [growth(system, master, size) > 1.0 + 1e-9 for size in sizes]
     if not any(grows):
         return np.inf

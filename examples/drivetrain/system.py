@@ -33,7 +33,7 @@ def make_parts(differential, folder):
 def with_integers(fmu, copy):
     """A copy of an FMU whose description calls enumerations integers, which is what they are in FMI's calls.
 
-    libcosim and ecos set no enumerations ("FMI 2.0 Enumeration variable type not supported"), and the differential's
+    libcosim sets no enumerations ("FMI 2.0 Enumeration variable type not supported"), and the differential's
     scene is made of them. The library inside is the same, and so are value references and GUID.
     """
     with zipfile.ZipFile(fmu) as source, zipfile.ZipFile(copy, "w", zipfile.ZIP_DEFLATED) as target:

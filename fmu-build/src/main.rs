@@ -13,7 +13,7 @@ use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, real_time, study};
+use fmu_build::{describe, drivetrain, foreign, off, package, peers, places, real_time, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -57,6 +57,9 @@ usage: cargo run --release [-- COMMAND]
                          own (a few minutes); --quick: a few rows, once; --write: also renew docs/compare.md
   foreign [--quick] [--write]  run scipy's LSODA and Radau and CVODE on the same equations beside this program's method
                          (many minutes); --quick: two cases, once; --write: also renew docs/foreign-solvers.md
+  drivetrain [--quick] [--write]  couple a whole drivetrain from FMUs in two hosts and compare it with all its equations at
+                         once, error by communication step (many minutes); --quick: ideal gears, in a minute and a
+                         half; --write: also renew docs/coupling.md
   real-time [--write]    count the instructions of every communication step of the fixed-step method; fails if one costs
                          more than twice the median (needs valgrind); --write: also renew the table in docs/cost.md
   help                   show this";
@@ -76,6 +79,7 @@ enum Job {
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
     Foreign { quick: bool, write: bool },
+    Drivetrain { quick: bool, write: bool },
     RealTime { write: bool },
     Help,
 }
@@ -112,6 +116,8 @@ fn parse() -> Result<Job> {
             (Long("write"), Some(Job::Off { write, .. } | Job::Peers { write, .. } | Job::Foreign { write, .. })) => {
                 *write = true
             }
+            (Long("quick"), Some(Job::Drivetrain { quick, .. })) => *quick = true,
+            (Long("write"), Some(Job::Drivetrain { write, .. })) => *write = true,
             (Long("write"), Some(Job::RealTime { write })) => *write = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
@@ -176,6 +182,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "off" => Job::Off { quick: false, write: false },
         "peers" => Job::Peers { quick: false, write: false },
         "foreign" => Job::Foreign { quick: false, write: false },
+        "drivetrain" => Job::Drivetrain { quick: false, write: false },
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -188,6 +195,7 @@ fn run(job: Job) -> Result<()> {
         Job::Off { quick, write } => off::run(quick, write)?,
         Job::Peers { quick, write } => peers::run(quick, write)?,
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
+        Job::Drivetrain { quick, write } => drivetrain::run(quick, write)?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package => {

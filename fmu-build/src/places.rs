@@ -40,6 +40,11 @@ pub fn foreign() -> PathBuf {
     workspace().join("benches").join("foreign")
 }
 
+/// The drivetrain coupled from FMUs.
+pub fn drivetrain() -> PathBuf {
+    workspace().join("examples").join("drivetrain")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

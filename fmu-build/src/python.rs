@@ -45,6 +45,13 @@ impl Environment {
         Self { folder: places::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(tell)
     }
 
+    /// The environment with what makes the other parts of a drivetrain, and with the hosts that couple them.
+    pub fn for_drivetrain(tell: impl Fn(&str)) -> Result<Self> {
+        let requirements = places::drivetrain().join("requirements.txt");
+        let folder = places::target().join("drivetrain").join("venv");
+        Self { folder, requirements, holds: "pythonfmu, fmpy, libcosim" }.made(tell)
+    }
+
     /// Itself, made if it does not exist yet or has other requirements.
     fn made(self, tell: impl Fn(&str)) -> Result<Self> {
         let wanted = fs::read_to_string(&self.requirements)

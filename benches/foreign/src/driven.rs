@@ -31,13 +31,7 @@ fn case(values: &str) -> Result<Case, String> {
 
 /// Nothing drives and nothing turns.
 fn still() -> Inputs {
-    Inputs {
-        carrier_speed: 0.0,
-        carrier_torque: 0.0,
-        load_torque: [0.0; 2],
-        side_speed: [0.0; 2],
-        ..Inputs::default()
-    }
+    Inputs { carrier_speed: 0.0, carrier_torque: 0.0, load_torque: [0.0; 2], side_speed: [0.0; 2], ..Inputs::default() }
 }
 
 /// Makes a run of the parameters in `values`, without inputs; null, with the reason in `problem`, if there is none such.
