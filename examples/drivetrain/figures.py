@@ -88,15 +88,23 @@ def signals(file):
 
 
 def arrow(axis, source, to, output):
-    a, b = BOXES[source], BOXES[to]
-    forward, speed = a[0] < b[0], "speed" in output
-    shift = 0.2 if forward else -0.2
-    start = (a[0] + (WIDTH if forward else 0.0), a[1] + HEIGHT / 2 + shift)
-    end = (b[0] + (0.0 if forward else WIDTH), b[1] + HEIGHT / 2 + shift)
+    forward, speed = BOXES[source][0] < BOXES[to][0], "speed" in output
+    start, end = port(source, to, forward), port(to, source, forward)
+    colour = "tab:green" if speed else "tab:red"
     axis.annotate("", xy=end, xytext=start, arrowprops={"arrowstyle": "-|>", "linestyle": "--" if speed else "-",
-                                                        "color": "tab:green" if speed else "tab:red"})
-    middle = ((start[0] + end[0]) / 2, (start[1] + end[1]) / 2)
-    label = output.split(".")[-1].replace("_", " ")
-    axis.text(middle[0], middle[1] + (0.06 if forward else -0.06), label, fontsize=7, ha="center",
-              va="bottom" if forward else "top", color="tab:green" if speed else "tab:red",
-              bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
+                                                        "color": colour})
+    label = f"{source.split('_')[-1]} speed" if output == "speed" else output
+    label = label.removeprefix("left.").removeprefix("right.").replace("_", " ").replace(".", " ")
+    level = start[1] == end[1]
+    axis.text((start[0] + end[0]) / 2, (start[1] + end[1]) / 2 + (0.0 if not level else 0.06 if forward else -0.06), label,
+              fontsize=7, ha="center", va="center" if not level else "bottom" if forward else "top", color=colour,
+              bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.9})
+
+
+def port(box, other, forward):
+    """Where an arrow between two boxes meets `box`: what goes forward lies above what comes back."""
+    (x, y, _), (_, y_other, _) = BOXES[box], BOXES[other]
+    # boxes that have two neighbours on one edge keep a half for each
+    half = 0.0 if y == y_other else (0.19 if y_other > y else -0.19) if box in ("differential", "vehicle") else 0.0
+    apart = 0.1 if half else 0.2
+    return x + (WIDTH if BOXES[box][0] < BOXES[other][0] else 0.0), y + HEIGHT / 2 + half + (apart if forward else -apart)
