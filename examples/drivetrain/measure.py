@@ -1,4 +1,4 @@
-"""What is measured on the coupled drivetrain, and what theory says it must be."""
+"""What is measured on the coupled drivetrain."""
 
 import csv
 import sys
@@ -13,7 +13,7 @@ import masters
 import stability
 from hosts import HOSTS
 from parameters import END, STEP
-from reference import Library, Teeth, reference
+from reference import Teeth, reference
 from slaves import System
 
 # distance of the points at which errors are taken [s]: a multiple of all communication steps
@@ -22,10 +22,6 @@ STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5)
 # shortest communication step of masters that repeat their steps [s]
 SHORTEST_REPEATED = 1e-4
 QUICK_STEPS, QUICK_END = (5e-4, 2.5e-4, 1.25e-4), 0.2
-# how much two runs of the same method may differ: rounding, through a stiff solver at 1e-10
-SAME = 1e-8
-# how far a method's order may be from theory's
-BAND = 0.25
 # parts of a predicted limit at which a disturbance must decay and grow
 INSIDE, OUTSIDE = 0.85, 1.15
 # a short push of the engine, too weak for any tyre to slide
@@ -184,50 +180,3 @@ def mesh(library):
     # accelerations by positions alone: as if nothing damped
     springs = jacobian[teeth.n:, :teeth.n]
     return {"fastest": np.max(np.abs(poles)), "swing": np.sqrt(np.max(np.abs(np.linalg.eigvals(springs)))), "load": load}
-
-
-def wrong(found):
-    """All that is not as it must be."""
-    problems = []
-    for contact, rows in found["hosts"].items():
-        problems += [f"{contact}: {name} differs from FMPy by {value:.1e}, more than {SAME:g}"
-                     for name, value in rows.items() if not value < SAME]
-    for contact, right in found["references"].items():
-        if not right.doubt < 1e-6:
-            problems.append(f"{contact}: {' and '.join(right.methods)} differ by {right.doubt:.1e} on the reference")
-    limits = found["limits"]
-    for name, master in masters.ALL.items():
-        row = limits[name]
-        if not master.states and not row["inside"] < 1.0 < row["outside"]:
-            problems.append(f"{name}: a disturbance grows by {row['inside']:.2g} inside the predicted limit of "
-                            f"{row['predicted']:.2e} s and by {row['outside']:.2g} outside")
-        for contact in found["references"]:
-            rows = [row for row in found["errors"] if (row["contact"], row["master"]) == (contact, name)]
-            problems += errors_wrong(contact, master, rows, limits)
-    return problems
-
-
-def errors_wrong(contact, master, rows, limits):
-    """A held input is late by a step at most, so errors stay below frequency times step; and orders are theory's."""
-    problems, good = [], [row for row in rows if row["state"] == "ok"]
-    for row in good:
-        bound = limits["frequency"] * row["step"]
-        if row["step"] < INSIDE * limits[row["master"]]["predicted"] and not row["largest"] < bound:
-            problems.append(f"{contact}, {row['master']}, {row['step']:g} s: error {row['largest']:.1e}, above {bound:.1e}")
-    low, high = expected(master, limits["interpolates"])
-    if len(good) < 2 or not low < observed(good) < high:
-        told = f"{observed(good):.2f}" if len(good) > 1 else "unknown"
-        problems.append(f"{contact}, {master.label}: order {told}, expected {low} to {high}")
-    return problems
-
-
-def expected(master, interpolates):
-    """Band of the order: masters that draw lines have 2 if all parts follow them, and something between where one does
-    not."""
-    return (1.0 if master.order == 2 and not interpolates else master.order) - BAND, master.order + BAND
-
-
-def observed(rows):
-    """Order between the two shortest steps."""
-    coarse, fine = sorted((row for row in rows if row["state"] == "ok"), key=lambda row: -row["step"])[-2:]
-    return np.log(coarse["largest"] / fine["largest"]) / np.log(coarse["step"] / fine["step"])

@@ -1,7 +1,8 @@
 """What was measured, as Markdown."""
 
+from checks import expected, observed
 from masters import ALL
-from measure import QUANTITIES, expected, observed
+from measure import QUANTITIES
 from parameters import STEP
 
 
@@ -14,14 +15,11 @@ def markdown(found):
     return "\n".join(parts)
 
 
-def rows_of(head, rows, numbers=True):
-    align = ["---" if i == 0 or not numbers else "---:" for i in range(len(head))]
-    lines = [head, align, *rows]
-    if numbers:
-        width = [max(len(line[i]) for line in (head, *rows)) for i in range(len(head))]
-        lines = [head, ["-" * (width[0])] + ["-" * (w - 1) + ":" for w in width[1:]], *rows]
-        lines = [[cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, width))]
-                 for line in lines]
+def rows_of(head, rows):
+    """A table, its first column to the left and numbers to the right."""
+    width = [max(len(line[i]) for line in (head, *rows)) for i in range(len(head))]
+    lines = [head, ["-" * (width[0])] + ["-" * (w - 1) + ":" for w in width[1:]], *rows]
+    lines = [[cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, width))] for line in lines]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import checks  # noqa: E402
 import figures  # noqa: E402
 import measure  # noqa: E402
 import report  # noqa: E402
@@ -53,7 +54,7 @@ def everything(fmu, library_path, folder, quick):
         figures.launch(folder / "drivetrain_launch.png", references["tooth"].dense, measure.coupled(fmus, "tooth"))
         figures.errors(folder / "drivetrain_errors.png", errors, limits)
         figures.signals(folder / "drivetrain_signals.png")
-    return report.markdown(found), measure.wrong(found)
+    return report.markdown(found), checks.wrong(found)
 
 
 if __name__ == "__main__":
