@@ -49,7 +49,7 @@ def errors_wrong(contact, master, rows, limits):
 
 
 def expected(master, interpolates):
-    """Band of the order: masters that draw lines have 2 if all parts follow them, and something between where one does
+    """Band of the order: masters that draw lines have 2 if all parts follow them, and between 1 and 2 where one does
     not."""
     return (1.0 if master.order == 2 and not interpolates else master.order) - BAND, master.order + BAND
 
