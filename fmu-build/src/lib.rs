@@ -7,6 +7,7 @@ pub mod comparison;
 pub mod cost;
 pub mod describe;
 pub mod documentation;
+pub mod drivetrain;
 pub mod effects;
 pub mod evaluation;
 pub mod foreign;

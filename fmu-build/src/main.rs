@@ -14,7 +14,9 @@ use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, plain_types, platforms, real_time, study, toolchains};
+use fmu_build::{
+    describe, drivetrain, foreign, off, package, peers, places, plain_types, platforms, real_time, study, toolchains,
+};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -70,6 +72,9 @@ usage: cargo run --release [-- COMMAND]
                          run the FMU in other FMI hosts, all of them on the same scenes, and compare their answers with
                          fmpy's; --require: a host that cannot be loaded is an error; --with-fmi-sim: also hosts in Rust,
                          fmi-sim, fmi-rs and fmu-runner (builds for many minutes); --write: also renew docs/hosts.md
+  drivetrain [--quick] [--write]  couple a whole drivetrain from FMUs in two hosts and compare it with all its equations at
+                         once, error by communication step (many minutes); --quick: ideal gears, in a minute and a
+                         half; --write: also renew docs/coupling.md
   real-time [--write]    count the instructions of every communication step of the fixed-step method; fails if one costs
                          more than twice the median (needs valgrind); --write: also renew the table in docs/cost.md
   help                   show this";
@@ -91,6 +96,7 @@ enum Job {
     Off { quick: bool, write: bool },
     Peers { quick: bool, write: bool },
     Foreign { quick: bool, write: bool },
+    Drivetrain { quick: bool, write: bool },
     RealTime { write: bool },
     Hosts(Hosts),
     Help,
@@ -128,6 +134,8 @@ fn parse() -> Result<Job> {
             (Long("write"), Some(Job::Off { write, .. } | Job::Peers { write, .. } | Job::Foreign { write, .. })) => {
                 *write = true
             }
+            (Long("quick"), Some(Job::Drivetrain { quick, .. })) => *quick = true,
+            (Long("write"), Some(Job::Drivetrain { write, .. })) => *write = true,
             (Long("write"), Some(Job::RealTime { write })) => *write = true,
             (Long("integers"), Some(Job::Package { integers })) => *integers = true,
             (Long("require"), Some(Job::Hosts(hosts))) => hosts.require = true,
@@ -201,6 +209,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "peers" => Job::Peers { quick: false, write: false },
         "foreign" => Job::Foreign { quick: false, write: false },
         "hosts" => Job::Hosts(Hosts::default()),
+        "drivetrain" => Job::Drivetrain { quick: false, write: false },
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -214,6 +223,7 @@ fn run(job: Job) -> Result<()> {
         Job::Peers { quick, write } => peers::run(quick, write)?,
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
         Job::Hosts(hosts) => hosts.run()?,
+        Job::Drivetrain { quick, write } => drivetrain::run(quick, write)?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {

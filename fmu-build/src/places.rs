@@ -50,6 +50,11 @@ pub fn hosts() -> PathBuf {
     workspace().join("tests").join("hosts")
 }
 
+/// The drivetrain coupled from FMUs.
+pub fn drivetrain() -> PathBuf {
+    workspace().join("examples").join("drivetrain")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

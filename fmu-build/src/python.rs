@@ -81,6 +81,13 @@ impl Environment {
         Ok(PathBuf::from(String::from_utf8_lossy(&told.stdout).trim()))
     }
 
+    /// The environment with what makes the other parts of a drivetrain, and with the hosts that couple them.
+    pub fn for_drivetrain(tell: impl Fn(&str)) -> Result<Self> {
+        let requirements = places::drivetrain().join("requirements.txt");
+        let folder = places::target().join("drivetrain").join("venv");
+        Self { folder, requirements, holds: "pythonfmu, fmpy, libcosim" }.made(tell)
+    }
+
     /// Itself, made if it does not exist yet or has other requirements.
     fn made(self, tell: impl Fn(&str)) -> Result<Self> {
         let stamp = self.wanted_stamp()?;

@@ -2,7 +2,7 @@
 //! but compiled code in their loops: plain right-hand side, CVODE's callbacks, and this program's own methods beside.
 //!
 //! Solvers see u = y / magnitude with y = (q, v), so that one absolute tolerance means the same for every component.
-//! A run is autonomous and switches nothing, as none of the cases has dry friction.
+//! A run switches nothing, as none of the cases has dry friction. It is autonomous, but for those driven from outside.
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -10,6 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use bevel_differential::model::Simulation;
 
 mod cases;
+mod driven;
 
 /// Largest number of positions and velocities of the cases.
 const MOST: usize = 16;
@@ -112,22 +113,27 @@ pub unsafe extern "C" fn foreign_new(
         cases::case(&case, &level, &method, tolerance)
     });
     match made.unwrap_or_else(|_| Err("panicked".to_owned())) {
-        Ok(case) => Box::into_raw(Box::new(Run {
-            start: case.start,
-            magnitudes: case.magnitudes,
-            reached: Vec::new(),
-            entries: None,
-            data: None,
-            calls: 0,
-            jacobians: 0,
-            message: String::new(),
-        })),
+        Ok(case) => boxed(case),
         Err(text) => {
             // SAFETY: as promised by the caller
             unsafe { write(&text, problem, room) };
             std::ptr::null_mut()
         }
     }
+}
+
+/// A case on the heap, for the caller to hold.
+fn boxed(case: cases::Case) -> *mut Run {
+    Box::into_raw(Box::new(Run {
+        start: case.start,
+        magnitudes: case.magnitudes,
+        reached: Vec::new(),
+        entries: None,
+        data: None,
+        calls: 0,
+        jacobians: 0,
+        message: String::new(),
+    }))
 }
 
 /// # Safety

@@ -1,0 +1,60 @@
+"""What theory says about what was measured; none of these numbers comes from a run."""
+
+import numpy as np
+
+import masters
+from measure import INSIDE
+
+# how much two runs of the same method may differ: rounding, through a stiff solver at 1e-10
+SAME = 1e-8
+# how far a method's order may be from theory's
+BAND = 0.25
+# how far two methods of scipy may be from each other on the reference
+DOUBT = 1e-6
+
+
+def wrong(found):
+    """All that is not as it must be."""
+    problems = []
+    for contact, rows in found["hosts"].items():
+        problems += [f"{contact}: {name} differs from FMPy by {value:.1e}, more than {SAME:g}"
+                     for name, value in rows.items() if not value < SAME]
+    for contact, right in found["references"].items():
+        if not right.doubt < DOUBT:
+            problems.append(f"{contact}: {' and '.join(right.methods)} differ by {right.doubt:.1e} on the reference")
+    limits = found["limits"]
+    for name, master in masters.ALL.items():
+        row = limits[name]
+        if not master.states and not row["inside"] < 1.0 < row["outside"]:
+            problems.append(f"{name}: a disturbance grows by {row['inside']:.2g} inside the predicted limit of "
+                            f"{row['predicted']:.2e} s and by {row['outside']:.2g} outside")
+        for contact in found["references"]:
+            rows = [row for row in found["errors"] if (row["contact"], row["master"]) == (contact, name)]
+            problems += errors_wrong(contact, master, rows, limits)
+    return problems
+
+
+def errors_wrong(contact, master, rows, limits):
+    """A held input is late by a step at most, so errors stay below frequency times step; and orders are theory's."""
+    problems, good = [], [row for row in rows if row["state"] == "ok"]
+    for row in good:
+        bound = limits["frequency"] * row["step"]
+        if row["step"] < INSIDE * limits[row["master"]]["predicted"] and not row["largest"] < bound:
+            problems.append(f"{contact}, {row['master']}, {row['step']:g} s: error {row['largest']:.1e}, above {bound:.1e}")
+    low, high = expected(master, limits["interpolates"])
+    if len(good) < 2 or not low < observed(good) < high:
+        told = f"{observed(good):.2f}" if len(good) > 1 else "unknown"
+        problems.append(f"{contact}, {master.label}: order {told}, expected {low} to {high}")
+    return problems
+
+
+def expected(master, interpolates):
+    """Band of the order: masters that draw lines have 2 if all parts follow them, and between 1 and 2 where one does
+    not."""
+    return (1.0 if master.order == 2 and not interpolates else master.order) - BAND, master.order + BAND
+
+
+def observed(rows):
+    """Order between the two shortest steps."""
+    coarse, fine = sorted((row for row in rows if row["state"] == "ok"), key=lambda row: -row["step"])[-2:]
+    return np.log(coarse["largest"] / fine["largest"]) / np.log(coarse["step"] / fine["step"])

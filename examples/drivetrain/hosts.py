@@ -1,0 +1,56 @@
+"""The same archive in hosts written by others, each stepping all parts at once with held inputs."""
+
+import zipfile
+
+import numpy as np
+from fmpy import read_model_description
+from fmpy.ssp.simulation import simulate_ssp
+from fmpy.ssp.ssd import ParameterSet, read_ssd
+
+NANO = 1_000_000_000
+
+
+def fmpy(ssp, signals, size, times):
+    """FMPy's SSP simulator. It takes one set of parameters for the whole system: those bound to the components."""
+    parameters = []
+    for component in read_ssd(ssp).system.elements:
+        for binding in component.parameterBindings:
+            for values in binding.parameterValues:
+                for parameter in values.parameters:
+                    parameter.name = f"{component.name}.{parameter.name}"
+                    parameters.append(parameter)
+    rows = simulate_ssp(str(ssp), stop_time=times[-1], step_size=size, parameter_set=ParameterSet(parameters=parameters))
+    # a row is told with the time its step began at
+    at = [round(time / size) - 1 for time in times]
+    return np.array([[rows[f"{part}.{output}"][k] for part, output in signals] for k in at])
+
+
+def libcosim(ssp, signals, size, times):
+    """The Open Simulation Platform's libcosim."""
+    from libcosimpy.CosimExecution import CosimExecution
+    from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
+    from libcosimpy.CosimObserver import CosimObserver
+
+    log_output_level(CosimLogLevel.ERROR)
+    execution = CosimExecution.from_ssp_file(str(ssp), round(size * NANO))
+    observer = CosimObserver.create_last_value()
+    execution.add_observer(observer)
+    index = {part.name.decode(): part.index for part in execution.slave_infos()}
+    places = [(index[part], reference(ssp, part, output)) for part, output in signals]
+    rows = []
+    for time in times:
+        if not execution.simulate_until(round(time * NANO)):
+            raise RuntimeError(f"libcosim does not come to {time} s")
+        rows.append([observer.last_real_values(part, [output])[0] for part, output in places])
+    return np.array(rows)
+
+
+def reference(ssp, part, output):
+    """Value reference of a part's output."""
+    component = next(each for each in read_ssd(ssp).system.elements if each.name == part)
+    with zipfile.ZipFile(ssp) as archive, archive.open(component.source) as fmu:
+        variables = read_model_description(fmu).modelVariables
+    return next(variable.valueReference for variable in variables if variable.name == output)
+
+
+HOSTS = {"FMPy": fmpy, "libcosim": libcosim}

@@ -1,0 +1,64 @@
+"""The drivetrain's numbers that are set from outside, one place for the system and for its reference. SI units."""
+
+# end of the launch [s]
+END = 0.6
+# communication step that the SSP names [s]
+STEP = 2e-4
+
+# ice on the left, dry road on the right
+FRICTION = {"left": 0.15, "right": 0.9}
+
+# literals of the differential's enumerations, by number as in its model description
+SPEED_DRIVEN = TORQUE_DRIVEN = 2
+REST = 3
+CONTACT = {"ideal": 1, "tooth": 3}
+
+# the half-shafts are the differential's: soft ends that take the speed of a wheel and give it a torque
+DIFFERENTIAL = {
+    "scene.carrier_drive": TORQUE_DRIVEN,
+    "scene.left_drive": SPEED_DRIVEN,
+    "scene.right_drive": SPEED_DRIVEN,
+    "scene.start": REST,
+    # with the ring gear, and the pinion and its shaft by the square of the ratio
+    "inertia.carrier": 0.28,
+    "half_shaft.left_stiffness": 9000.0,
+    "half_shaft.right_stiffness": 12000.0,
+    "half_shaft.left_damping": 12.0,
+    "half_shaft.right_damping": 12.0,
+    # so close that the differential's own error stays below that of the coupling
+    "solver.relative_tolerance": 1e-10,
+}
+
+# inputs before anything is exchanged: the differential's own start values are those of a car at 60 km/h, and a host may
+# connect inputs after initialisation only
+AT_REST = {name: 0.0 for name in ("carrier.speed_command", "carrier.torque_command", "left.speed_command",
+                                  "right.speed_command")}
+
+# parts and the class that makes each; in the order of the flow of power, in which Gauss-Seidel goes through them
+PARTS = {"engine": "Engine", "final_drive": "FinalDrive", "differential": "BevelDifferential", "left_wheel": "Wheel",
+         "right_wheel": "Wheel", "vehicle": "Vehicle"}
+
+# what feeds each input
+CONNECTIONS = {
+    ("engine", "speed"): ("final_drive", "engine_speed"),
+    ("final_drive", "engine_torque"): ("engine", "torque"),
+    ("final_drive", "carrier_speed"): ("differential", "carrier.speed"),
+    ("differential", "carrier.torque_command"): ("final_drive", "carrier_torque"),
+    ("differential", "left.speed_command"): ("left_wheel", "speed"),
+    ("differential", "right.speed_command"): ("right_wheel", "speed"),
+    ("left_wheel", "shaft_torque"): ("differential", "left.shaft_torque"),
+    ("right_wheel", "shaft_torque"): ("differential", "right.shaft_torque"),
+    ("left_wheel", "vehicle_speed"): ("vehicle", "speed"),
+    ("right_wheel", "vehicle_speed"): ("vehicle", "speed"),
+    ("vehicle", "left_force"): ("left_wheel", "force"),
+    ("vehicle", "right_force"): ("right_wheel", "force"),
+}
+
+
+def settings(contact):
+    """Parameters that differ from the parts' start values: (part, variable) → value."""
+    values = {("differential", name): value for name, value in (DIFFERENTIAL | AT_REST).items()}
+    values["differential", "scene.gear_contact"] = CONTACT[contact]
+    for side, friction in FRICTION.items():
+        values[f"{side}_wheel", "friction"] = friction
+    return values

@@ -1,0 +1,38 @@
+"""Wheel with a tyre that builds its slip up over a relaxation length, on a road of its own friction."""
+
+from math import atan, sin
+
+from part import Part
+
+
+class Wheel(Part):
+    description = "Driven wheel: Pacejka's magic formula along the road, with relaxation length"
+    parameters = {
+        "inertia": (1.0, "Wheel, tyre, hub and brake disc, kg.m2"),
+        "radius": (0.334, "Radius of the tyre, m"),
+        "load": (3568.0, "Vertical force, N"),
+        "friction": (0.9, "Friction coefficient of the road"),
+        "slip_stiffness": (70000.0, "Slope of the force by slip at no slip, N"),
+        "shape": (1.4, "C of the magic formula"),
+        "relaxation": (0.4, "Relaxation length, m"),
+        "damping": (1000.0, "Damping of the tyre along the road at standstill, N.s/m"),
+        "walk": (2.5, "Speed of the vehicle at which half of that damping is left, m/s"),
+    }
+    states = ("speed", "slip")
+    inputs = (("shaft_torque", "Torque of the half-shaft, N.m"), ("vehicle_speed", "Speed of the vehicle, m/s"))
+    outputs = (("speed", "Speed of the wheel, rad/s"), ("force", "Force of the road on the tyre, N"),
+               ("slip", "Slip of the tyre as it has built up"))
+
+    def force(self, x, v):
+        peak = self.friction * self.load
+        damping = self.damping / (1.0 + (v / self.walk) ** 2)
+        slip = x[1] + damping / self.slip_stiffness * (self.radius * x[0] - v)
+        return peak * sin(self.shape * atan(self.slip_stiffness / (self.shape * peak) * slip))
+
+    def rates(self, t, x, u):
+        torque, v = u
+        return [(torque - self.radius * self.force(x, v)) / self.inertia,
+                (self.radius * x[0] - v - abs(v) * x[1]) / self.relaxation]
+
+    def told(self, x, u):
+        return {"speed": x[0], "force": self.force(x, u[1]), "slip": x[1]}

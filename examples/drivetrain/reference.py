@@ -1,0 +1,178 @@
+"""The whole drivetrain as one set of differential equations, integrated at once: nothing is exchanged at steps.
+
+Equations are written here once more and share no code with the parts. The differential is Willis' equation, written
+here too (`Ideal`), or the teeth of this program, whose rates the library foreign-solvers gives to any solver (`Teeth`).
+States: torque and speed of the engine, twist of the prop shaft, differential, speed and slip of each wheel, speed.
+"""
+
+import ctypes as c
+import sys
+from math import atan, sin, sqrt, tanh
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from parameters import CONTACT, DIFFERENTIAL, FRICTION
+
+sys.path.append(str(Path(__file__).parents[2] / "benches" / "foreign"))
+from library import Library, Run, declare  # noqa: E402
+
+GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0
+WHEEL_INERTIA, RADIUS, LOAD, SLIP_STIFFNESS, SHAPE, RELAXATION = 1.0, 0.334, 3568.0, 70000.0, 1.4, 0.4
+TYRE_DAMPING, WALK = 1000.0, 2.5
+MASS, DRAG, ROLLING, BREAKAWAY, GRAVITY = 1455.0, 0.4, 0.012, 0.2, 9.81
+STIFFNESS = [DIFFERENTIAL[f"half_shaft.{side}_stiffness"] for side in ("left", "right")]
+DAMPING = [DIFFERENTIAL[f"half_shaft.{side}_damping"] for side in ("left", "right")]
+# teeth of side gear over teeth of planet
+TEETH = 16.0 / 10.0
+
+
+def smooth(s):
+    s = min(max(s, 0.0), 1.0)
+    return s**4 * (35.0 + s * (-84.0 + s * (70.0 - 20.0 * s)))
+
+
+def engine_rate(t, torque, speed):
+    asked = 110.0 * smooth(t / 0.15) - 75.0 * smooth((t - 0.35) / 0.1)
+    return (asked / sqrt(1.0 + (speed / 300.0) ** 2) - torque) / 0.03
+
+
+def tyre(side, speed, slip, v):
+    peak = FRICTION[side] * LOAD
+    slip += TYRE_DAMPING / (1.0 + (v / WALK) ** 2) / SLIP_STIFFNESS * (RADIUS * speed - v)
+    return peak * sin(SHAPE * atan(SLIP_STIFFNESS / (SHAPE * peak) * slip))
+
+
+class Ideal:
+    """Side gears, carrier and planets on Willis' equation: ω_c = (ω_L + ω_R)/2, ψ̇ = (z_s/z_p)(ω_L − ω_R)/2."""
+
+    def __init__(self, library):
+        run = Teeth(library, "ideal")
+        carrier, side, planets = run.inertias()
+        run.close()
+        both, apart = 0.25 * carrier, 0.25 * planets * TEETH**2
+        # kinetic energy by the speeds of the sides
+        mass = np.array([[side + both + apart, both - apart], [both - apart, side + both + apart]])
+        self.inverse = np.linalg.inv(mass)
+        # twists of the half-shafts, speeds of the sides
+        self.start = np.zeros(4)
+
+    def carrier_speed(self, x):
+        return 0.5 * (x[2] + x[3])
+
+    def sides(self, x):
+        return x[2], x[3]
+
+    def torques(self, x, wheels):
+        return [STIFFNESS[s] * x[s] + DAMPING[s] * (x[2 + s] - wheels[s]) for s in range(2)]
+
+    def rates(self, x, carrier_torque, wheels):
+        left, right = self.torques(x, wheels)
+        a, b = 0.5 * carrier_torque - left, 0.5 * carrier_torque - right
+        m = self.inverse
+        return [x[2] - wheels[0], x[3] - wheels[1], m[0, 0] * a + m[0, 1] * b, m[1, 0] * a + m[1, 1] * b]
+
+    def close(self):
+        pass
+
+
+class Teeth(Run):
+    """The program's own equations: positions and velocities of side gears, carrier, planets, ends of half-shafts."""
+
+    def __init__(self, library, contact):
+        declare(library.c, "foreign_driven", c.c_void_p, c.c_char_p, c.c_char_p, c.c_size_t)
+        declare(library.c, "foreign_drive", None, c.c_void_p, c.c_double, c.c_double, c.c_double)
+        declare(library.c, "foreign_inertias", None, c.c_void_p, c.c_void_p)
+        values = DIFFERENTIAL | {"scene.gear_contact": CONTACT[contact]}
+        text, problem = "".join(f"{name} {value!r}\n" for name, value in values.items()), c.create_string_buffer(1000)
+        self.lib = library.c
+        self.handle = self.lib.foreign_driven(text.encode(), problem, 1000)
+        if not self.handle:
+            raise ValueError(problem.value.decode())
+        self.size = self.lib.foreign_size(self.handle)
+        self.start = np.zeros(self.size)
+        self.lib.foreign_start(self.handle, self.start.ctypes.data)
+        self.n = self.size // 2
+        # where states stand: side gears, carrier, planets, ends
+        self.twists = slice(self.n - 2, self.n)
+        self.ends = slice(2 * self.n - 2, 2 * self.n)
+        self.rhs = self.python_rhs()
+
+    def inertias(self):
+        values = np.empty(3)
+        self.lib.foreign_inertias(self.handle, values.ctypes.data)
+        return values
+
+    def carrier_speed(self, x):
+        return x[self.n + 2]
+
+    def sides(self, x):
+        return x[self.n], x[self.n + 1]
+
+    def torques(self, x, wheels):
+        twists, sides = x[self.twists], self.sides(x)
+        return [STIFFNESS[s] * twists[s] + DAMPING[s] * (sides[s] - wheels[s]) for s in range(2)]
+
+    def rates(self, x, carrier_torque, wheels):
+        self.lib.foreign_drive(self.handle, carrier_torque, *wheels)
+        x = np.array(x)
+        x[self.ends] = wheels
+        rate = self.rhs(0.0, x)
+        rate[self.ends] = 0.0
+        return rate
+
+
+class Whole:
+    """All equations, with `differential` between prop shaft and wheels."""
+
+    def __init__(self, differential):
+        self.differential = differential
+        self.start = np.concatenate((np.zeros(8), differential.start))
+
+    def prop_shaft(self, x):
+        rate = x[1] / GEAR - FINAL * self.differential.carrier_speed(x[8:])
+        return PROP_STIFFNESS * x[2] + PROP_DAMPING * rate, rate
+
+    def rates(self, t, x):
+        gears, wheels, slips, v = x[8:], x[3:5], x[5:7], x[7]
+        prop, twist_rate = self.prop_shaft(x)
+        torques = self.differential.torques(gears, wheels)
+        forces = [tyre("left", wheels[0], slips[0], v), tyre("right", wheels[1], slips[1], v)]
+        resistance = DRAG * v * abs(v) + ROLLING * MASS * GRAVITY * tanh(v / BREAKAWAY)
+        return np.concatenate((
+            [engine_rate(t, x[0], x[1]), (x[0] - prop / GEAR) / ENGINE_INERTIA, twist_rate],
+            [(torques[s] - RADIUS * forces[s]) / WHEEL_INERTIA for s in range(2)],
+            [(RADIUS * wheels[s] - v - abs(v) * slips[s]) / RELAXATION for s in range(2)],
+            [(forces[0] + forces[1] - resistance) / MASS],
+            self.differential.rates(gears, FINAL * prop, wheels)))
+
+    def told(self, x):
+        """Outputs in the order of the system's signals."""
+        wheels = x[3:5]
+        torques = self.differential.torques(x[8:], wheels)
+        return {("engine", "torque"): x[0], ("final_drive", "engine_speed"): x[1],
+                ("final_drive", "carrier_torque"): FINAL * self.prop_shaft(x)[0],
+                ("differential", "carrier.speed"): self.differential.carrier_speed(x[8:]),
+                ("differential", "left.shaft_torque"): torques[0], ("differential", "right.shaft_torque"): torques[1],
+                ("left_wheel", "speed"): wheels[0], ("right_wheel", "speed"): wheels[1],
+                ("left_wheel", "force"): tyre("left", x[3], x[5], x[7]),
+                ("right_wheel", "force"): tyre("right", x[4], x[6], x[7]),
+                ("vehicle", "speed"): x[7]}
+
+    def solution(self, times, method, tolerance):
+        """Outputs at `times` by scipy's `method`."""
+        result = solve_ivp(self.rates, (0.0, times[-1]), self.start, method=method, t_eval=times, rtol=tolerance,
+                           atol=tolerance * 1e-2)
+        if not result.success:
+            raise RuntimeError(f"the reference cannot be integrated: {result.message}")
+        return [self.told(x) for x in result.y.T], result
+
+
+def reference(library_path, contact, times, signals, method, tolerance):
+    """Outputs at `times`, a row each, in the order of `signals`, and the number of evaluations."""
+    library = Library(library_path)
+    differential = Ideal(library) if contact == "ideal" else Teeth(library, contact)
+    rows, result = Whole(differential).solution(times, method, tolerance)
+    differential.close()
+    return np.array([[row[signal] for signal in signals] for row in rows]), result.nfev

@@ -1,0 +1,86 @@
+"""What was measured, as Markdown."""
+
+from checks import expected, observed
+from masters import ALL
+from measure import QUANTITIES
+from parameters import STEP
+
+
+def markdown(found):
+    parts = [hosts(found["hosts"]), limits(found["limits"])]
+    for contact in found["references"]:
+        parts.append(errors(contact, found))
+    parts.append(quantities(found))
+    parts.append(mesh(found["mesh"], found["limits"]))
+    return "\n".join(parts)
+
+
+def rows_of(head, rows):
+    """A table, its first column to the left and numbers to the right."""
+    width = [max(len(line[i]) for line in (head, *rows)) for i in range(len(head))]
+    lines = [head, ["-" * (width[0])] + ["-" * (w - 1) + ":" for w in width[1:]], *rows]
+    lines = [[cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, width))] for line in lines]
+    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
+
+
+def hosts(found):
+    names = list(found["ideal"])
+    rows = [[name, *(f"{found[contact][name]:.1e}" if name != "FMPy" else "0" for contact in found)] for name in names]
+    return (f"Same archive, steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, by its largest value.\n\n"
+            + rows_of(["host", *(f"`{contact}`" for contact in found)], rows))
+
+
+def limits(found):
+    rows = []
+    for name, master in ALL.items():
+        row = found[name]
+        measured = "–" if row.get("measured") is None else f"{row['measured'] * 1e3:.2f}"
+        around = f"× {row['inside']:.2g} / × {row['outside']:.2g}" if "inside" in row else "–"
+        rows.append([master.label, f"{row['predicted'] * 1e3:.2f}", measured, around])
+    return ("Longest communication step, ms: predicted from the linear parts (of growth; with rollback of convergence) and\n"
+            "found on the FMUs; by how much a disturbance changes in 0.2 s at 0.85 / 1.15 of the prediction.\n\n"
+            + rows_of(["master", "predicted", "found", "at 0.85 / at 1.15"], rows))
+
+
+def errors(contact, found):
+    rows = [row for row in found["errors"] if row["contact"] == contact]
+    lines = []
+    for step in sorted({row["step"] for row in rows}, reverse=True):
+        line = [f"{step * 1e3:g}"]
+        for name in ALL:
+            row = next((row for row in rows if (row["step"], row["master"]) == (step, name)), None)
+            line.append("–" if row is None else row["state"] if row["state"] != "ok" else told(row))
+        lines.append(line)
+    order = ["order"]
+    theory = ["theory"]
+    for name, master in ALL.items():
+        own = [row for row in rows if row["master"] == name and row["state"] == "ok"]
+        order.append(f"{observed(own):.2f}" if len(own) > 1 else "–")
+        low, high = expected(master, found["limits"]["interpolates"])
+        theory.append(f"{master.order}" if high - low < 1 else "1 to 2")
+    doubt, methods = found["references"][contact].doubt, found["references"][contact].methods
+    return (f"`{contact}`: largest error of any quantity by communication step, ms (with rollback: how often a step is made).\n"
+            f"Reference: {methods[0]} on all equations at once; {methods[1]} differs from it by {doubt:.0e}.\n\n"
+            + rows_of(["step, ms", *(master.label for master in ALL.values())], [*lines, order, theory]))
+
+
+def told(row):
+    return f"{row['largest']:.1e}" + (f" ({row['repeats']:.1f})" if ALL[row["master"]].states else "")
+
+
+def quantities(found):
+    contact = list(found["references"])[-1]
+    rows = [row for row in found["errors"] if row["contact"] == contact and row["state"] == "ok"]
+    step = max(step for step in {row["step"] for row in rows} if step <= 1.01 * max(STEP, min(row["step"] for row in rows)))
+    lines = [[master.label, *(f"{row[q]:.1e}" for q in QUANTITIES), f"{row['seconds']:.1f}"]
+             for name, master in ALL.items() for row in rows if (row["master"], row["step"]) == (name, step)]
+    return (f"`{contact}`, steps of {step * 1e3:g} ms: largest error of each quantity by its largest value, and CPU time.\n\n"
+            + rows_of(["master", *QUANTITIES, "s"], lines))
+
+
+def mesh(found, limits):
+    swing, fastest = found["swing"], found["fastest"]
+    return (f"Were the mesh cut open: teeth under {found['load']:.0f} N.m on the carrier would swing at {swing:.2g} rad/s without damping, and\n"
+            f"with it their fastest motion dies away with {fastest:.2g} 1/s. Torque held over a step would bear no step above\n"
+            f"2/{fastest:.2g} s = {2e6 / fastest:.1f} µs, where the cut beside the half-shafts bears "
+            f"{limits['jacobi']['predicted'] * 1e6:.0f} µs.\n")

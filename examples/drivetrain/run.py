@@ -1,0 +1,61 @@
+"""The launch of a whole drivetrain on split friction, coupled from FMUs: hosts, errors by communication step, limits.
+
+    python run.py FMU LIBRARY FOLDER [--quick]
+
+FMU is this program's, LIBRARY foreign-solvers as cargo built it. Writes drivetrain.ssp, errors.csv and pictures to FOLDER
+and prints the tables. Fails if hosts disagree, or if errors, orders or limits are not what theory says.
+`cargo run --release -- drivetrain` makes the environment and does all of it.
+"""
+
+import contextlib
+import os
+import sys
+from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import checks  # noqa: E402
+import figures  # noqa: E402
+import measure  # noqa: E402
+import report  # noqa: E402
+from library import Library  # noqa: E402
+from measure import tell  # noqa: E402
+from system import make_parts, write_ssp  # noqa: E402
+
+
+def main():
+    arguments = [argument for argument in sys.argv[1:] if argument != "--quick"]
+    if len(arguments) != 3:
+        raise SystemExit("usage: run.py FMU LIBRARY FOLDER [--quick]")
+    # what FMUs and hosts say is no part of the tables
+    with open(os.devnull, "w") as silence, contextlib.redirect_stdout(silence):
+        text, wrong = everything(*(Path(argument) for argument in arguments), quick="--quick" in sys.argv)
+    print(text, end="")
+    if wrong:
+        raise SystemExit("\n".join(wrong))
+
+
+def everything(fmu, library_path, folder, quick):
+    folder.mkdir(parents=True, exist_ok=True)
+    library, contacts = Library(library_path), ("ideal",) if quick else ("ideal", "tooth")
+    tell(0.0, "making the parts")
+    fmus = make_parts(fmu, folder / "parts")
+    for contact in ("ideal", "tooth"):
+        write_ssp(folder / f"drivetrain_{contact}.ssp", fmus, contact)
+    hosts = measure.hosts(folder, fmus, quick)
+    tell(0.1, "the whole as one set of equations")
+    references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}
+    limits = measure.limits(library, fmus, quick)
+    errors = measure.errors(fmus, references, quick)
+    mesh = measure.mesh(library)
+    measure.write_csv(folder / "errors.csv", errors)
+    found = {"hosts": hosts, "references": references, "limits": limits, "errors": errors, "mesh": mesh}
+    if not quick:
+        figures.launch(folder / "drivetrain_launch.png", references["tooth"].dense, measure.coupled(fmus, "tooth"))
+        figures.errors(folder / "drivetrain_errors.png", errors, limits)
+        figures.signals(folder / "drivetrain_signals.png")
+    return report.markdown(found), checks.wrong(found)
+
+
+if __name__ == "__main__":
+    main()
