@@ -239,6 +239,31 @@ fn directional_derivatives_by_inputs_are_what_differences_of_outputs_come_to() {
 }
 
 #[test]
+fn a_half_shaft_answers_to_the_speed_of_its_wheel_at_once() {
+    for level in [1, 3] {
+        let host = Host::on_level(level);
+        assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
+        assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
+        for side in ["left", "right"] {
+            assert_eq!(host.set_integer(&format!("scene.{side}_drive"), 2), Status::Ok);
+        }
+        host.start();
+        host.steps(0.0, 1e-3, 2);
+        let (torque, speed) = (host.get("left.shaft_torque"), host.get("left.speed_command"));
+        let by_speed = along(&host, "left.shaft_torque", &[("left.speed_command", 1.0)]);
+        let damping = host.get("half_shaft.left_damping");
+        assert!(damping > 0.0 && (by_speed + damping).abs() < 1e-6 * damping, "{by_speed} {damping}");
+        let before = host.get("solver.energy_residual");
+        assert_eq!(host.set("left.speed_command", speed + 2.0), Status::Ok);
+        assert!((host.get("left.shaft_torque") - torque + 2.0 * damping).abs() < 1e-6 * torque.abs());
+        assert_eq!(host.get("solver.energy_residual"), before, "nothing has been worked yet");
+        // set back, it leaves no trace
+        assert_eq!(host.set("left.speed_command", speed), Status::Ok);
+        assert_eq!(host.get("left.shaft_torque"), torque);
+    }
+}
+
+#[test]
 fn at_the_start_outputs_are_derived_by_inputs_and_parameters() {
     let host = driven_by_torque(3);
     assert_eq!(host.setup(), Status::Ok);

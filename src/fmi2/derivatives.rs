@@ -121,6 +121,8 @@ impl Instance {
             return Ok(());
         }
         let simulation = self.simulation()?;
+        let present = simulation.present();
+        let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.time_direction();
         let mut slopes = Slopes::new(simulation, &direction);
         for (&reference, value) in references.iter().zip(values) {
@@ -166,7 +168,9 @@ impl Instance {
             }
         }
         let simulation = self.simulation()?;
-        let direction = simulation.direction(&states, &inputs, simulation.is_handed_over());
+        let present = simulation.present();
+        let simulation = present.as_ref().unwrap_or(simulation);
+        let direction = simulation.direction(&states, &inputs);
         let mut slopes = Slopes::new(simulation, &direction);
         for (source, value) in sources.into_iter().zip(values) {
             value.write(slopes.of(source));

@@ -25,6 +25,14 @@ pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
     p.effects.tooth_fault && !state.fault && (inputs.fault > 0.5 || onset > 0.0 && state.time >= onset)
 }
 
+/// Whether imposed speeds are what they are commanded to be.
+pub fn are_followed(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let (plan, layout) = (&model.ideal.plan, &model.layout);
+    (!plan.carrier_imposed || state.carrier_command == inputs.carrier_speed)
+        && (!plan.spin_imposed || state.v[layout.planet(0)] == inputs.planet_spin)
+        && (0..2).all(|s| !plan.side_imposed[s] || state.v[layout.end(s)] == inputs.side_speed[s])
+}
+
 /// Sets imposed speeds to their commands and leaves everything else as it is.
 pub fn follow(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;

@@ -129,13 +129,17 @@ impl Simulation {
 
     /// All states; 0 of bodies that do not move by themselves.
     pub fn states(&self) -> [f64; STATES] {
-        self.gather(|i| self.state.position(i, &self.model.periods), &self.state.v)
+        let present = self.present();
+        let state = &present.as_ref().unwrap_or(self).state;
+        self.gather(|i| state.position(i, &self.model.periods), &state.v)
     }
 
     /// Their rates.
     pub fn state_rates(&self) -> [f64; STATES] {
         let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
-        self.rates(&self.state.q, &self.state.v, [&mut dq, &mut dv]);
+        let present = self.present();
+        let simulation = present.as_ref().unwrap_or(self);
+        simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
         self.gather(|i| dq[i], &dv)
     }
 

@@ -150,7 +150,7 @@ impl Simulation {
     pub fn motion_slopes(&self, direction: &Direction) -> Motion {
         let mut along = self.moved(&direction.q, &direction.v);
         along.state.turns = [0; MAX_DOF];
-        let slopes = along.motion();
+        let slopes = along.motion_of_state();
         let spin = self.model.ideal.plan.layout().planet(0);
         let sense = if self.state.v[spin] == 0.0 { 0.0 } else { (self.state.v[spin] * direction.v[spin]).signum() };
         Motion { mesh_frequency: sense * slopes.mesh_frequency, ..slopes }
@@ -160,7 +160,7 @@ impl Simulation {
     pub fn forces_along(&self, direction: &Direction) -> Along {
         let size = self.size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
-        let forces = PLACES.map(|(place, _)| *self.displaced(direction, place * apart).forces());
+        let forces = PLACES.map(|(place, _)| self.displaced(direction, place * apart).forces_of_state());
         Along { forces, apart }
     }
 
@@ -205,14 +205,10 @@ impl Simulation {
         now.iter().zip(change).fold(largest, |largest, (now, change)| largest.max(change.abs() / (1.0 + now.abs())))
     }
 
-    /// The direction in which states and inputs change by `states` and `inputs`. Motions that `follow` their commands do
-    /// so at once; otherwise commands act through steps alone.
-    pub fn direction(&self, states: &[f64; super::continuous::STATES], inputs: &Inputs, follow: bool) -> Direction {
+    /// The direction in which states and inputs change by `states` and `inputs`; imposed motions follow their commands.
+    pub fn direction(&self, states: &[f64; super::continuous::STATES], inputs: &Inputs) -> Direction {
         let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
         self.scatter(states, &mut direction.q, &mut direction.v);
-        if !follow {
-            return direction;
-        }
         direction.carrier_command = inputs.carrier_speed;
         let plan = &self.model.ideal.plan;
         let (layout, Direction { q, v, .. }) = (plan.layout(), &mut direction);

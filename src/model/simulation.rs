@@ -153,8 +153,23 @@ impl Simulation {
         self.state.time
     }
 
+    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, where there are
+    /// any. The step itself begins with the jump, and books it.
+    pub fn present(&self) -> Option<Self> {
+        if commands::are_followed(&self.model, &self.inputs, &self.state) {
+            return None;
+        }
+        let mut present = self.clone();
+        present.follow_commands();
+        Some(present)
+    }
+
     /// Angles and speeds.
     pub fn motion(&self) -> Motion {
+        if let Some(present) = self.present() { present.motion_of_state() } else { self.motion_of_state() }
+    }
+
+    pub(super) fn motion_of_state(&self) -> Motion {
         let (model, state) = (&self.model, &self.state);
         let plan = &model.ideal.plan;
         let layout = plan.layout();
@@ -179,8 +194,16 @@ impl Simulation {
 
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
+        if self.forces.is_none() {
+            let present = self.present();
+            self.forces = Some(present.as_ref().unwrap_or(self).forces_of_state());
+        }
+        self.forces.get_or_insert_default()
+    }
+
+    pub(super) fn forces_of_state(&self) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        self.forces.get_or_insert_with(|| match &model.gears {
+        match &model.gears {
             Gears::Rigid(rigid) if !rigid.acts(state) => resultants::ideal_forces(model, inputs, state),
             Gears::Rigid(rigid) => {
                 by_rigid_size!(model, resultants::rigid_forces(model, &E::new(rigid, inputs, state), inputs, state))
@@ -189,7 +212,7 @@ impl Simulation {
                 let full = teeth.full.acts(state);
                 by_size!(teeth, full, resultants::teeth_forces(model, &E::new(teeth, inputs, state), inputs, state))
             }
-        })
+        }
     }
 
     /// Shows the load of every tooth pair, of one planet of each group; none where there are no teeth.
