@@ -218,8 +218,9 @@ fn structure(table: &Table) -> Element {
 const BY_OWN_LOAD: &str = ".twist";
 /// Endings of names of what positions alone tell.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
-/// Parts of names of what follows from the loads of the teeth and the rates of springs, torques apart.
-const BY_MOTION: [&str; 2] = ["power.loss", "stress."];
+/// Parts of names of what follows from positions and speeds, torques apart: of the teeth alone, and of shafts as well.
+const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
+const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Commands that speeds follow at once in model exchange, and the endings of their names.
 const FOLLOWERS: [(&str, &[&str]); 2] = [
     ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed"]),
@@ -257,6 +258,9 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
         Access::Output(OutputSource::Forces(_)) if !named(&BY_POSITION) => {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
                 return inputs_where(table, |input| is_torque(input) && input.name.starts_with(side));
+            }
+            if named(&BY_MOTION_OF_TEETH) {
+                return inputs_where(table, |input| FOLLOWERS.iter().any(|(command, _)| *command == input.name));
             }
             inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
         }

@@ -198,11 +198,16 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(op
     observed = set()
     ends = {"inertia.left_end": 1.0, "inertia.right_end": 2.0}
     shafts = {**ends, "effects.half_shaft": True}
-    scenes = [ends, shafts, {**shafts, "effects.strength": True},
+    scenes = [ends, {"effects.half_shaft": True}, {**shafts, "effects.strength": True},
               {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}]
-    driven = {**shafts, "scene.left_drive": "speed", "scene.right_drive": "speed"}
-    free = [(carrier, spin) for carrier in ["speed", "torque"] for spin in ["free", "imposed"]]
-    drives = [(scene, *drive) for scene in scenes for drive in free] + [(driven, "torque", "free")]
+    left, right = {"scene.left_drive": "speed"}, {"scene.right_drive": "speed"}
+    ways = [(carrier, spin) for carrier in ["speed", "torque"] for spin in ["free", "imposed"]]
+    drives = [(scene, *way) for scene in scenes for way in ways]
+    # at most two speeds can be imposed
+    drives += [({**shafts, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
+    drives += [({**ends, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
+    drives += [({**shafts, **left, **right, "effects.strength": True}, "torque", "free"),
+               ({**ends, "effects.final_drive": True}, "speed", "free")]
     for contact in ["tooth", "lumped", "ideal"]:
         for scene, carrier, spin in drives:
             if contact == "ideal":

@@ -19,14 +19,17 @@ sys.path.insert(0, str(ROOT / "fmu-build" / "python"))
 
 import binaries  # noqa: E402
 
-# all functions that the standard's header declares for co-simulation, section 2.1 and 4.2
+# all functions that the standard's header declares: sections 2.1, 3.2 and 4.2
 COMMON = ["GetTypesPlatform", "GetVersion", "SetDebugLogging", "Instantiate", "FreeInstance", "SetupExperiment",
           "EnterInitializationMode", "ExitInitializationMode", "Terminate", "Reset", "GetReal", "GetInteger", "GetBoolean",
           "GetString", "SetReal", "SetInteger", "SetBoolean", "SetString", "GetFMUstate", "SetFMUstate", "FreeFMUstate",
           "SerializedFMUstateSize", "SerializeFMUstate", "DeSerializeFMUstate", "GetDirectionalDerivative"]
 STEPPING = ["SetRealInputDerivatives", "GetRealOutputDerivatives", "DoStep", "CancelStep", "GetStatus", "GetRealStatus",
             "GetIntegerStatus", "GetBooleanStatus", "GetStringStatus"]
-DECLARED = {"fmi2" + name for name in COMMON + STEPPING}
+EXCHANGING = ["EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", "CompletedIntegratorStep", "SetTime",
+              "SetContinuousStates", "GetDerivatives", "GetEventIndicators", "GetContinuousStates",
+              "GetNominalsOfContinuousStates"]
+DECLARED = {"fmi2" + name for name in COMMON + STEPPING + EXCHANGING}
 # libraries that belong to Windows itself, besides the families below
 WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32.dll", "bcrypt.dll", "advapi32.dll",
                "bcryptprimitives.dll"}
