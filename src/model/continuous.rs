@@ -4,19 +4,17 @@
 //! states take no part. Whatever the host's solver tries leaves no trace: ledger, friction and teeth take note of steps
 //! that are completed, and change at events.
 
-use serde::{Deserialize, Serialize};
-
 use super::commands;
 use super::constants::Gears;
 use super::course::Course;
 use super::failure::StepFailure;
 use super::layout::{CARRIER, MAX_DOF, MAX_PLANETS};
-use super::parameters::Inputs;
 use super::plan::Plan;
 use super::records::{Records, Scene};
-use super::simulation::{Simulation, break_tooth, catch_holds, energy};
+use super::simulation::Simulation;
 use super::sizes::{by_size, with_equations};
-use super::state::State;
+use super::state::{Accepted, State};
+use super::switches::{break_tooth, catch_holds, energy};
 use crate::integrate::{Erased, Point, SecondOrder, Step};
 
 /// A body with a state of its own.
@@ -77,27 +75,6 @@ impl Body {
             Self::Pin(i) => (plan.pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
             Self::End(s) => plan.shafts[s].then(|| layout.end(s)),
         }
-    }
-}
-
-/// The end of the last completed step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Accepted {
-    time: f64,
-    q: [f64; MAX_DOF],
-    v: [f64; MAX_DOF],
-    inputs: Inputs,
-}
-
-impl Accepted {
-    /// `state` as it was there.
-    pub(super) fn of(&self, state: &State) -> State {
-        State { time: self.time, q: self.q, v: self.v, ..*state }
-    }
-
-    /// Whether all numbers are finite.
-    pub fn is_valid(&self) -> bool {
-        self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
     }
 }
 

@@ -41,12 +41,13 @@ mod strength;
 #[cfg(not(feature = "strength"))]
 #[path = "no_strength.rs"]
 mod strength;
+mod switches;
 mod teeth;
 mod tooth_effects;
 
 pub use bodies::Inertias;
 pub use causes::{CAUSES, Cause};
-pub use continuous::{Accepted, BODIES, Body, INDICATORS, STATES, Update};
+pub use continuous::{BODIES, Body, INDICATORS, STATES, Update};
 pub use course::{Course, ORDERS};
 pub use effect_specs::{
     BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
@@ -63,4 +64,4 @@ pub use plan::{Group, Plan};
 pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};
 pub use sensitivity::{Along, Direction};
 pub use simulation::{CostClass, Simulation};
-pub use state::State;
+pub use state::{Accepted, State};

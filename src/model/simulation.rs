@@ -3,9 +3,8 @@
 use std::sync::Arc;
 
 use super::bodies::Inertias;
-use super::causes::{CAUSES, Cause};
+use super::causes::CAUSES;
 use super::constants::{Gears, Model};
-use super::continuous::Accepted;
 use super::course::Course;
 use super::dry::Mode;
 use super::failure::StepFailure;
@@ -16,11 +15,11 @@ use super::plan::Plan;
 use super::readings::{Books, Forces, Motion};
 use super::run;
 use super::sizes::{by_rigid_size, by_size, with_equations};
-use super::state::State;
+use super::state::{Accepted, State};
+use super::switches::{break_tooth, catch_holds, energy};
 use super::{commands, resultants, start};
 use crate::friction::FrictionLaw;
 use crate::geometry::Pair;
-use crate::integrate::SecondOrder;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::ToothDamage;
@@ -384,39 +383,5 @@ fn go_on(inputs: &mut Inputs, state: &mut State, time: f64) {
         let (later, rest) = course.after(time, inputs);
         (*inputs, state.course) = (later, Some(rest));
         state.carrier_command = inputs.carrier_speed;
-    }
-}
-
-/// Kinetic and stored energy [J].
-pub(super) fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
-    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
-}
-
-/// Breaks the tooth when its time has come or when it is triggered; the energy that it held is heat.
-pub(super) fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
-    if commands::breaks_tooth(model, inputs, state) {
-        let before = energy(model, inputs, state);
-        state.fault = true;
-        state.heat[Cause::Contact as usize] += before - energy(model, inputs, state);
-    }
-}
-
-/// Lets the lock follow its command, catches bodies that dry friction takes hold of, and lets go of those it releases.
-pub(super) fn catch_holds(model: &Model, inputs: &Inputs, state: &mut State) {
-    break_tooth(model, inputs, state);
-    let was_locked = state.lock > 0.0;
-    state.lock = inputs.lock;
-    match &model.gears {
-        Gears::Rigid(rigid) if rigid.acts(state) || was_locked => by_rigid_size!(model, {
-            let mut equations = E::new(rigid, inputs, state);
-            equations.take_over(&state.point(), &mut state.heat);
-            state.holds = equations.holds;
-        }),
-        Gears::Teeth(teeth) if teeth.full.acts(state) => by_size!(teeth, true, {
-            let mut equations = E::new(teeth, inputs, state);
-            equations.take_over(&state.point(), &mut state.heat);
-            state.holds = equations.holds;
-        }),
-        _ => {}
     }
 }

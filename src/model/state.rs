@@ -6,6 +6,7 @@ use super::causes::CAUSES;
 use super::course::Course;
 use super::dry::Hold;
 use super::layout::{CARRIER, HOLDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
+use super::parameters::Inputs;
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
 
@@ -44,6 +45,31 @@ pub struct State {
     pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
+}
+
+/// The end of the last step that a solver of the host's completed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accepted {
+    /// Time [s].
+    pub time: f64,
+    /// Positions.
+    pub q: [f64; MAX_DOF],
+    /// Velocities.
+    pub v: [f64; MAX_DOF],
+    /// Inputs.
+    pub inputs: Inputs,
+}
+
+impl Accepted {
+    /// `state` as it was there.
+    pub fn of(&self, state: &State) -> State {
+        State { time: self.time, q: self.q, v: self.v, ..*state }
+    }
+
+    /// Whether all numbers are finite.
+    pub fn is_valid(&self) -> bool {
+        self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
+    }
 }
 
 /// Damage of the teeth so far.
