@@ -8,15 +8,14 @@ use super::refusal::{Answer, Refusal};
 use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{row, wrong_type};
-use crate::model::{Course, Direction, Inputs, ORDERS, STATES, Simulation};
+use crate::model::{Course, Direction, Inputs, ORDERS, PLACES, STATES, Simulation};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
 
-/// Places and weights of central differences of order 4, for derivatives of the start.
-const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
-/// Distance of the places as a part of what is changed: the equilibrium at the start is found to some 1e-9.
+/// Distance of the places of differences of the start, as a part of what is changed: its equilibrium is found to some
+/// 1e-9.
 const APART: f64 = 3e-3;
 
 /// Bit of an input in `Snapshot::told`.

@@ -62,6 +62,6 @@ pub use parameters::{
 };
 pub use plan::{Group, Plan};
 pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};
-pub use sensitivity::{Along, Direction};
+pub use sensitivity::{Along, Direction, PLACES};
 pub use simulation::{CostClass, Simulation};
 pub use state::{Accepted, State};

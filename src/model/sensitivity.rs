@@ -15,8 +15,8 @@ use crate::integrate::{Erased, Point, SecondOrder};
 
 /// Distance of neighbouring places along a direction, in natural magnitudes.
 const APART: f64 = 3e-4;
-/// The places, and the weights of what is read there.
-const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// Central differences of order 4: places, in the distance of neighbours, and the weights of what is read there.
+pub const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
 
 /// A change of everything that motion and forces depend on.
 #[derive(Clone, Copy, Debug)]

@@ -5,17 +5,6 @@ use super::super::instance::Instance;
 use super::super::pointers::{array, place, room, run};
 use super::super::types::{Boolean, ComponentPointer, EventInfo, Status};
 
-macro_rules! modes {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, Instance::$method) }
-        }
-    )+};
-}
-
 macro_rules! getters {
     ($($function:ident $call:ident $method:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
@@ -32,7 +21,7 @@ macro_rules! getters {
     )+};
 }
 
-modes! {
+plain! {
     fmi2EnterEventMode EnterEventMode enter_event_mode;
     fmi2EnterContinuousTimeMode EnterContinuousTimeMode enter_continuous_time_mode;
 }

@@ -125,17 +125,6 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     unsafe { run(c, Call::SetupExperiment, |instance| instance.setup_experiment(&experiment)) }
 }
 
-macro_rules! plain {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, Instance::$method) }
-        }
-    )+};
-}
-
 plain! {
     fmi2EnterInitializationMode EnterInitializationMode enter_initialization;
     fmi2ExitInitializationMode ExitInitializationMode exit_initialization;

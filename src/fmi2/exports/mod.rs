@@ -7,6 +7,18 @@
 #![allow(clippy::missing_safety_doc)] // told above, once for all
 #![allow(non_snake_case)] // FMI's names
 
+/// Functions that take an instance and nothing else.
+macro_rules! plain {
+    ($($function:ident $call:ident $method:ident;)+) => {$(
+        #[doc = concat!(stringify!($function), ".")]
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
+            // SAFETY: the host's promise, see the module
+            unsafe { run(c, Call::$call, Instance::$method) }
+        }
+    )+};
+}
+
 mod derivatives;
 mod exchange;
 mod lifecycle;
