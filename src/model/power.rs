@@ -20,6 +20,17 @@ pub struct Power {
 const ENERGY_ROUNDING: f64 = 1e-13;
 
 impl Power {
+    /// Halfway between two.
+    pub fn mean(&self, other: &Self) -> Self {
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        Self {
+            input: mean(self.input, other.input),
+            heat: std::array::from_fn(|i| mean(self.heat[i], other.heat[i])),
+            shaft: [0, 1].map(|s| mean(self.shaft[s], other.shaft[s])),
+            drive: mean(self.drive, other.drive),
+        }
+    }
+
     /// By how much the ledger of a step of size `h` does not close, over the energy that the step dealt with: stored,
     /// worked and turned into heat. Kinetic energy, most of which nothing ever touches, counts by its rounding alone.
     #[inline(always)]
