@@ -1,6 +1,5 @@
 """Makes the other parts with pythonfmu and binds all of them into one archive after the standard SSP 1.0."""
 
-import re
 import shutil
 import zipfile
 from pathlib import Path
@@ -26,22 +25,8 @@ def make_parts(differential, folder):
     for source in SOURCES.values():
         FmuBuilder.build_FMU(str(HERE / "parts" / source), dest=str(folder), project_files=[HERE / "parts" / "part.py"],
                              canGetAndSetFMUstate="true")
-    with_integers(differential, folder / "BevelDifferential.fmu")
+    shutil.copyfile(differential, folder / "BevelDifferential.fmu")
     return {name: folder / f"{name}.fmu" for name in set(PARTS.values())}
-
-
-def with_integers(fmu, copy):
-    """A copy of an FMU whose description calls enumerations integers, which is what they are in FMI's calls.
-
-    libcosim sets no enumerations ("FMI 2.0 Enumeration variable type not supported"), and the differential's
-    scene is made of them. The library inside is the same, and so are value references and GUID.
-    """
-    with zipfile.ZipFile(fmu) as source, zipfile.ZipFile(copy, "w", zipfile.ZIP_DEFLATED) as target:
-        for item in source.infolist():
-            content = source.read(item)
-            if item.filename == "modelDescription.xml":
-                content = re.sub(rb'<Enumeration declaredType="[^"]*"', b"<Integer", content)
-            target.writestr(item, content)
 
 
 def write_ssp(file, fmus, contact):

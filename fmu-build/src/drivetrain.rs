@@ -7,7 +7,7 @@ use anyhow::{Context, Result, bail};
 
 use crate::progress::Progress;
 use crate::python::Environment;
-use crate::{marked, package, places, script};
+use crate::{marked, package, places, plain_types, script};
 
 /// The document with the tables, their place, and the pictures.
 const DOCUMENT: &str = "docs/coupling.md";
@@ -23,7 +23,8 @@ pub fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::for_drivetrain(|what| progress.tell(what))?;
     progress.tell("packaging the FMU");
-    let fmu = package::package()?;
+    // libcosim sets no enumerations, and the scene is made of them
+    let fmu = plain_types::package(&package::package()?)?;
     progress.tell("building the equations as a library");
     let library = package::build_library("foreign-solvers")?;
     let folder = places::target().join("drivetrain");
