@@ -23,13 +23,13 @@ fn a_wrong_guid_is_refused_with_both_guids_in_the_log() {
 }
 
 #[test]
-fn a_missing_name_and_model_exchange_are_refused() {
+fn a_missing_name_and_an_unknown_kind_are_refused() {
     for name in [None, Some("")] {
         let host = Host::instantiate(name, CO_SIMULATION, Some(variables::guid()), None);
         assert!(host.c.is_null());
         assert_tells(&host.last(), &["name"]);
     }
-    for kind in [0, 2, -1] {
+    for kind in [2, -1, 7] {
         let host = Host::instantiate(Some("test"), kind, Some(variables::guid()), None);
         assert!(host.c.is_null());
         assert_tells(&host.last(), &["co-simulation"]);

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
+use fmu_build::fuzz::Fuzz;
 use fmu_build::geometry::command::Geometry;
 use fmu_build::hosts::Hosts;
 use fmu_build::pattern::Pattern;
@@ -14,7 +15,7 @@ use fmu_build::progress::Progress;
 use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
-use fmu_build::{describe, foreign, off, package, peers, places, plain_types, real_time, study};
+use fmu_build::{describe, foreign, memory, off, package, peers, places, plain_types, real_time, study};
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -65,6 +66,11 @@ usage: cargo run --release [-- COMMAND]
                          fmi-sim, fmi-rs and fmu-runner (builds for many minutes); --write: also renew docs/hosts.md
   real-time [--write]    count the instructions of every communication step of the fixed-step method; fails if one costs
                          more than twice the median (needs valgrind); --write: also renew the table in docs/cost.md
+  fuzz [--calls N] [--seed S]
+                         call the C functions at random, a million times or N, and hold every answer against what the FMU
+                         promises; --seed: begin with the round of that seed
+  memory [--sanitizer]   hosts in C and calls at random under memcheck, which must find nothing and no leak (needs valgrind
+                         and cc); --sanitizer: also under AddressSanitizer, with the toolchain's runtime (builds for minutes)
   help                   show this";
 
 enum Job {
@@ -84,6 +90,8 @@ enum Job {
     Foreign { quick: bool, write: bool },
     RealTime { write: bool },
     Hosts(Hosts),
+    Fuzz(Fuzz),
+    Memory { sanitizer: bool },
     Help,
 }
 
@@ -124,6 +132,10 @@ fn parse() -> Result<Job> {
             (Long("require"), Some(Job::Hosts(hosts))) => hosts.require = true,
             (Long("write"), Some(Job::Hosts(hosts))) => hosts.write = true,
             (Long("with-fmi-sim"), Some(Job::Hosts(hosts))) => hosts.with_rust = true,
+            (Long("calls"), Some(Job::Fuzz(fuzz))) => fuzz.calls = arguments.value()?.parse()?,
+            (Long("seed"), Some(Job::Fuzz(fuzz))) => fuzz.seed = arguments.value()?.parse()?,
+            (Long("worker"), Some(Job::Fuzz(fuzz))) => fuzz.is_worker = true,
+            (Long("sanitizer"), Some(Job::Memory { sanitizer })) => *sanitizer = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -188,6 +200,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "peers" => Job::Peers { quick: false, write: false },
         "foreign" => Job::Foreign { quick: false, write: false },
         "hosts" => Job::Hosts(Hosts::default()),
+        "fuzz" => Job::Fuzz(Fuzz::default()),
+        "memory" => Job::Memory { sanitizer: false },
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -201,6 +215,8 @@ fn run(job: Job) -> Result<()> {
         Job::Peers { quick, write } => peers::run(quick, write)?,
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
         Job::Hosts(hosts) => hosts.run()?,
+        Job::Fuzz(fuzz) => fuzz.run()?,
+        Job::Memory { sanitizer } => memory::run(sanitizer)?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {

@@ -45,6 +45,11 @@ pub fn hosts() -> PathBuf {
     workspace().join("tests").join("hosts")
 }
 
+/// Hosts written in C.
+pub fn c_hosts() -> PathBuf {
+    workspace().join("tests").join("c")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

@@ -43,7 +43,15 @@ impl Instance {
 
     /// fmi2CompletedIntegratorStep. Whether an event is due.
     pub fn completed_integrator_step(&mut self) -> Answer<bool> {
-        let outcome = self.exchanged()?.complete_step();
+        let simulation = self.exchanged()?;
+        let outcome = simulation.complete_step();
+        // wrapping positions and booking energies may overflow where the states themselves did not
+        if outcome.is_ok() && !simulation.state().is_valid() {
+            self.now.phase = Phase::Error;
+            return Err(Refusal::error(
+                "the step ends at states with which no simulation can go on; go on with fmi2SetFMUstate or fmi2Reset",
+            ));
+        }
         if outcome.is_ok() && self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
             self.watch();
         }
@@ -76,6 +84,10 @@ impl Instance {
     /// fmi2GetContinuousStates.
     pub fn get_continuous_states(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
         let states = self.exchanged()?.states();
+        if let Some(k) = states.iter().position(|x| !x.is_finite()) {
+            let name = table().rows[table().states[k]].name;
+            return Err(Refusal::discard(format!("{name} is not a finite number")));
+        }
         fill("states", &states, values)
     }
 
@@ -94,6 +106,11 @@ impl Instance {
     /// fmi2GetEventIndicators.
     pub fn get_event_indicators(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
         let indicators = self.exchanged()?.indicators();
+        if let Some(k) = indicators.iter().position(|x| !x.is_finite()) {
+            return Err(Refusal::discard(format!(
+                "event indicator {k} is not a finite number at these states; take a shorter step, or look at the inputs"
+            )));
+        }
         fill("event indicators", &indicators, values)
     }
 
