@@ -280,7 +280,7 @@ fn a_state_in_between_is_restored_to_the_bit_here_and_elsewhere() {
     solver.set(solver.time + 5e-7, &std::array::from_fn(|i| x[i] + 5e-7 * tried[i]));
     let (state, time) = (solver.host.get_state(), solver.time);
     let bytes = solver.host.serialize(state);
-    let mut on = |solver: &mut Solver| {
+    let on = |solver: &mut Solver| {
         solver.time = time + 5e-7;
         solver.steps(1e-6, 30);
         (solver.states().map(f64::to_bits), solver.host.outputs())

@@ -22,6 +22,8 @@ const CHOICES: [&str; 9] = [
 ];
 /// Level of solid teeth, which cost most.
 const SOLID: i32 = 4;
+/// The explicit method.
+const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
 
 /// Brings a fresh or reset instance to a running simulation; whether that came off.
 pub fn start(unit: &Unit, r: &mut Random) -> bool {
@@ -63,8 +65,9 @@ fn draw(unit: &Unit, r: &mut Random) {
             integers.push((name, if dear { 1 } else { value }));
         }
     }
-    // an explicit method on solids may take all attempts it is granted for a step, which is minutes
-    if integers.contains(&("scene.gear_contact", SOLID)) {
+    // an explicit method may take all attempts that it is granted for a step, which is seconds, and on solids minutes
+    let solid = integers.contains(&("scene.gear_contact", SOLID));
+    if solid || integers.contains(&("solver.method", EXPLICIT)) && !r.chance(10) {
         integers.retain(|(name, _)| *name != "solver.method");
     }
     for (name, value) in integers {
