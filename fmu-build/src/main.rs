@@ -69,8 +69,8 @@ usage: cargo run --release [-- COMMAND]
   fuzz [--calls N] [--seed S]
                          call the C functions at random, a million times or N, and hold every answer against what the FMU
                          promises; --seed: begin with the round of that seed
-  memory [--sanitizer]   hosts in C and calls at random under memcheck, which must find nothing and no leak (needs valgrind
-                         and cc); --sanitizer: also under AddressSanitizer, with the toolchain's runtime (builds for minutes)
+  memory                 hosts in C and calls at random under memcheck, which must find nothing and no leak (needs valgrind
+                         and cc)
   help                   show this";
 
 enum Job {
@@ -91,7 +91,7 @@ enum Job {
     RealTime { write: bool },
     Hosts(Hosts),
     Fuzz(Fuzz),
-    Memory { sanitizer: bool },
+    Memory,
     Help,
 }
 
@@ -135,7 +135,6 @@ fn parse() -> Result<Job> {
             (Long("calls"), Some(Job::Fuzz(fuzz))) => fuzz.calls = arguments.value()?.parse()?,
             (Long("seed"), Some(Job::Fuzz(fuzz))) => fuzz.seed = arguments.value()?.parse()?,
             (Long("worker"), Some(Job::Fuzz(fuzz))) => fuzz.is_worker = true,
-            (Long("sanitizer"), Some(Job::Memory { sanitizer })) => *sanitizer = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -201,7 +200,7 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "foreign" => Job::Foreign { quick: false, write: false },
         "hosts" => Job::Hosts(Hosts::default()),
         "fuzz" => Job::Fuzz(Fuzz::default()),
-        "memory" => Job::Memory { sanitizer: false },
+        "memory" => Job::Memory,
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -216,7 +215,7 @@ fn run(job: Job) -> Result<()> {
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
         Job::Hosts(hosts) => hosts.run()?,
         Job::Fuzz(fuzz) => fuzz.run()?,
-        Job::Memory { sanitizer } => memory::run(sanitizer)?,
+        Job::Memory => memory::run()?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {

@@ -1,5 +1,5 @@
 //! Memory under a checker: hosts written in C lead instances through their lives, and calls at random beside them; memcheck
-//! and AddressSanitizer must find nothing, nor a leak.
+//! must find nothing, nor a leak.
 
 use std::env;
 use std::ffi::OsString;
@@ -17,8 +17,6 @@ use crate::{fuzz, package, places};
 
 /// Calls at random: of the host in C, and of the driver in Rust.
 const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];
-/// The platform that the sanitizer builds for; cargo then keeps build scripts free of it.
-const PLATFORM: &str = "x86_64-unknown-linux-gnu";
 
 /// Value reference of `name`, as an argument.
 pub fn reference(name: &str) -> Result<OsString> {
@@ -59,9 +57,8 @@ struct Checked {
     seconds: f64,
 }
 
-/// Runs everything under memcheck, and with `sanitizer` under AddressSanitizer, and prints a table; fails at the first
-/// error or leak.
-pub fn run(sanitizer: bool) -> Result<()> {
+/// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
+pub fn run() -> Result<()> {
     let progress = Progress::start("building the library and the host");
     let library = package::build_library("bevel-differential")?;
     let life = compiled("life", &[])?;
@@ -73,12 +70,6 @@ pub fn run(sanitizer: bool) -> Result<()> {
     checked.push(memcheck("life of instances, in C", &life, &told)?);
     progress.tell("memcheck on calls at random");
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
-    if sanitizer {
-        progress.tell("building with AddressSanitizer");
-        let sanitized = sanitized()?;
-        progress.tell("AddressSanitizer on calls at random");
-        checked.push(address("calls at random, in Rust", &sanitized, &rounds(20 * CALLS[1]))?);
-    }
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
     let head = ["program", "checker", "errors", "bytes lost", "time, s"].map(str::to_owned).to_vec();
@@ -126,32 +117,4 @@ fn success(program: &str, output: &Output) -> Result<String> {
         bail!("{program} ({}):\n{}", output.status, said.trim_end());
     }
     Ok(said)
-}
-
-/// This program built with AddressSanitizer, whose runtime comes with the toolchain; its switch is not stable yet.
-fn sanitized() -> Result<PathBuf> {
-    let target = places::target().join("sanitizer");
-    let output = Command::new(env!("CARGO"))
-        .current_dir(places::workspace())
-        .env("RUSTC_BOOTSTRAP", "1")
-        .env("RUSTFLAGS", "-Zsanitizer=address")
-        .args(["build", "--release", "--package", "fmu-build", "--target", PLATFORM, "--quiet", "--target-dir"])
-        .arg(&target)
-        .output()
-        .context("cargo did not start")?;
-    success("the build with AddressSanitizer", &output)?;
-    Ok(target.join(PLATFORM).join("release").join("fmu-build"))
-}
-
-fn address(program: &'static str, path: &Path, arguments: &[OsString]) -> Result<Checked> {
-    let start = Instant::now();
-    let output = Command::new(path)
-        .args(arguments)
-        .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1")
-        .output()
-        .with_context(|| format!("{} cannot be run", path.display()))?;
-    // it ends the program at the first error, and at the end if there are leaks
-    success(program, &output)?;
-    let seconds = start.elapsed().as_secs_f64();
-    Ok(Checked { program, checker: "AddressSanitizer", lost: "0".into(), errors: "0".into(), seconds })
 }

@@ -7,10 +7,10 @@ use fmu_build::fuzz::{self, Function, Tally};
 use fmu_build::{memory, package};
 
 /// Calls of the short run.
-const CALLS: usize = 2000;
+const CALLS: usize = 4000;
 /// Least part of calls that must be carried out, and least steps in a thousand calls: a run of refusals shows little.
 const DONE: f64 = 0.4;
-const STEPS: u64 = 10;
+const STEPS: u64 = 5;
 
 #[test]
 fn calls_at_random_keep_every_promise() {

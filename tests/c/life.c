@@ -1,5 +1,5 @@
 /* The life of instances of both kinds, as a host written in C leads it: refusals, steps, states, bytes, calls at random.
-   For memcheck and sanitizers: life LIBRARY GUID INPUT OUTPUT CALLS, with value references of an input and an output. */
+   For memcheck: life LIBRARY GUID INPUT OUTPUT CALLS, with value references of an input and an output. */
 
 #include <math.h>
 #include <stdint.h>
