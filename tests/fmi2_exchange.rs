@@ -327,6 +327,60 @@ fn numbers_that_are_none_and_wrong_counts_are_refused() {
 }
 
 #[test]
+fn what_has_no_finite_answer_at_wild_states_is_discarded_by_name() {
+    let solver = Solver::new(|host| level(host, 3));
+    let c = solver.host.c;
+    let sane = solver.states();
+    for k in 0..STATES {
+        let mut x = sane;
+        x[k] = 1e300;
+        solver.set(solver.time, &x);
+        let (mut many, mut slope) = ([0.0; STATES], 0.0);
+        let refused = |status, numbers: &[f64]| {
+            assert!(status == Status::Ok || status == Status::Discard, "state {k}: {status:?}");
+            assert!(status == Status::Discard || numbers.iter().all(|x| x.is_finite()), "state {k}: {numbers:?}");
+            status == Status::Discard
+        };
+        let (speed, load) = (reference("left.speed"), reference("left.load_torque"));
+        // SAFETY: a live component and room for what is asked for
+        unsafe {
+            refused(fmi2GetDerivatives(c, many.as_mut_ptr(), STATES), &many);
+            refused(fmi2GetContinuousStates(c, many.as_mut_ptr(), STATES), &many);
+            refused(fmi2GetEventIndicators(c, many.as_mut_ptr(), EVENT_INDICATORS), &many[..EVENT_INDICATORS]);
+            refused(fmi2GetDirectionalDerivative(c, &speed, 1, &load, 1, &1.0, &mut slope), &[slope]);
+        }
+        for &i in &table().outputs {
+            let name = table().rows[i].name;
+            let (status, value) = solver.host.try_get(name);
+            if refused(status, &[value]) {
+                assert_tells(&solver.host.last(), &["fmi2GetReal", name, "not a finite number"]);
+            }
+        }
+    }
+    // what a solver tries leaves no trace
+    solver.set(solver.time, &sane);
+    assert!(solver.host.outputs().iter().all(|&bits| f64::from_bits(bits).is_finite()));
+}
+
+#[test]
+fn a_step_to_states_that_cannot_be_counted_ends_the_run_and_a_reset_helps() {
+    for wild in [1e300, -f64::MAX] {
+        let solver = Solver::new(|host| level(host, 1));
+        let mut x = solver.states();
+        x[2] = wild;
+        solver.set(solver.time + 1e-6, &x);
+        // SAFETY: a live component and places for the answers
+        let status = unsafe { fmi2CompletedIntegratorStep(solver.host.c, 1, &mut 0, &mut 0) };
+        let mut states = [0.0; STATES];
+        // SAFETY: a live component and room for what is asked for
+        let read = unsafe { fmi2GetContinuousStates(solver.host.c, states.as_mut_ptr(), STATES) };
+        assert!(read != Status::Ok || states.iter().all(|x| x.is_finite()), "{wild}: {status:?}, {states:?}");
+        assert_eq!(solver.host.reset(), Status::Ok);
+        solver.host.start_exchange();
+    }
+}
+
+#[test]
 fn directional_derivatives_are_those_of_the_rates() {
     for (gears, extra) in [(1, false), (2, false), (3, false), (3, true), (4, false)] {
         let mut solver = Solver::new(|host| {

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use anyhow::{Result, bail};
 use fmu_build::cost::Cost;
 use fmu_build::effects::job::Effects;
+use fmu_build::fuzz::Fuzz;
 use fmu_build::geometry::command::Geometry;
 use fmu_build::hosts::Hosts;
 use fmu_build::pattern::Pattern;
@@ -15,7 +16,8 @@ use fmu_build::python::Environment;
 use fmu_build::scene::job as scene_job;
 use fmu_build::solids::Solids;
 use fmu_build::{
-    describe, drivetrain, foreign, off, package, peers, places, plain_types, platforms, real_time, study, toolchains,
+    describe, drivetrain, foreign, memory, off, package, peers, places, plain_types, platforms, real_time, study,
+    toolchains,
 };
 use lexopt::prelude::*;
 
@@ -77,6 +79,11 @@ usage: cargo run --release [-- COMMAND]
                          half; --write: also renew docs/coupling.md
   real-time [--write]    count the instructions of every communication step of the fixed-step method; fails if one costs
                          more than twice the median (needs valgrind); --write: also renew the table in docs/cost.md
+  fuzz [--calls N] [--seed S]
+                         call the C functions at random, a million times or N, and hold every answer against what the FMU
+                         promises; --seed: begin with the round of that seed
+  memory                 hosts in C and calls at random under memcheck, which must find nothing and no leak (needs valgrind
+                         and cc)
   help                   show this";
 
 enum Job {
@@ -99,6 +106,8 @@ enum Job {
     Drivetrain { quick: bool, write: bool },
     RealTime { write: bool },
     Hosts(Hosts),
+    Fuzz(Fuzz),
+    Memory,
     Help,
 }
 
@@ -143,6 +152,9 @@ fn parse() -> Result<Job> {
             (Long("with-fmi-sim"), Some(Job::Hosts(hosts))) => hosts.with_rust = true,
             (Value(name), Some(Job::Toolchains { platform })) if platform.is_none() => *platform = Some(name.string()?),
             (Long("write"), Some(Job::Platforms { write })) => *write = true,
+            (Long("calls"), Some(Job::Fuzz(fuzz))) => fuzz.calls = arguments.value()?.parse()?,
+            (Long("seed"), Some(Job::Fuzz(fuzz))) => fuzz.seed = arguments.value()?.parse()?,
+            (Long("worker"), Some(Job::Fuzz(fuzz))) => fuzz.is_worker = true,
             (Long("check"), Some(Job::Describe { check })) => *check = true,
             (Value(name), Some(Job::Scene(scene))) if scene.name.is_none() => scene.name = Some(name.string()?),
             (Long("run"), Some(Job::Scene(scene))) => scene.run = true,
@@ -210,6 +222,8 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
         "foreign" => Job::Foreign { quick: false, write: false },
         "hosts" => Job::Hosts(Hosts::default()),
         "drivetrain" => Job::Drivetrain { quick: false, write: false },
+        "fuzz" => Job::Fuzz(Fuzz::default()),
+        "memory" => Job::Memory,
         "real-time" => Job::RealTime { write: false },
         "help" => Job::Help,
         _ => bail!("there is no command \"{name}\""),
@@ -224,6 +238,8 @@ fn run(job: Job) -> Result<()> {
         Job::Foreign { quick, write } => foreign::run(quick, write)?,
         Job::Hosts(hosts) => hosts.run()?,
         Job::Drivetrain { quick, write } => drivetrain::run(quick, write)?,
+        Job::Fuzz(fuzz) => fuzz.run()?,
+        Job::Memory => memory::run()?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {

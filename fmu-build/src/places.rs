@@ -55,6 +55,11 @@ pub fn drivetrain() -> PathBuf {
     workspace().join("examples").join("drivetrain")
 }
 
+/// Hosts written in C.
+pub fn c_hosts() -> PathBuf {
+    workspace().join("tests").join("c")
+}
+
 /// The scenes kept in the repository.
 pub fn scenes() -> PathBuf {
     workspace().join("scenes")

@@ -30,7 +30,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    const ALL: [Self; 8] = {
+    pub(super) const ALL: [Self; 8] = {
         use Phase::*;
         [Instantiated, Initialization, StepComplete, StepFailed, Event, ContinuousTime, Terminated, Error]
     };
@@ -75,6 +75,10 @@ macro_rules! calls {
         pub enum Call { $($call),+ }
 
         impl Call {
+            /// All of them.
+            #[cfg(test)]
+            pub const ALL: &[Self] = &[$(Self::$call),+];
+
             /// Name of the C function.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$call => $name),+ }

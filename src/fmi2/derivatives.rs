@@ -7,7 +7,7 @@ use super::instance::Instance;
 use super::refusal::{Answer, Refusal};
 use super::snapshot::Snapshot;
 use super::types::Kind;
-use super::values::{row, wrong_type};
+use super::values::{finite, row, wrong_type};
 use crate::model::{Course, Direction, Inputs, ORDERS, PLACES, STATES, Simulation};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
@@ -125,11 +125,13 @@ impl Instance {
         let direction = simulation.time_direction();
         let mut slopes = Slopes::new(simulation, &direction);
         for (&reference, value) in references.iter().zip(values) {
-            let source = readable(row(reference)?)?;
-            value.write(match source {
+            let row = row(reference)?;
+            let source = readable(row)?;
+            let slope = match source {
                 OutputSource::Books(of) => of(&simulation.book_rates()),
                 _ => slopes.of(source),
-            });
+            };
+            value.write(finite_slope(row, slope)?);
         }
         Ok(())
     }
@@ -149,7 +151,7 @@ impl Instance {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
-            return at_the_start(&self.now, &sources, known, values);
+            return at_the_start(&self.now, (unknown, &sources), known, values);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
         for (&reference, &change) in known.0.iter().zip(known.1) {
@@ -171,11 +173,17 @@ impl Instance {
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.direction(&states, &inputs);
         let mut slopes = Slopes::new(simulation, &direction);
-        for (source, value) in sources.into_iter().zip(values) {
-            value.write(slopes.of(source));
+        for ((&reference, source), value) in unknown.iter().zip(sources).zip(values) {
+            value.write(finite_slope(row(reference)?, slopes.of(source))?);
         }
         Ok(())
     }
+}
+
+/// `slope` of a variable, if it is a finite number.
+fn finite_slope(row: &Variable, slope: f64) -> Answer<f64> {
+    finite(row, slope)
+        .map_err(|refusal| Refusal { message: format!("the derivative of {}", refusal.message), ..refusal })
 }
 
 /// Where a variable that has derivatives is read.
@@ -222,7 +230,7 @@ impl<'a> Slopes<'a> {
 /// Derivatives of what initialisation gives, by inputs and parameters: by differences, for it is a solution of its own.
 fn at_the_start(
     now: &Snapshot,
-    sources: &[OutputSource],
+    (unknown, sources): (&[u32], &[OutputSource]),
     (references, change): (&[u32], &[f64]),
     values: &mut [MaybeUninit<f64>],
 ) -> Answer {
@@ -263,8 +271,8 @@ fn at_the_start(
             *sum += weight * read(&mut simulation, *source);
         }
     }
-    for (sum, value) in sums.into_iter().zip(values) {
-        value.write(sum / apart);
+    for ((&reference, sum), value) in unknown.iter().zip(sums).zip(values) {
+        value.write(finite_slope(row(reference)?, sum / apart)?);
     }
     Ok(())
 }

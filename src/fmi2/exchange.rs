@@ -43,7 +43,15 @@ impl Instance {
 
     /// fmi2CompletedIntegratorStep. Whether an event is due.
     pub fn completed_integrator_step(&mut self) -> Answer<bool> {
-        let outcome = self.exchanged()?.complete_step();
+        let simulation = self.exchanged()?;
+        let outcome = simulation.complete_step();
+        // wrapping positions and booking energies may overflow where the states themselves did not
+        if outcome.is_ok() && !simulation.state().is_valid() {
+            self.now.phase = Phase::Error;
+            return Err(Refusal::error(
+                "the step ends at states with which no simulation can go on; go on with fmi2SetFMUstate or fmi2Reset",
+            ));
+        }
         if outcome.is_ok() && self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
             self.watch();
         }
@@ -76,25 +84,40 @@ impl Instance {
     /// fmi2GetContinuousStates.
     pub fn get_continuous_states(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
         let states = self.exchanged()?.states();
-        fill("states", &states, values)
+        check_count("states", STATES, values.len())?;
+        if let Some(k) = states.iter().position(|x| !x.is_finite()) {
+            let name = table().rows[table().states[k]].name;
+            return Err(Refusal::discard(format!("{name} is not a finite number")));
+        }
+        fill(&states, values);
+        Ok(())
     }
 
     /// fmi2GetDerivatives.
     pub fn get_derivatives(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
         let rates = self.exchanged()?.state_rates();
+        check_count("derivatives", STATES, values.len())?;
         if let Some(k) = rates.iter().position(|x| !x.is_finite()) {
             let name = table().rows[table().derivatives[k]].name;
             return Err(Refusal::discard(format!(
                 "{name} is not a finite number at these states; take a shorter step, or look at the inputs"
             )));
         }
-        fill("derivatives", &rates, values)
+        fill(&rates, values);
+        Ok(())
     }
 
     /// fmi2GetEventIndicators.
     pub fn get_event_indicators(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
         let indicators = self.exchanged()?.indicators();
-        fill("event indicators", &indicators, values)
+        check_count("event indicators", INDICATORS, values.len())?;
+        if let Some(k) = indicators.iter().position(|x| !x.is_finite()) {
+            return Err(Refusal::discard(format!(
+                "event indicator {k} is not a finite number at these states; take a shorter step, or look at the inputs"
+            )));
+        }
+        fill(&indicators, values);
+        Ok(())
     }
 
     /// fmi2GetNominalsOfContinuousStates.
@@ -103,20 +126,22 @@ impl Instance {
             return Err(Refusal::error("this instance was made for co-simulation, the call is for model exchange"));
         }
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
-        fill("nominals", &nominals, values)
+        check_count("nominals", STATES, values.len())?;
+        fill(&nominals, values);
+        Ok(())
     }
 }
 
-/// Hands `numbers` out, if the host has room for just as many. Nobody reads what it did not ask for: [`INDICATORS`] and
-/// [`STATES`] stand in the model description.
-fn fill(what: &str, numbers: &[f64], values: &mut [MaybeUninit<f64>]) -> Answer {
-    if numbers.len() != values.len() {
-        return Err(wrong_count(what, numbers.len(), values.len()));
-    }
+/// Hands `numbers` out; the host has room for just as many.
+fn fill(numbers: &[f64], values: &mut [MaybeUninit<f64>]) {
     for (number, value) in numbers.iter().zip(values) {
         value.write(*number);
     }
-    Ok(())
+}
+
+/// Refuses a count that is not what stands in the model description, whatever else is wrong.
+fn check_count(what: &str, has: usize, asked: usize) -> Answer {
+    if has == asked { Ok(()) } else { Err(wrong_count(what, has, asked)) }
 }
 
 fn wrong_count(what: &str, has: usize, asked: usize) -> Refusal {

@@ -15,6 +15,8 @@ mod exchange;
 mod exports;
 mod instance;
 mod log;
+#[cfg(test)]
+mod panics;
 mod pointers;
 mod quiet;
 mod refusal;

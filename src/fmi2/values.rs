@@ -36,6 +36,17 @@ pub fn refuse_string(reference: u32) -> Refusal {
     row(reference).map_or_else(|refusal| refusal, wrong_type)
 }
 
+/// `number` if it is one that a host can go on with: a solver of the host's may try states that have no answer.
+pub fn finite(row: &Variable, number: f64) -> Answer<f64> {
+    if number.is_finite() {
+        return Ok(number);
+    }
+    Err(Refusal::discard(format!(
+        "{} is {number}, not a finite number, at these states; take a shorter step, or look at the inputs",
+        row.name
+    )))
+}
+
 /// `problem` of a single value, with unit and range of its variable.
 fn refused_value(row: &Variable, value: f64, problem: String) -> Refusal {
     let Some(range) = row.range.filter(|_| !value.is_finite()) else { return Refusal::discard(problem) };
@@ -56,7 +67,7 @@ impl Instance {
         let (mut states, mut rates) = (None, None);
         for (&reference, value) in references.iter().zip(values) {
             let row = row(reference)?;
-            value.write(match row.access {
+            let number = match row.access {
                 Access::Real(slot) => *slot(&mut self.now.parameters),
                 Access::Input(slot) => *slot(&mut self.now.inputs),
                 Access::Output(source) => {
@@ -72,7 +83,8 @@ impl Instance {
                     }
                 }
                 _ => return Err(wrong_type(row)),
-            });
+            };
+            value.write(finite(row, number)?);
         }
         Ok(())
     }

@@ -1,0 +1,218 @@
+/* The life of instances of both kinds, as a host written in C leads it: refusals, steps, states, bytes, calls at random.
+   For memcheck: life LIBRARY GUID INPUT OUTPUT CALLS, with value references of an input and an output. */
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "fmi2.h"
+
+static const char *guid;
+static unsigned input, output;
+static long lines;
+
+static void say(void *environment, const char *name, Status status, const char *category, const char *text, ...)
+{
+    /* every byte is read, so that a checker sees one that was never written */
+    if (strlen(name) && strlen(category) && strlen(text) && status <= ERROR)
+        ++*(long *)environment;
+}
+
+static void *make(int kind)
+{
+    Callbacks callbacks = {say, NULL, NULL, NULL, &lines};
+    void *c = Instantiate("life", kind, guid, "file:///nowhere", &callbacks, 0, 1);
+    MUST(c);
+    return c;
+}
+
+static void begin(void *c)
+{
+    MUST(SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) == OK);
+    MUST(EnterInitializationMode(c) == OK);
+    MUST(ExitInitializationMode(c) == OK);
+}
+
+/* A state is kept, written, damaged, read and restored. */
+static void keep_and_restore(void *c)
+{
+    void *state = NULL, *copy = NULL;
+    size_t size;
+    MUST(GetFMUstate(c, &state) == OK && GetFMUstate(c, &state) == OK);
+    MUST(SerializedFMUstateSize(c, state, &size) == OK);
+    char *bytes = malloc(size);
+    MUST(SerializeFMUstate(c, state, bytes, size - 1) == ERROR);
+    MUST(SerializeFMUstate(c, state, bytes, size) == OK);
+    MUST(DeSerializeFMUstate(c, bytes, size - 1, &copy) == ERROR && !copy);
+    bytes[size / 2] ^= 1;
+    MUST(DeSerializeFMUstate(c, bytes, size, &copy) == ERROR && !copy);
+    bytes[size / 2] ^= 1;
+    MUST(DeSerializeFMUstate(c, bytes, size, &copy) == OK && copy);
+    MUST(SetFMUstate(c, copy) == OK && SetFMUstate(c, NULL) == ERROR);
+    MUST(FreeFMUstate(c, &state) == OK && !state && FreeFMUstate(c, &copy) == OK && FreeFMUstate(c, &copy) == OK);
+    free(bytes);
+}
+
+static void refusals(void)
+{
+    Callbacks callbacks = {say, NULL, NULL, NULL, &lines};
+    long before = lines;
+    MUST(!Instantiate("life", CO_SIMULATION, "{wrong}", NULL, &callbacks, 0, 0));
+    MUST(!Instantiate(NULL, CO_SIMULATION, guid, NULL, &callbacks, 0, 0));
+    MUST(!Instantiate("life", 7, guid, NULL, &callbacks, 0, 0));
+    MUST(lines == before + 3);
+    FreeInstance(NULL);
+    MUST(Reset(NULL) == ERROR);
+    void *c = make(CO_SIMULATION);
+    double number = 0.0;
+    int absurd = 1000000000;
+    unsigned none = 4000000000u;
+    MUST(GetReal(c, &none, 1, &number) == ERROR && GetReal(c, NULL, 3, &number) == ERROR);
+    MUST(GetReal(c, &output, 1, NULL) == ERROR && GetReal(c, NULL, 0, NULL) == OK);
+    MUST(SetInteger(c, &output, 1, &absurd) == ERROR && DoStep(c, 0.0, 1e-3, 0) == ERROR && CancelStep(c) == ERROR);
+    number = NAN;
+    MUST(SetReal(c, &input, 1, &number) == DISCARD);
+    FreeInstance(c);
+}
+
+/* An initialisation that fails, with every real parameter a thousand times too large. */
+static void failed_initialisation(int kind)
+{
+    void *c = make(kind);
+    for (unsigned r = 0; r < 400; ++r) {
+        double value;
+        if (GetReal(c, &r, 1, &value) == OK) {
+            value *= 1e3;
+            SetReal(c, &r, 1, &value);
+        }
+    }
+    MUST(EnterInitializationMode(c) == OK && ExitInitializationMode(c) == ERROR);
+    MUST(GetReal(c, &output, 1, &(double){0.0}) == ERROR);
+    MUST(Reset(c) == OK);
+    begin(c);
+    FreeInstance(c);
+}
+
+static void steps(void)
+{
+    void *c = make(CO_SIMULATION);
+    begin(c);
+    double load = 800.0, speed, slope;
+    int order = 1;
+    for (int i = 0; i < 20; ++i) {
+        MUST(SetReal(c, &input, 1, &load) == OK);
+        MUST(SetRealInputDerivatives(c, &input, 1, &order, &(double){10.0}) == OK);
+        MUST(DoStep(c, i * 1e-4, 1e-4, 1) == OK);
+        MUST(GetReal(c, &output, 1, &speed) == OK && isfinite(speed));
+        MUST(GetRealOutputDerivatives(c, &output, 1, &order, &slope) == OK && isfinite(slope));
+    }
+    MUST(GetDirectionalDerivative(c, &output, 1, &input, 1, &(double){1.0}, &slope) == OK && isfinite(slope));
+    keep_and_restore(c);
+    load = 1e7;
+    MUST(SetReal(c, &input, 1, &load) == OK && DoStep(c, 20e-4, 1e-2, 0) == DISCARD);
+    MUST(Terminate(c) == OK && Reset(c) == OK);
+    begin(c);
+    FreeInstance(c);
+}
+
+static void exchange(void)
+{
+    void *c = make(MODEL_EXCHANGE);
+    double x[STATES], rates[STATES], indicators[INDICATORS], nominals[STATES];
+    int event, end;
+    EventInfo info;
+    begin(c);
+    MUST(NewDiscreteStates(c, &info) == OK && EnterContinuousTimeMode(c) == OK);
+    MUST(GetNominalsOfContinuousStates(c, nominals, STATES) == OK);
+    MUST(GetDerivatives(c, rates, STATES - 1) == ERROR);
+    for (int i = 1; i <= 20; ++i) {
+        MUST(GetContinuousStates(c, x, STATES) == OK && GetDerivatives(c, rates, STATES) == OK);
+        for (int k = 0; k < STATES; ++k) {
+            MUST(isfinite(rates[k]));
+            x[k] += 1e-7 * rates[k];
+        }
+        MUST(SetTime(c, i * 1e-7) == OK && SetContinuousStates(c, x, STATES) == OK);
+        MUST(GetEventIndicators(c, indicators, INDICATORS) == OK);
+        MUST(CompletedIntegratorStep(c, 1, &event, &end) == OK);
+        if (event || i % 7 == 0) {
+            MUST(EnterEventMode(c) == OK && NewDiscreteStates(c, &info) == OK && EnterContinuousTimeMode(c) == OK);
+        }
+    }
+    for (int k = 0; k < INDICATORS; ++k)
+        MUST(isfinite(indicators[k]));
+    keep_and_restore(c);
+    FreeInstance(c);
+}
+
+static uint64_t seed = 88172645463325252u;
+
+static unsigned below(unsigned n)
+{
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return (unsigned)((seed >> 11) % n);
+}
+
+/* Calls at random on two instances that hand each other their states. */
+static void at_random(long calls)
+{
+    void *units[2] = {make(CO_SIMULATION), make(MODEL_EXCHANGE)}, *states[2] = {NULL, NULL};
+    for (long i = 0; i < calls; ++i) {
+        unsigned u = below(2), any[3] = {below(420), below(420), below(420)}, n = below(4);
+        void *c = units[u];
+        double reals[3] = {below(2000) - 1e3, NAN, 1e-3}, room[64], now = 0.0;
+        int integers[3] = {(int)below(30), 1, -1}, event, end;
+        EventInfo info;
+        Status status = OK;
+        switch (below(24)) {
+        case 0: status = SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0); break;
+        case 1: status = EnterInitializationMode(c); break;
+        case 2: status = ExitInitializationMode(c); break;
+        case 3: status = below(20) ? OK : Terminate(c); break;
+        case 4: status = below(10) ? OK : Reset(c); break;
+        case 5: status = SetReal(c, any, n, reals); break;
+        case 6: status = SetInteger(c, any, n, integers); break;
+        case 7: status = SetBoolean(c, any, n, integers); break;
+        case 8: status = GetReal(c, any, n, room); break;
+        case 9: status = GetInteger(c, any, n, integers); break;
+        case 10: status = GetFMUstate(c, &states[below(2)]); break;
+        case 11: status = SetFMUstate(c, states[below(2)]); break;
+        case 12: status = FreeFMUstate(c, &states[below(2)]); break;
+        case 13: status = GetDirectionalDerivative(c, &output, 1, &input, 1, &(double){1.0}, room); break;
+        case 14: status = NewDiscreteStates(c, &info); break;
+        case 15: status = EnterContinuousTimeMode(c); break;
+        case 16: status = CompletedIntegratorStep(c, 1, &event, &end); break;
+        case 17: status = SetTime(c, below(100) * 1e-6); break;
+        case 18: status = GetDerivatives(c, room, STATES); break;
+        case 19: status = GetEventIndicators(c, room, INDICATORS); break;
+        case 20: status = GetStatus(c, (int)below(4), &status); break;
+        default:
+            GetRealStatus(c, 2, &now);
+            status = DoStep(c, now, 1e-5, 1);
+        }
+        MUST(status <= ERROR);
+    }
+    for (int k = 0; k < 2; ++k)
+        MUST(FreeFMUstate(units[k], &states[k]) == OK);
+    FreeInstance(units[0]);
+    FreeInstance(units[1]);
+}
+
+int main(int count, char **arguments)
+{
+    if (count != 6) {
+        fprintf(stderr, "usage: life LIBRARY GUID INPUT OUTPUT CALLS\n");
+        return 2;
+    }
+    open_library(arguments[1]);
+    guid = arguments[2];
+    input = (unsigned)atoi(arguments[3]);
+    output = (unsigned)atoi(arguments[4]);
+    refusals();
+    for (int kind = MODEL_EXCHANGE; kind <= CO_SIMULATION; ++kind)
+        failed_initialisation(kind);
+    steps();
+    exchange();
+    at_random(atol(arguments[5]));
+    printf("%ld messages\n", lines);
+    return 0;
+}

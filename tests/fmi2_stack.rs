@@ -1,0 +1,143 @@
+//! Threads with a stack of 128 KiB are enough for every level, every effect, every method, and both kinds of instances.
+
+mod common;
+
+use std::ptr;
+
+use bevel_differential::fmi2::*;
+use bevel_differential::model::STATES;
+use bevel_differential::variables::{Access, table};
+use common::{Host, reference};
+
+const STACK: usize = 128 * 1024;
+const SOLID: i32 = 4;
+
+/// What a scene is made of: whole numbers and switches by name.
+type Scene = Vec<(&'static str, i32)>;
+
+fn set(host: &Host, scene: &Scene) {
+    for &(name, value) in scene {
+        let status = match table().rows[reference(name) as usize].access {
+            Access::Boolean(_) => host.set_boolean(name, value),
+            _ => host.set_integer(name, value),
+        };
+        assert_eq!(status, Status::Ok, "{name}: {:?}", host.log());
+    }
+    assert_eq!(host.set_many(&["inertia.left_end", "inertia.right_end"], &[0.5, 0.5]), Status::Ok);
+}
+
+fn begins(scene: &Scene) -> bool {
+    let host = Host::new();
+    set(&host, scene);
+    [host.setup(), host.enter(), host.exit()] == [Status::Ok; 3]
+}
+
+/// A level with every effect that goes with it and with those before.
+fn fullest(level: i32) -> Scene {
+    let mut scene = vec![("scene.gear_contact", level), ("geometry.planet_count", 4), ("solid.facets", 8)];
+    if !begins(&scene) {
+        scene[1].1 = 2;
+    }
+    assert!(begins(&scene), "level {level}");
+    for row in table().rows.iter().filter(|row| row.name.starts_with("effects.")) {
+        if matches!(row.access, Access::Boolean(_)) {
+            scene.push((row.name, 1));
+            if !begins(&scene) {
+                scene.pop();
+            }
+        }
+    }
+    scene
+}
+
+/// Everything that a host may ask of an instance, once.
+fn all_of(kind: i32, scene: &Scene) {
+    let host = if kind == MODEL_EXCHANGE { Host::for_exchange() } else { Host::new() };
+    let (load, speed) = (reference("left.load_torque"), reference("left.speed"));
+    // a refused initialisation first: its messages are the longest
+    assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
+    assert_eq!([host.enter(), host.exit()], [Status::Ok, Status::Error]);
+    assert_eq!(host.reset(), Status::Ok);
+    set(&host, scene);
+    assert_eq!([host.setup(), host.enter()], [Status::Ok; 2]);
+    let derive = || {
+        let mut slope = f64::NAN;
+        // SAFETY: a live component, one value each
+        let status = unsafe { fmi2GetDirectionalDerivative(host.c, &speed, 1, &load, 1, &1.0, &mut slope) };
+        assert_eq!(status, Status::Ok, "{:?}", host.log());
+    };
+    derive();
+    assert_eq!(host.exit(), Status::Ok, "{:?}", host.log());
+    host.outputs();
+    if kind == MODEL_EXCHANGE {
+        host.update();
+        let (mut x, mut rates, mut indicators) = ([0.0; STATES], [0.0; STATES], [0.0; EVENT_INDICATORS]);
+        // SAFETY: a live component and room for the counts told
+        let statuses = unsafe {
+            [
+                fmi2EnterContinuousTimeMode(host.c),
+                fmi2GetContinuousStates(host.c, x.as_mut_ptr(), STATES),
+                fmi2GetDerivatives(host.c, rates.as_mut_ptr(), STATES),
+                fmi2SetTime(host.c, 1e-7),
+                fmi2SetContinuousStates(host.c, x.as_ptr(), STATES),
+                fmi2GetEventIndicators(host.c, indicators.as_mut_ptr(), EVENT_INDICATORS),
+                fmi2CompletedIntegratorStep(host.c, 1, &mut 0, &mut 0),
+                fmi2EnterEventMode(host.c),
+            ]
+        };
+        assert_eq!(statuses, [Status::Ok; 8], "{:?}", host.log());
+        host.update();
+    } else {
+        // SAFETY: a live component, one value each
+        let told = unsafe { fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &1.0) };
+        assert_eq!(told, Status::Ok);
+        host.steps(0.0, 1e-4, 3);
+        // SAFETY: as above
+        let status = unsafe { fmi2GetRealOutputDerivatives(host.c, &speed, 1, &1, &mut 0.0) };
+        assert_eq!(status, Status::Ok, "{:?}", host.log());
+    }
+    derive();
+    host.outputs();
+    let state = host.get_state();
+    let bytes = host.serialize(state);
+    let (status, copy) = host.deserialize(&bytes);
+    assert_eq!(status, Status::Ok, "{:?}", host.log());
+    assert_eq!(host.set_state(copy), Status::Ok);
+    assert_eq!(host.deserialize(&bytes[1..]), (Status::Error, ptr::null_mut()));
+    host.free_state(state);
+    host.free_state(copy);
+    assert_eq!(host.terminate(), Status::Ok);
+}
+
+fn in_a_small_stack(kind: i32, scene: Scene) {
+    let thread = std::thread::Builder::new().stack_size(STACK).spawn(move || all_of(kind, &scene)).unwrap();
+    thread.join().unwrap();
+}
+
+#[test]
+fn every_level_with_all_its_effects_needs_no_more_than_a_small_stack() {
+    for level in 1..=SOLID {
+        let scene = fullest(level);
+        let effects = scene.iter().filter(|(name, on)| name.starts_with("effects.") && *on == 1).count();
+        let least = [0, 4, 4, 10, 4][level as usize];
+        assert!(effects >= least, "level {level} takes only {scene:?}");
+        for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
+            in_a_small_stack(kind, scene.clone());
+        }
+    }
+}
+
+#[test]
+fn every_method_needs_no_more_than_a_small_stack() {
+    let Access::Enumeration(methods, ..) = table().rows[reference("solver.method") as usize].access else {
+        panic!("solver.method is no choice")
+    };
+    // the methods differ by the size of their matrices: the most degrees of freedom are those of the fullest teeth
+    let fullest = fullest(3);
+    for choice in methods.choices {
+        let mut scene = fullest.clone();
+        scene.push(("solver.method", choice.value));
+        let scene = if begins(&scene) { scene } else { vec![("solver.method", choice.value)] };
+        in_a_small_stack(CO_SIMULATION, scene);
+    }
+}
