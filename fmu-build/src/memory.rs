@@ -89,7 +89,6 @@ fn memcheck(program: &'static str, path: &Path, arguments: &[OsString]) -> Resul
     let output = Command::new("valgrind")
         .args(["--leak-check=full", "--error-exitcode=99", "--errors-for-leak-kinds=definite,indirect,possible"])
         .args(["--show-leak-kinds=definite,indirect,possible", "--num-callers=30"])
-        .arg(format!("--suppressions={}", places::c_hosts().join("memcheck.supp").display()))
         .arg(path)
         .args(arguments)
         .output()

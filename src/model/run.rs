@@ -6,6 +6,7 @@ use super::parameters::{Method, SolverSpec};
 use super::power::Power;
 use super::records::{Jump, Records, Scene};
 use super::state::State;
+use crate::contact::mesh::Law;
 use crate::integrate::{
     self, DormandPrince, Effort, Erased, Failure, Flow, Object, Point, Radau, Rodas4, Rodas5P, Step,
 };
@@ -14,12 +15,13 @@ use crate::integrate::{
 const BUDGET: u64 = 2_000_000;
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
-    match &model.gears {
-        Gears::Teeth(teeth) if teeth.full.in_detail => {
-            BUDGET / ((teeth.full.detailed.slices.len() * teeth.layout.groups) as u64).max(1)
-        }
-        _ => BUDGET,
-    }
+    let Gears::Teeth(teeth) = &model.gears else { return BUDGET };
+    let work = match &teeth.mesh.law {
+        Law::Solid(solid) => solid.section_count() * model.parameters.solid.facets.max(1) as usize,
+        _ if teeth.full.in_detail => teeth.full.detailed.slices.len() * teeth.layout.groups,
+        _ => 1,
+    };
+    BUDGET / (work as u64).max(1)
 }
 
 /// Integrates to `until` [s].

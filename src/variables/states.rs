@@ -116,11 +116,13 @@ fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'st
 /// derivatives in the order of the states: positions of `BODIES`, then velocities.
 pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) {
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);
-    let bodies = bodies();
-    let number = |body: &Body| BODIES.iter().position(|b| b == body).unwrap_or(0);
-    let numbered =
-        || bodies.iter().flat_map(|(body, pair)| [0, 1].map(|i| (number(body) + i * BODIES.len(), &pair[i])));
-    for (k, state) in numbered() {
+    let mut numbered = Vec::new();
+    for (body, [position, velocity]) in bodies() {
+        let number = BODIES.iter().position(|&b| b == body).unwrap_or(0);
+        numbered.push((number, position));
+        numbered.push((number + BODIES.len(), velocity));
+    }
+    for &(k, ref state) in &numbered {
         let found = rows.iter().position(|row| row.name == state.name);
         indices[k] = found.unwrap_or_else(|| {
             let row = local(state.name, state.unit, OutputSource::State(k), state.description);
@@ -129,7 +131,7 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
         });
         rows[indices[k]].nominal = Some(state.nominal);
     }
-    for (k, state) in numbered() {
+    for &(k, ref state) in &numbered {
         let row = local(state.derivative, state.rate_unit, OutputSource::Rate(k), "Time derivative of the state");
         derivatives[k] = rows.len();
         rows.push(Variable { derivative_of: Some(indices[k]), ..row });

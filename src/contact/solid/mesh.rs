@@ -144,6 +144,11 @@ impl SolidMesh {
         }
     }
 
+    /// Sections across the face.
+    pub fn section_count(&self) -> usize {
+        self.slices.len()
+    }
+
     /// Softness ε of the greatest overlap [rad].
     pub fn softness(&self) -> f64 {
         self.soft.width
