@@ -3,6 +3,7 @@
 mod common;
 
 use bevel_differential::fmi2::*;
+use bevel_differential::variables::units::{NEWTON, NEWTON_METRE, ONE, PASCAL, RAD_PER_S2, WATT};
 use bevel_differential::variables::{Access, OutputSource, table};
 use common::{Host, assert_tells, reference};
 
@@ -201,13 +202,51 @@ fn output_derivatives_are_what_differences_of_outputs_come_to() {
             let told = rate(&host, name);
             let [a, b, c] = [0, 1, 2].map(|n| at(n, name));
             let differs = (-3.0 * a + 4.0 * b - c) / (2.0 * h);
-            // a difference of numbers that are right to some last places, over h; accelerations come of torques of 1 kN·m
-            let size = if name.ends_with("acceleration") { a.abs().max(1e3) } else { a.abs() };
-            let noise = 1e-5 * differs.abs() + 1e-12 * size / h + 1e-3;
+            // a difference of numbers that are right to some last places, over h
+            let unit = table().rows[reference(name) as usize].unit.unwrap();
+            // accelerations come of torques of 1 kN·m, ratios of such torques
+            let least = if unit == RAD_PER_S2 {
+                1e3
+            } else if unit == ONE {
+                0.1
+            } else {
+                0.0
+            };
+            let size = a.abs().max(least);
+            let floor = if [WATT, NEWTON, NEWTON_METRE, RAD_PER_S2, PASCAL].contains(&unit) { 1e-3 } else { 1e-8 };
+            let noise = 1e-5 * differs.abs() + 2e-11 * size / h + floor;
             assert!((told - differs).abs() <= noise, "level {level}: d({name})/dt = {told}, differences {differs}");
         }
+        // the ledger: heat by its power
+        assert_eq!(host.set_state(state), Status::Ok);
+        let told = rate(&host, "heat.contact");
+        let [a, b] = [0, 5].map(|n| at(n, "heat.contact"));
+        let differs = (b - a) / (5.0 * h);
+        assert!((told - differs).abs() <= 1e-3 * differs.abs() + 1e-6, "level {level}: {told} W, {differs} W");
         host.free_state(state);
     }
+}
+
+#[test]
+fn derivatives_told_before_the_start_act_at_the_start() {
+    let host = Host::on_level(1);
+    tell(&host, "carrier.speed_command", 1, 100.0);
+    host.start();
+    assert_eq!(rate(&host, "carrier.speed"), 100.0);
+    let held = Host::on_level(1);
+    held.start();
+    assert!(host.get("carrier.torque") > held.get("carrier.torque") + 100.0);
+}
+
+#[test]
+fn a_parabola_that_leaves_the_range_in_between_is_refused() {
+    let host = Host::on_level(1);
+    host.start();
+    let h = 1e-3;
+    tell(&host, "left.load_torque", 1, 4e9 / h);
+    tell(&host, "left.load_torque", 2, -8e9 / (h * h));
+    assert_eq!(host.step(0.0, h), Status::Error);
+    assert_tells(&host.last(), &["left.load_torque", "within the step"]);
 }
 
 #[test]
@@ -273,6 +312,10 @@ fn at_the_start_outputs_are_derived_by_inputs_and_parameters() {
     let bent = host.get("planet[1].left_transmission_error");
     let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", stiffness)]);
     assert!((by_stiffness / (-2.0 / 3.0 * bent) - 1.0).abs() < 1e-6, "{by_stiffness} {bent}");
+    // at the end of a range, to one side
+    let other = Host::new();
+    assert_eq!((other.setup(), other.enter()), (Status::Ok, Status::Ok));
+    assert!(along(&other, "left.acceleration", &[("inertia.left_end", 1.0)]).is_finite());
     let by_speed = along(&host, "carrier.speed", &[("carrier.speed_command", 3.0)]);
     assert!((by_speed - 3.0).abs() < 1e-9);
 }

@@ -157,10 +157,16 @@ fn scalar_variable((reference, row): (usize, &Variable)) -> Element {
         .with("causality", causality)
         .with("variability", variability)
         .with_some("initial", initial)
-        .child(variable_type(row))
+        .child(variable_type(row, is_velocity(reference)))
 }
 
-fn variable_type(row: &Variable) -> Element {
+/// Whether it is a state that commands of speeds may set at events.
+fn is_velocity(reference: usize) -> bool {
+    let states = &table().states;
+    states[states.len() / 2..].contains(&reference)
+}
+
+fn variable_type(row: &Variable, is_reset: bool) -> Element {
     let mut defaults = Parameters::default();
     match row.access {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
@@ -169,6 +175,7 @@ fn variable_type(row: &Variable) -> Element {
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
             .with_some("nominal", row.nominal.map(number))
+            .with_some("reinit", is_reset.then_some(true))
             .with_some("derivative", row.derivative_of.map(|index| index + 1))
             .with_some("start", real_start(row).map(number)),
         Access::Integer(access) => Element::new("Integer")
@@ -221,10 +228,10 @@ const BY_POSITION: [&str; 1] = ["transmission_error"];
 /// Parts of names of what follows from positions and speeds, torques apart: of the teeth alone, and of shafts as well.
 const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
 const BY_MOTION: [&str; 1] = ["power.loss"];
-/// Commands that speeds follow at once in model exchange, and the endings of their names.
+/// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
 const FOLLOWERS: [(&str, &[&str]); 2] = [
-    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed"]),
-    ("planet.spin_command", &["spin_speed", "left.speed", "right.speed", "mesh.frequency"]),
+    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+    ("planet.spin_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
 ];
 
 fn is_torque(input: &Variable) -> bool {

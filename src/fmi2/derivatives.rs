@@ -14,6 +14,9 @@ use crate::variables::{Access, OutputSource, Variable, check_value, table};
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
 
+/// Differences of order 4 to one side: places and weights.
+const AHEAD: [(f64, f64); 5] = [(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)];
+const BEHIND: [(f64, f64); 5] = [(0.0, 25.0 / 12.0), (-1.0, -4.0), (-2.0, 3.0), (-3.0, -4.0 / 3.0), (-4.0, 0.25)];
 /// Distance of the places of differences of the start, as a part of what is changed: its equilibrium is found to some
 /// 1e-9.
 const APART: f64 = 3e-3;
@@ -84,14 +87,17 @@ impl Instance {
         }
     }
 
-    /// Refuses a step of `h` [s] at whose end an input would be out of its range.
+    /// Refuses a step of `h` [s] within which an input would be out of its range.
     pub fn check_course(&self, h: f64) -> Answer {
         let Some(course) = self.now.course else { return Ok(()) };
-        let (mut end, _) = course.after(h, &self.now.inputs);
+        let [mut first, mut second] = course.rates;
         for &index in &table().inputs {
             let row = &table().rows[index];
-            if let Access::Input(slot) = row.access {
-                check_value(row, *slot(&mut end)).map_err(|problem| {
+            let Access::Input(slot) = row.access else { continue };
+            let peak = -*slot(&mut first) / *slot(&mut second);
+            for time in [h, peak].into_iter().filter(|&time| time > 0.0 && time <= h) {
+                let (mut inputs, _) = course.after(time, &self.now.inputs);
+                check_value(row, *slot(&mut inputs)).map_err(|problem| {
                     Refusal::error(format!("with its derivatives an input leaves its range within the step: {problem}"))
                 })?;
             }
@@ -251,17 +257,27 @@ fn at_the_start(
         size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
     }
     let apart = if size > 0.0 { APART / size } else { 1.0 };
-    let mut sums = vec![0.0; sources.len()];
-    for (place, weight) in PLACES {
+    let moved = |place: f64| {
         let mut moved = now.clone();
         for (&reference, &change) in references.iter().zip(change) {
-            match row(reference)?.access {
-                Access::Input(slot) => *slot(&mut moved.inputs) += place * apart * change,
-                Access::Real(slot) => *slot(&mut moved.parameters) += place * apart * change,
-                _ => {}
-            }
+            let row = row(reference)?;
+            let value = match row.access {
+                Access::Input(slot) => slot(&mut moved.inputs),
+                Access::Real(slot) => slot(&mut moved.parameters),
+                _ => continue,
+            };
+            *value += place * apart * change;
+            check_value(row, *value).map_err(|problem| Refusal::error(problem.to_string()))?;
         }
-        let mut simulation = moved.start().map_err(|problems| {
+        Ok(moved)
+    };
+    // to one side where the other leaves the range
+    let all_there = |places: &&[(f64, f64)]| places.iter().all(|&(place, _)| moved(place).is_ok());
+    let sides: [&[(f64, f64)]; 3] = [&PLACES, &AHEAD, &BEHIND];
+    let places = sides.into_iter().find(all_there).unwrap_or(&PLACES);
+    let mut sums = vec![0.0; sources.len()];
+    for &(place, weight) in places {
+        let mut simulation = moved(place)?.start().map_err(|problems| {
             Refusal::error(format!(
                 "there is no derivative here, for beside it initialisation fails:\n{}",
                 crate::problem::list(&problems)

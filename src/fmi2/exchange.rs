@@ -6,7 +6,7 @@ use super::calls::Phase;
 use super::instance::Instance;
 use super::refusal::{Answer, Refusal};
 use super::types::{EventInfo, Kind};
-use crate::model::{INDICATORS, STATES, Simulation};
+use crate::model::{INDICATORS, STATES, Simulation, StepFailure};
 use crate::variables::table;
 
 impl Instance {
@@ -33,6 +33,7 @@ impl Instance {
     /// fmi2NewDiscreteStates: one iteration is always enough.
     pub fn new_discrete_states(&mut self) -> Answer<EventInfo> {
         let update = self.exchanged()?.update();
+        let update = self.lasting(update)?;
         Ok(EventInfo {
             states_changed: i32::from(update.states_changed),
             next_event_defined: i32::from(update.next.is_some()),
@@ -43,22 +44,24 @@ impl Instance {
 
     /// fmi2CompletedIntegratorStep. Whether an event is due.
     pub fn completed_integrator_step(&mut self) -> Answer<bool> {
-        let simulation = self.exchanged()?;
-        let outcome = simulation.complete_step();
-        // wrapping positions and booking energies may overflow where the states themselves did not
-        if outcome.is_ok() && !simulation.state().is_valid() {
-            self.now.phase = Phase::Error;
-            return Err(Refusal::error(
-                "the step ends at states with which no simulation can go on; go on with fmi2SetFMUstate or fmi2Reset",
-            ));
-        }
-        if outcome.is_ok() && self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
+        let outcome = self.exchanged()?.complete_step();
+        let due = self.lasting(outcome)?;
+        if self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
             self.watch();
         }
-        outcome.map_err(|failure| {
-            self.now.phase = Phase::Error;
-            Refusal::error(format!("{failure}; go on with fmi2SetFMUstate or fmi2Reset"))
-        })
+        Ok(due)
+    }
+
+    /// What came of taking note of a step: after a failure there is nothing to go on from.
+    fn lasting<T>(&mut self, outcome: Result<T, StepFailure>) -> Answer<T> {
+        let failure = match outcome {
+            // wrapping positions and booking energies may overflow where the states themselves did not
+            Ok(result) if self.now.simulation.as_ref().is_some_and(|s| s.state().is_valid()) => return Ok(result),
+            Ok(_) => "the step ends at states with which no simulation can go on".to_owned(),
+            Err(failure) => failure.to_string(),
+        };
+        self.now.phase = Phase::Error;
+        Err(Refusal::error(format!("{failure}; go on with fmi2SetFMUstate or fmi2Reset")))
     }
 
     /// fmi2SetTime.

@@ -88,8 +88,11 @@ impl Instance {
             Kind::CoSimulation => Phase::StepComplete,
             Kind::ModelExchange => Phase::Event,
         };
-        if let (Kind::ModelExchange, Some(simulation)) = (self.now.kind, &mut self.now.simulation) {
-            simulation.hand_over();
+        if let Some(simulation) = &mut self.now.simulation {
+            match self.now.kind {
+                Kind::CoSimulation => simulation.set_course(self.now.course),
+                Kind::ModelExchange => simulation.hand_over(),
+            }
         }
         if let Some(simulation) = &self.now.simulation {
             self.log.event(&simulation.describe());

@@ -162,6 +162,9 @@ impl Payload {
         if self.accepted.as_ref().is_some_and(|a| !a.is_valid()) || self.course.is_some_and(|c| !c.is_finite()) {
             return Err("the state has values that are not finite".into());
         }
+        if self.accepted.is_some() && self.kind != Kind::ModelExchange {
+            return Err("a step completed by a host's solver does not belong to this kind of instance".into());
+        }
         let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime);
         let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed);
         if exchanges && (self.kind != Kind::ModelExchange || self.accepted.is_none())

@@ -1,7 +1,7 @@
 //! Commands that take effect at the begin of a step: imposed speeds jump, a tooth breaks.
 
 use super::constants::{Gears, Model};
-use super::layout::CARRIER;
+use super::layout::{CARRIER, PLANET};
 use super::parameters::Inputs;
 use super::state::State;
 
@@ -51,6 +51,26 @@ pub fn follow(model: &Model, inputs: &Inputs, state: &mut State) {
         state.v[layout.planet(g)] = inputs.planet_spin;
     }
     if let Gears::Rigid(rigid) = &model.gears {
+        rigid.constrain(state);
+    }
+}
+
+/// Whether free speeds of gears without teeth have a jump of imposed ones to follow, from `followed` to `inputs`.
+pub fn impels(model: &Model, followed: &Inputs, inputs: &Inputs) -> bool {
+    let [by_carrier, by_spin] = model.ideal.impulse();
+    matches!(&model.gears, Gears::Rigid(_))
+        && (by_carrier != 0.0 && followed.carrier_speed != inputs.carrier_speed
+            || by_spin != 0.0 && followed.planet_spin != inputs.planet_spin)
+}
+
+/// Lets free speeds of gears without teeth follow such a jump.
+pub fn impel(model: &Model, followed: &Inputs, inputs: &Inputs, state: &mut State) {
+    if let (Gears::Rigid(rigid), true) = (&model.gears, impels(model, followed, inputs)) {
+        let [by_carrier, by_spin] = model.ideal.impulse();
+        let carrier = |command: f64| rigid.carrier_speed(state, command);
+        let jump = carrier(inputs.carrier_speed) - carrier(followed.carrier_speed);
+        state.v[PLANET] += by_carrier * jump;
+        state.v[CARRIER] += by_spin * (inputs.planet_spin - followed.planet_spin);
         rigid.constrain(state);
     }
 }

@@ -9,6 +9,7 @@ use super::constants::Gears;
 use super::course::Course;
 use super::failure::StepFailure;
 use super::layout::{CARRIER, MAX_DOF, MAX_PLANETS};
+use super::parameters::Inputs;
 use super::plan::Plan;
 use super::records::{Records, Scene};
 use super::simulation::Simulation;
@@ -90,7 +91,7 @@ pub struct Update {
 impl Simulation {
     /// From now on the host moves the state.
     pub fn hand_over(&mut self) {
-        self.accept();
+        self.accept(self.inputs);
     }
 
     /// Whether the host moves the state.
@@ -98,9 +99,10 @@ impl Simulation {
         self.accepted.is_some()
     }
 
-    fn accept(&mut self) {
+    /// Takes note of where the state is; free speeds have followed the jumps of imposed ones up to `followed`.
+    fn accept(&mut self, followed: Inputs) {
         let State { time, q, v, .. } = self.state;
-        self.accepted = Some(Accepted { time, q, v, inputs: self.inputs });
+        self.accepted = Some(Accepted { time, q, v, inputs: self.inputs, followed });
         self.forces = None;
     }
 
@@ -209,18 +211,27 @@ impl Simulation {
             state.control.last = h;
             state.wrap(&model.periods, &model.layout);
         }
-        let due = is_due || inputs.lock != state.lock || commands::breaks_tooth(model, inputs, state);
-        self.accept();
+        let jumps = commands::impels(model, &from.followed, inputs);
+        let due = is_due || jumps || inputs.lock != state.lock || commands::breaks_tooth(model, inputs, state);
+        self.accept(from.followed);
         Ok(due)
     }
 
     /// An event: commands, friction and teeth change to what is due.
-    pub fn update(&mut self) -> Update {
-        let before = self.states();
+    pub fn update(&mut self) -> Result<Update, StepFailure> {
+        // events whose time is known come without a step that is completed
+        if self.accepted.is_some_and(|from| from.time < self.state.time) {
+            self.complete_step()?;
+        }
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
-        let stored = energy(model, inputs, state);
+        let (before, followed) = match &self.accepted {
+            Some(from) => (from.of(state), from.followed),
+            None => (*state, *inputs),
+        };
+        commands::impel(model, &followed, inputs, state);
         commands::follow(model, inputs, state);
-        state.work += energy(model, inputs, state) - stored;
+        // the energy of a jump of imposed speeds is impulsive work of the input
+        state.work += energy(model, inputs, state) - energy(model, inputs, &before);
         catch_holds(model, inputs, state);
         with_equations!(model, state, inputs, |equations| {
             let mut equations = equations;
@@ -232,8 +243,9 @@ impl Simulation {
         break_tooth(model, inputs, state);
         let onset = model.parameters.tooth_fault.onset;
         let waits = model.parameters.effects.tooth_fault && !state.fault && onset > state.time;
-        self.accept();
-        Update { states_changed: self.states() != before, next: waits.then_some(onset) }
+        let states_changed = before.q != state.q || before.v != state.v;
+        self.accept(self.inputs);
+        Ok(Update { states_changed, next: waits.then_some(onset) })
     }
 
     /// Event indicators: approach of flanks [m], positive where they press; how far holds of dry friction are from a

@@ -48,6 +48,17 @@ impl Ideal {
         [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
     }
 
+    /// What free speeds take of a jump of imposed ones: the spin by the carrier, and the carrier by the spin. Sides of
+    /// unequal inertia couple both.
+    pub fn impulse(&self) -> [f64; 2] {
+        let [m11, m12, m22] = self.mass();
+        let plan = &self.plan;
+        [
+            if plan.carrier_imposed && !plan.spin_imposed { -m12 / m22 } else { 0.0 },
+            if plan.spin_imposed && !plan.carrier_imposed { -m12 / m11 } else { 0.0 },
+        ]
+    }
+
     /// Lets imposed speeds jump to `inputs`; what is free follows the impulse through the gears. Work of the jump [J].
     pub fn jump(&self, state: &mut State, inputs: &Inputs) -> f64 {
         let before = self.kinetic_energy(state);

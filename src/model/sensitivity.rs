@@ -222,6 +222,10 @@ impl Simulation {
             v[CARRIER] = self.carrier_speed_slope(q[CARRIER], inputs.carrier_speed);
         }
         if let Gears::Rigid(_) = &self.model.gears {
+            if !self.is_handed_over() {
+                let [by_carrier, by_spin] = self.model.ideal.impulse();
+                (v[CARRIER], v[PLANET]) = (v[CARRIER] + by_spin * v[PLANET], v[PLANET] + by_carrier * v[CARRIER]);
+            }
             let turn = self.model.ideal.ratio * v[PLANET];
             (v[0], v[1]) = (v[CARRIER] + turn, v[CARRIER] - turn);
         }

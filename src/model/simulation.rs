@@ -159,7 +159,8 @@ impl Simulation {
             return None;
         }
         let mut present = self.clone();
-        present.follow_commands();
+        commands::apply(&present.model, &present.inputs, &mut present.state);
+        present.forces = None;
         Some(present)
     }
 

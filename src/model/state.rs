@@ -10,6 +10,9 @@ use super::parameters::Inputs;
 use crate::integrate::{Control, Point, Statistics};
 use crate::strength::{Damage, Rainflow, ToothDamage};
 
+/// Turns beyond which whole ones are no longer told apart.
+const MOST_TURNS: u64 = 1 << 53;
+
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
@@ -58,6 +61,8 @@ pub struct Accepted {
     pub v: [f64; MAX_DOF],
     /// Inputs.
     pub inputs: Inputs,
+    /// Commands whose jumps free speeds have followed.
+    pub followed: Inputs,
 }
 
 impl Accepted {
@@ -153,7 +158,7 @@ impl State {
             let turns = libm::rint(self.q[i] / period);
             if turns != 0.0 {
                 self.q[i] -= turns * period;
-                self.turns[i] += turns as i64;
+                self.turns[i] = self.turns[i].saturating_add(turns as i64);
                 let planet = i.wrapping_sub(layout.planet(0));
                 let held = if i < CARRIER { Some(i) } else { (planet < layout.groups).then_some(2 + planet) };
                 if let Some(hold) = held.and_then(|h| self.holds.get_mut(h)) {
@@ -184,6 +189,7 @@ impl State {
         let course = self.course.is_none_or(|course| course.is_finite());
         self.q.iter().chain(&self.v).chain(&numbers).chain(&self.heat).chain(&anchors).all(|x| x.is_finite())
             && course
+            && self.turns.iter().all(|turns| turns.unsigned_abs() < MOST_TURNS)
             && (0.0..=1.0).contains(&self.lock)
             && self.control.next > 0.0
             && self.control.next.is_finite()
