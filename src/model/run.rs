@@ -13,6 +13,11 @@ use crate::integrate::{
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
+/// Entries of the matrices of plain teeth with planets that are alike.
+const PLAIN: usize = 16;
+/// What a step of Radau costs in steps of the other methods.
+const RADAU_IN_STEPS: usize = 8;
+
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET };
@@ -21,7 +26,10 @@ pub fn budget(model: &Model) -> u64 {
         _ if teeth.full.in_detail => teeth.full.detailed.slices.len() * teeth.layout.groups,
         _ => 1,
     };
-    BUDGET / (work as u64).max(1)
+    // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
+    let freedoms = teeth.layout.count();
+    let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
+    BUDGET / (work.max(freedoms * freedoms / PLAIN) * steps) as u64
 }
 
 /// Integrates to `until` [s].
