@@ -8,6 +8,9 @@ use super::pairs::{Engagement, Flank, Spot};
 
 /// Parts of a step within which a kink is worth to end on: one that lies at either end already does no harm.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
+/// Pairs of a motion that are looked at. One past more of them, by a whole turn of a gear and more, resolves none: gears at
+/// absurd speeds would have them looked for without end.
+const MOST_PAIRS: i64 = 256;
 /// Halvings of the step by which a kink is found: to some hundred-thousandths of it.
 const HALVINGS: u32 = 15;
 
@@ -28,7 +31,11 @@ impl Engagement {
         let flank = if position[0] < 0.0 { Flank::Drive } else { Flank::Coast };
         let numbers = [self.numbers(flank, position[1], approach[0]), self.numbers(flank, at(1.0)[1], approach[1])];
         let mut first: Option<f64> = None;
-        for k in numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1) {
+        let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
+        if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+            return None;
+        }
+        for k in pairs {
             let spot = |[q, x]: [f64; 2]| self.spot(flank, x, self.approach(q), k);
             let start = spot(position);
             if spot(at(1.0)) != start
@@ -44,7 +51,11 @@ impl Engagement {
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
-            for k in numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1) {
+            let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);
+            if pairs.end.saturating_sub(pairs.start) > MOST_PAIRS {
+                continue;
+            }
+            for k in pairs {
                 let [start, end] = [position[1], position[1] + change[1]].map(|x| self.past_ends(flank, x, 0.0, k));
                 for (from, to) in start.into_iter().zip(end) {
                     let t = from / (from - to);

@@ -13,6 +13,9 @@ use crate::integrate::{
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
+/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and at the least.
+const SOLID_PER_FACET: usize = 6;
+const LEAST_SOLID: usize = 128;
 /// Entries of the matrices of plain teeth with planets that are alike.
 const PLAIN: usize = 16;
 /// What a step of Radau costs in steps of the other methods.
@@ -22,7 +25,10 @@ const RADAU_IN_STEPS: usize = 8;
 pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET };
     let work = match &teeth.mesh.law {
-        Law::Solid(solid) => solid.section_count() * model.parameters.solid.facets.max(1) as usize,
+        // few facets have many neighbours, many facets are many
+        Law::Solid(solid) => {
+            solid.section_count() * (SOLID_PER_FACET * model.parameters.solid.facets as usize).max(LEAST_SOLID)
+        }
         _ if teeth.full.in_detail => teeth.full.detailed.slices.len() * teeth.layout.groups,
         _ => 1,
     };
