@@ -158,7 +158,10 @@ fn check(
 /// Calls that may move the instance although they are refused: what could not be begun or completed leaves its mark.
 fn may_leave_a_mark(function: Function) -> bool {
     use Function as F;
-    matches!(function, F::fmi2DoStep | F::fmi2ExitInitializationMode | F::fmi2CompletedIntegratorStep)
+    matches!(
+        function,
+        F::fmi2DoStep | F::fmi2ExitInitializationMode | F::fmi2CompletedIntegratorStep | F::fmi2NewDiscreteStates
+    )
 }
 
 /// Calls that only look.
