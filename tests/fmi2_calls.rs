@@ -14,6 +14,13 @@ const PHASES: [&str; 6] =
 const EXCHANGE_PHASES: [&str; 6] =
     ["instantiated", "initialization mode", "event mode", "continuous-time mode", "terminated", "error"];
 
+/// Into the state `error`.
+fn fail_to_start(host: &Host) {
+    assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
+    assert_eq!(host.enter(), Status::Ok);
+    assert_eq!(host.exit(), Status::Error);
+}
+
 /// An instance for model exchange in the phase of that number.
 fn exchange_host_in(phase: usize) -> Host {
     let host = Host::for_exchange();
@@ -26,11 +33,7 @@ fn exchange_host_in(phase: usize) -> Host {
             host.start();
             assert_eq!(host.terminate(), Status::Ok);
         }
-        _ => {
-            assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
-            assert_eq!(host.enter(), Status::Ok);
-            assert_eq!(host.exit(), Status::Error);
-        }
+        _ => fail_to_start(&host),
     }
     host.clear_log();
     host
@@ -52,11 +55,7 @@ fn host_in(phase: usize) -> Host {
             host.start();
             assert_eq!(host.terminate(), Status::Ok);
         }
-        _ => {
-            assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
-            assert_eq!(host.enter(), Status::Ok);
-            assert_eq!(host.exit(), Status::Error);
-        }
+        _ => fail_to_start(&host),
     }
     host.clear_log();
     host

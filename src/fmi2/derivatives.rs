@@ -294,7 +294,7 @@ fn at_the_start(
 }
 
 /// What a variable reads.
-pub fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
+fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
     match source {
         OutputSource::Motion(of) => of(&simulation.motion()),
         OutputSource::Forces(of) => of(simulation.forces()),

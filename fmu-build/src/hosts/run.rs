@@ -132,6 +132,8 @@ impl Bench {
         if let Start::Script(_, arguments) = host.start {
             command.args(arguments);
         }
+        // some write logs where they stand
+        command.current_dir(out.parent().unwrap_or(out));
         let ended = command.output().with_context(|| format!("{} cannot be run", host.name))?;
         let (printed, remarks) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
         if ended.status.code() == Some(CANNOT_LOAD) {
