@@ -6,35 +6,38 @@
 //! but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{Effects, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{EFFECTS, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::variables::{Access, table};
 
-fn switch(p: &mut Parameters, name: &str) {
-    let e: &mut Effects = &mut p.effects;
+/// Sets the variable `name` to `value`.
+fn set(p: &mut Parameters, i: &mut Inputs, name: &str, value: f64) {
+    let row = table().rows.iter().find(|row| row.name == name).expect("the variable exists");
+    match row.access {
+        Access::Real(at) => *at(p) = value,
+        Access::Integer(at) => *at(p) = value as i32,
+        Access::Boolean(at) => *at(p) = value != 0.0,
+        Access::Enumeration(_, _, set) => set(p, value as i32),
+        Access::Input(at) => *at(i) = value,
+        Access::Output(_) => panic!("{name} is an output"),
+    }
+}
+
+/// Switches on an effect with the values of its example, or a law.
+fn switch(p: &mut Parameters, i: &mut Inputs, name: &str) {
     match name {
-        "tooth_errors" => {
-            e.tooth_errors = true;
-            (p.tooth_errors.accuracy_grade, p.tooth_errors.seed) = (7, 1);
-            p.tooth_errors.planet_tip_relief = 20e-6;
-        }
-        "tooth_fault" => {
-            e.tooth_fault = true;
-            (p.tooth_fault.onset, p.tooth_fault.missing_fraction) = (1e-9, 0.6);
-        }
-        "tooth_friction" => e.tooth_friction = true,
-        "thrust_friction" => e.thrust_friction = true,
-        "limited_slip" => e.limited_slip = true,
-        "half_shaft" => {
-            e.half_shaft = true;
-            (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
-        }
-        "pin_compliance" => e.pin_compliance = true,
-        "bearing_drag" => e.bearing_drag = true,
-        "final_drive" => e.final_drive = true,
-        "strength" => e.strength = true,
         "line" => p.contact.law = ContactLaw::Line,
         "line_weber" => p.contact.law = ContactLaw::LineWeber,
         "each_planet" => p.solver.merge_planets = false,
-        _ => panic!("no effect is called {name}"),
+        _ => {
+            let effect = EFFECTS.iter().find(|effect| effect.name == name);
+            let effect = effect.unwrap_or_else(|| panic!("there is no effect {name}"));
+            if let Some(switch) = effect.switch {
+                set(p, i, switch, 1.0);
+            }
+            for &(name, value) in effect.example {
+                set(p, i, name, value);
+            }
+        }
     }
 }
 
@@ -58,14 +61,13 @@ fn main() {
     }
     for name in effects {
         match name.as_str() {
-            "lock" => i.lock = 1.0,
             "unread" | "reversal" => {}
             "rolling" => p.scene.start = Start::Rolling,
             name => match name.split_once('=') {
                 Some(("fixed_step", size)) => {
                     (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
                 }
-                _ => switch(&mut p, name),
+                _ => switch(&mut p, &mut i, name),
             },
         }
     }

@@ -1,7 +1,7 @@
 //! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and its FMI 2.0 face.
 //!
 //! The rooms, ground floor first; each uses only those before it:
-//! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `model` → `variables` → `fmi2`.
+//! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `fmi2`.
 //!
 //! All quantities are SI (m, rad, s, kg, N) unless a name says otherwise; symbols follow ISO 23509.
 
@@ -9,6 +9,7 @@
 #![warn(missing_docs)]
 
 pub mod contact;
+pub mod declaration;
 pub mod friction;
 pub mod geometry;
 pub mod integrate;

@@ -1,6 +1,6 @@
 //! Motion against closed forms and conservation laws.
 
-use bevel_differential::model::{Cause, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
 
 fn turn() -> (Parameters, Inputs) {
     let mut p = Parameters::default();
@@ -22,7 +22,7 @@ fn undamped_residual(start: Start, tolerance: f64) -> f64 {
         let f = s.forces();
         turnover += (f.power_in.abs() + f.power_out.abs()) * 0.5 / f64::from(steps);
     }
-    assert_eq!(s.books().heat[Cause::Contact as usize], 0.0);
+    assert_eq!(s.books().heat[CONTACT_HEAT], 0.0);
     (s.books().energy_residual / turnover).abs()
 }
 
@@ -122,7 +122,7 @@ fn a_jump_of_an_imposed_speed_is_booked_as_work() {
         let m = s.motion();
         assert!((m.side_speed[0] / inputs.carrier_speed - 1.0).abs() < 1e-4, "{contact:?}: {m:?}");
         let b = s.books();
-        assert!(b.energy_residual.abs() < 1e-2 * b.heat[Cause::Contact as usize].max(1.0), "{contact:?}: {b:?}");
+        assert!(b.energy_residual.abs() < 1e-2 * b.heat[CONTACT_HEAT].max(1.0), "{contact:?}: {b:?}");
     }
 }
 

@@ -248,7 +248,7 @@ fn turn(errors: ToothErrorSpec, spin: f64, carrier: f64, load: [f64; 2]) -> Simu
     p.solver.merge_planets = false;
     p.solid.facets = 64;
     p.effects.tooth_errors = true;
-    p.tooth_errors = errors;
+    p.specs.tooth_errors = errors;
     let inputs = Inputs { planet_spin: spin, carrier_speed: carrier, load_torque: load, ..Inputs::default() };
     let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
     simulation.advance(0.02).expect("a step");

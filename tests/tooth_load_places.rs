@@ -41,7 +41,7 @@ fn moments_of_the_forces_at_their_points_are_the_tooth_torques() {
         let (mut p, inputs) = turning(10, 16, 2, load);
         if friction > 0.0 {
             p.effects.tooth_friction = true;
-            p.tooth_friction.coefficient = friction;
+            p.specs.tooth_friction.coefficient = friction;
         }
         let mut corners = 0;
         let (mut worst_side, mut worst_planet) = (0.0f64, 0.0f64);

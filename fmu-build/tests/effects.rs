@@ -229,8 +229,9 @@ fn all_changes_go_to_the_csv() -> Result<()> {
 #[test]
 fn every_switch_of_the_table_is_considered() {
     let names: Vec<&str> = switches::effects().map(|switch| switch.name()).collect();
-    let listed = bevel_differential::model::Effects::TEETH.list();
-    assert_eq!(names, listed.map(|(name, _)| name.trim_start_matches("effects.")));
+    let listed = bevel_differential::model::Effects::TEETH.switches();
+    let listed: Vec<&str> = listed.map(|(name, _)| name.trim_start_matches("effects.")).collect();
+    assert_eq!(names, listed);
 }
 
 #[test]

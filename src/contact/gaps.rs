@@ -1,24 +1,19 @@
 //! Gaps of individual tooth pairs, slice by slice: errors of the teeth, and a broken tooth once it is broken.
 
 use super::detailed::{Gaps, PairName};
-#[cfg(feature = "tooth_fault")]
 use super::errors::Chip;
-#[cfg(feature = "tooth_errors")]
 use super::errors::ToothErrors;
 use super::errors::{MeshId, PairId};
 use super::pairs::Flank;
 use crate::geometry::Pair;
-#[cfg(feature = "tooth_errors")]
 use crate::numeric::{Dual, Scalar};
 
 /// Gaps of all tooth pairs.
 #[derive(Clone, Debug)]
 pub struct FlankGaps {
     /// Errors of the teeth.
-    #[cfg(feature = "tooth_errors")]
     pub errors: Option<ToothErrors>,
     /// The broken tooth.
-    #[cfg(feature = "tooth_fault")]
     pub chip: Option<Chip>,
     /// Cone distances of the slices [m].
     pub cones: Vec<f64>,
@@ -29,22 +24,13 @@ pub struct FlankGaps {
 }
 
 /// Step over which the slope of a gap is differenced [rad]: its curvature enters the Jacobian alone.
-#[cfg(feature = "tooth_errors")]
 const STEP: f64 = 1e-5;
 
 impl FlankGaps {
     /// Perfect teeth of `pair`.
     pub fn perfect(pair: &Pair, planets: i32, cones: Vec<f64>) -> Self {
         let teeth = pair.gears.map(|g| i64::from(g.teeth));
-        Self {
-            #[cfg(feature = "tooth_errors")]
-            errors: None,
-            #[cfg(feature = "tooth_fault")]
-            chip: None,
-            cones,
-            counts: [i64::from(planets), teeth[0], teeth[1]],
-            least: 0.0,
-        }
+        Self { errors: None, chip: None, cones, counts: [i64::from(planets), teeth[0], teeth[1]], least: 0.0 }
     }
 
     /// Numbers of mesh and teeth as errors count them: planet teeth with positive spin, seen from the left mesh up the path
@@ -82,15 +68,12 @@ impl Gaps for FlankGaps {
         let (mesh, pair) = self.ids(name);
         let r = self.cones[slice];
         let mut gap = [0.0; 3];
-        let _ = (&mut gap, mesh, pair, r, s, twice);
-        #[cfg(feature = "tooth_errors")]
         if let Some(errors) = &self.errors {
             let at = |s: f64| errors.gap(mesh, pair, r, Dual::<1>::variable(s, 0));
             let here = at(s);
             let curvature = || (at(s + STEP).d[0] - at(s - STEP).d[0]) / (2.0 * STEP);
             gap = [here.value(), here.d[0], if twice { curvature() } else { 0.0 }];
         }
-        #[cfg(feature = "tooth_fault")]
         if let Some(chip) = &self.chip {
             gap[0] += chip.gap(mesh, pair, r);
         }

@@ -16,11 +16,7 @@ mod spec;
 pub mod spring;
 pub mod state;
 pub mod stiffness;
+pub mod tooth_friction;
+pub mod tooth_load;
 
 pub use spec::{ContactLaw, ContactSpec, DampingModel};
-
-#[cfg(feature = "tooth_friction")]
-pub mod tooth_friction;
-#[cfg(not(feature = "tooth_friction"))]
-#[path = "no_tooth_friction.rs"]
-pub mod tooth_friction;

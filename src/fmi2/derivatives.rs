@@ -222,8 +222,12 @@ impl<'a> Slopes<'a> {
         match source {
             OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
             OutputSource::Forces(of) => self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of),
+            OutputSource::Reading(place) => {
+                let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
+                along.slope(|forces| forces.readings[place])
+            }
             // the ledger changes with time alone
-            OutputSource::Books(_) => 0.0,
+            OutputSource::Books(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
             OutputSource::State(k) => simulation.gather(|i| direction.q[i], &direction.v)[k],
             OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
                 let [q, v] = simulation.rate_slopes(direction);
@@ -298,7 +302,10 @@ fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
     match source {
         OutputSource::Motion(of) => of(&simulation.motion()),
         OutputSource::Forces(of) => of(simulation.forces()),
+        OutputSource::Reading(place) => simulation.forces().readings[place],
         OutputSource::Books(of) => of(&simulation.books()),
+        OutputSource::LedgerReading(place) => simulation.books().readings[place],
+        OutputSource::Heat(place) => simulation.books().heat[place],
         OutputSource::State(k) => simulation.states()[k],
         OutputSource::Rate(k) => simulation.state_rates()[k],
     }

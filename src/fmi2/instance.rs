@@ -5,9 +5,11 @@ use super::log::Log;
 use super::refusal::{Answer, Refusal};
 use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
+use crate::declaration::Field;
+use crate::model::Parameters;
 use crate::model::Simulation;
 use crate::problem;
-use crate::variables::{self, Access, RealParameter, Variable};
+use crate::variables::{self, Access, Variable};
 
 /// Communication points are compared with this tolerance, relative to the larger of time and step size: far above what
 /// hosts lose by adding up steps.
@@ -239,7 +241,7 @@ fn initial_problems(problems: &[problem::Problem]) -> Refusal {
 }
 
 /// Row of the solver's tolerance and access to it.
-fn tolerance_row() -> Option<(&'static Variable, RealParameter)> {
+fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     variables::table().rows.iter().find(|row| is_tolerance(row)).and_then(|row| match row.access {
         Access::Real(slot) => Some((row, slot)),
         _ => None,

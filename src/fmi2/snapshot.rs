@@ -13,7 +13,7 @@ use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Grows whenever the payload changes its meaning or layout.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// What an instance is at an instant. Cloning copies the state and shares the constants.

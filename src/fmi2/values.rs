@@ -6,7 +6,7 @@ use super::calls::Phase;
 use super::instance::{Instance, is_tolerance};
 use super::refusal::{Answer, Refusal};
 use crate::model::{Books, Motion};
-use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table};
+use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 
 /// FMI type of a variable, as FMI's functions name it.
 fn type_name(row: &Variable) -> &'static str {
@@ -77,7 +77,12 @@ impl Instance {
                     match source {
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
+                        OutputSource::Reading(place) => simulation.forces().readings[place],
                         OutputSource::Books(of) => of(books.get_or_insert_with(|| simulation.books())),
+                        OutputSource::LedgerReading(place) => {
+                            books.get_or_insert_with(|| simulation.books()).readings[place]
+                        }
+                        OutputSource::Heat(place) => books.get_or_insert_with(|| simulation.books()).heat[place],
                         OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],
                         OutputSource::Rate(k) => rates.get_or_insert_with(|| simulation.state_rates())[k],
                     }
@@ -214,7 +219,7 @@ impl Instance {
             Some(simulation) if now.phase.is_running() => {
                 simulation.set_inputs(&now.inputs);
                 if parameters {
-                    simulation.tune(&now.parameters);
+                    simulation.tune(&tuned(&now.parameters, simulation.parameters()));
                 }
                 if simulation.is_handed_over() {
                     simulation.follow_commands();

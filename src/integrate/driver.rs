@@ -135,7 +135,9 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
         let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &aim));
         match trial {
             Some(trial) if error <= 1.0 => {
-                if let Some(fraction) = system.crossing(point, &trial.end).filter(|_| h > resolution) {
+                if let Some(fraction) =
+                    system.crossing((point, *time), (&trial.end, *time + h)).filter(|_| h > resolution)
+                {
                     statistics.rejected_switch += 1;
                     switch_at = (h * fraction).max(resolution);
                     continue;

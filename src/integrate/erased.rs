@@ -32,7 +32,7 @@ pub trait Object<const N: usize, P> {
     /// See [`SecondOrder::kink`].
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64>;
     /// See [`SecondOrder::crossing`].
-    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64>;
+    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64>;
 }
 
 impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
@@ -75,7 +75,7 @@ impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         SecondOrder::kink(self, at, h)
     }
-    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64> {
+    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
         SecondOrder::crossing(self, start, end)
     }
 }
@@ -125,7 +125,7 @@ impl<const N: usize, P: Copy> SecondOrder<N> for Erased<'_, N, P> {
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         self.0.kink(at, h)
     }
-    fn crossing(&self, start: &Point<N>, end: &Point<N>) -> Option<f64> {
+    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
         self.0.crossing(start, end)
     }
 }

@@ -114,9 +114,10 @@ pub trait SecondOrder<const N: usize> {
     }
 
     /// Where a switch of the system's equations falls within the step from `start` to `end`, as the fraction of the step
-    /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to.
+    /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to. Both ends come with
+    /// their times [s].
     #[inline(always)]
-    fn crossing(&self, _start: &Point<N>, _end: &Point<N>) -> Option<f64> {
+    fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None
     }
 }

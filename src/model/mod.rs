@@ -1,67 +1,34 @@
-//! The differential as a mechanical system: parameters → plan → equations → readings.
+//! The differential as a mechanical system. The rooms, ground floor first; each uses only those before it:
+//!
+//! - `scene`: drives, inputs, material, integration, and the plan of bodies,
+//! - `effect_kinds`: what effects are made of: forces on bodies, dry friction, changes to teeth,
+//! - `effects`: the effects, one file each, and their list,
+//! - `setup`: all parameters, and what contradicts itself,
+//! - `assembly`: from parameters to constants,
+//! - `dynamics`: the equations of motion and their state,
+//! - `outputs`: what can be read,
+//! - `run`: a running simulation.
 
-mod beside;
-mod bodies;
-mod causes;
-mod combinations;
-mod commands;
-mod constants;
-mod continuous;
-mod course;
-mod cycle;
-mod dry;
-mod effect_specs;
-mod effects;
-mod equations;
-mod face;
-mod failure;
-mod full;
-mod grip;
-mod ideal;
-mod laws;
-mod layout;
-mod loads;
-mod motion;
-mod parameters;
-mod plan;
-mod power;
-mod readings;
-mod records;
-mod resultants;
-mod rigid;
+mod assembly;
+mod dynamics;
+mod effect_kinds;
+pub mod effects;
+mod outputs;
 mod run;
-mod sensitivity;
-mod simulation;
-mod sizes;
-mod solid;
-mod start;
-mod state;
-#[cfg(feature = "strength")]
-mod strength;
-#[cfg(not(feature = "strength"))]
-#[path = "no_strength.rs"]
-mod strength;
-mod switches;
-mod teeth;
-mod tooth_effects;
+mod scene;
+mod setup;
 
-pub use bodies::Inertias;
-pub use causes::{CAUSES, Cause};
-pub use continuous::{BODIES, Body, INDICATORS, STATES, Update};
-pub use course::{Course, ORDERS};
-pub use effect_specs::{
-    BearingDragSpec, EffectSpecs, FinalDriveSpec, HalfShaftSpec, LimitedSlipSpec, LockSpec, PinComplianceSpec,
-    StrengthSpec, ThrustFrictionSpec,
-};
-pub use failure::StepFailure;
-pub use layout::MAX_PLANETS;
-pub use loads::{ToothLoad, Touch};
-pub use parameters::{
-    CarrierDrive, Effects, GearContact, InertiaSpec, Inputs, Material, Method, Parameters, PlanetSpin, Scene,
+pub use crate::contact::tooth_load::{ToothLoad, Touch};
+pub use assembly::bodies::Inertias;
+pub use dynamics::state::{Accepted, State};
+pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
+pub use effects::{EFFECTS, EffectParameters, Effects};
+pub use outputs::readings::{Books, Forces, MeshForces, Motion, efficiency};
+pub use run::{Along, BODIES, Body, CostClass, Direction, INDICATORS, PLACES, STATES, Simulation, StepFailure, Update};
+pub use scene::layout::MAX_PLANETS;
+pub use scene::{
+    CarrierDrive, Course, GearContact, Group, InertiaSpec, Inputs, Material, Method, ORDERS, Plan, PlanetSpin, Scene,
     SideDrive, SolidTeeth, SolverSpec, Start,
 };
-pub use plan::{Group, Plan};
-pub use readings::{Books, Forces, MeshForces, Motion, Stresses, efficiency};
-pub use sensitivity::{Along, Direction, PLACES};
-pub use simulation::{CostClass, Simulation};
-pub use state::{Accepted, State};
+pub use setup::Parameters;
+pub use setup::effect_outputs::{CONTACT_HEAT, heats, readings};

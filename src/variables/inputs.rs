@@ -1,43 +1,16 @@
 //! Rows of the inputs.
 
-use super::row::{Access, Causality, Range, Variability, Variable};
-use super::units::{self, DEG_PER_S, DisplayUnit, Unit};
-use crate::model::Inputs;
+use crate::declaration::units::{self, DEG_PER_S};
+use crate::declaration::{Row, input};
+use crate::model::{InputField, effects};
 
 /// Far beyond any differential, near enough that no intermediate result overflows.
 const MAX_SPEED: f64 = 1e5;
 const MAX_TORQUE: f64 = 1e8;
 
-fn input(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    limit: f64,
-    at: fn(&mut Inputs) -> &mut f64,
-    description: &'static str,
-) -> Variable {
-    Variable {
-        name,
-        description,
-        causality: Causality::Input,
-        variability: Variability::Continuous,
-        unit: Some(unit),
-        display,
-        range: Some(Range { min: -limit, max: limit }),
-        nominal: None,
-        derivative_of: None,
-        access: Access::Input(at),
-    }
-}
-
-/// A command between 0 and 1.
-fn command(name: &'static str, at: fn(&mut Inputs) -> &mut f64, description: &'static str) -> Variable {
-    Variable { range: Some(Range { min: 0.0, max: 1.0 }), ..input(name, units::ONE, None, 1.0, at, description) }
-}
-
 /// Rows of all inputs.
-pub fn rows() -> Vec<Variable> {
-    vec![
+pub fn rows() -> Vec<Row<InputField>> {
+    let mut rows: Vec<Row<InputField>> = vec![
         input(
             "carrier.speed_command",
             units::RAD_PER_S,
@@ -60,7 +33,8 @@ pub fn rows() -> Vec<Variable> {
             None,
             MAX_TORQUE,
             |i| &mut i.load_torque[0],
-            "Load on the left half-shaft; positive resists positive rotation",
+            "Load on the left half-shaft, with its sign: positive resists positive rotation and drives a wheel at standstill \
+             backwards; a load that only resists is left.brake_torque",
         ),
         input(
             "right.load_torque",
@@ -68,7 +42,8 @@ pub fn rows() -> Vec<Variable> {
             None,
             MAX_TORQUE,
             |i| &mut i.load_torque[1],
-            "Load on the right half-shaft; positive resists positive rotation",
+            "Load on the right half-shaft, with its sign: positive resists positive rotation and drives a wheel at standstill \
+             backwards; a load that only resists is right.brake_torque",
         ),
         input(
             "planet.spin_command",
@@ -94,11 +69,7 @@ pub fn rows() -> Vec<Variable> {
             |i| &mut i.side_speed[1],
             "Imposed speed of the wheel side of the right half-shaft when it is speed-driven",
         ),
-        // a build without a lock takes no command for it
-        Variable {
-            range: Some(Range { min: 0.0, max: if cfg!(feature = "lock") { 1.0 } else { 0.0 } }),
-            ..command("lock.command", |i| &mut i.lock, "Command of the differential lock: 0 open, 1 locked")
-        },
-        command("fault.trigger", |i| &mut i.fault, "Breaks the tooth of effects.tooth_fault when it rises above 0.5"),
-    ]
+    ];
+    rows.extend(effects::inputs());
+    rows
 }

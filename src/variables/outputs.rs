@@ -1,29 +1,11 @@
 //! Rows of the outputs.
 
-use super::row::{Access, Causality, OutputSource, Variability, Variable};
-use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, MPA, Unit};
-use crate::model::{Books, Forces, Motion, efficiency};
+use super::access::OutputSource;
+use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use crate::declaration::{Row, output};
+use crate::model::{Books, CONTACT_HEAT, Changes, Forces, Motion, efficiency, heats, readings};
 
-fn output(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    source: OutputSource,
-    description: &'static str,
-) -> Variable {
-    Variable {
-        name,
-        description,
-        causality: Causality::Output,
-        variability: Variability::Continuous,
-        unit: Some(unit),
-        display,
-        range: None,
-        nominal: None,
-        derivative_of: None,
-        access: Access::Output(source),
-    }
-}
+type Output = Row<OutputSource>;
 
 fn motion(
     name: &'static str,
@@ -31,15 +13,15 @@ fn motion(
     display: Option<DisplayUnit>,
     of: fn(&Motion) -> f64,
     text: &'static str,
-) -> Variable {
+) -> Output {
     output(name, unit, display, OutputSource::Motion(of), text)
 }
 
-fn forces(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static str) -> Variable {
+fn forces(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static str) -> Output {
     output(name, unit, None, OutputSource::Forces(of), text)
 }
 
-fn books(name: &'static str, unit: Unit, of: fn(&Books) -> f64, text: &'static str) -> Variable {
+fn books(name: &'static str, unit: Unit, of: fn(&Books) -> f64, text: &'static str) -> Output {
     output(name, unit, None, OutputSource::Books(of), text)
 }
 
@@ -66,13 +48,6 @@ macro_rules! side {
                 units::RAD_PER_S2,
                 |f| f.side_acceleration[$s],
                 "Side gear acceleration",
-            ),
-            output(
-                concat!($name, ".twist"),
-                units::RADIAN,
-                Some(DEG),
-                OutputSource::Forces(|f| f.twist[$s]),
-                "Twist of the half-shaft, side gear ahead of the wheel; 0 where it is rigid",
             ),
             forces(
                 concat!($name, ".shaft_torque"),
@@ -175,7 +150,7 @@ macro_rules! planet {
 }
 
 /// Rows of all outputs.
-pub fn rows() -> Vec<Variable> {
+pub fn rows() -> Vec<Output> {
     let mut rows = vec![
         motion("carrier.angle", units::RADIAN, Some(DEG), |m| m.carrier_angle, "Carrier angle since the start"),
         motion("carrier.speed", units::RAD_PER_S, Some(DEG_PER_S), |m| m.carrier_speed, "Carrier speed"),
@@ -198,7 +173,7 @@ pub fn rows() -> Vec<Variable> {
         motion("mesh.frequency", units::HERTZ, None, |m| m.mesh_frequency, "Tooth engagements per second of one mesh"),
         forces("power.in", units::WATT, |f| f.power_in, "Power delivered by carrier drive and spin drive"),
         forces("power.out", units::WATT, |f| f.power_out, "Power delivered to the wheels"),
-        forces("power.loss", units::WATT, |f| f.power_loss, "Power turned into heat"),
+        forces("power.loss", units::WATT, |f| f.power_loss, "Power turned into heat within the differential; that of wheel brakes is part of power.out"),
         forces("efficiency", units::ONE, efficiency, "1 - power.loss per power fed in at either end; 1 at zero power"),
         forces(
             "torque_bias_ratio",
@@ -212,47 +187,10 @@ pub fn rows() -> Vec<Variable> {
             |f| f.locking_value,
             "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist",
         ),
-        output(
-            "stress.contact_max",
-            units::PASCAL,
-            Some(MPA),
-            OutputSource::Forces(|f| f.stresses.contact_max),
-            "Largest Hertz pressure of all tooth pairs where they touch",
-        ),
-        output(
-            "stress.contact_pitch",
-            units::PASCAL,
-            Some(MPA),
-            OutputSource::Forces(|f| f.stresses.contact_pitch),
-            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; largest of all meshes",
-        ),
-        output(
-            "stress.root_planet_max",
-            units::PASCAL,
-            Some(MPA),
-            OutputSource::Forces(|f| f.stresses.root_max[0]),
-            "Largest root stress of the planets by ISO 10300 method B1",
-        ),
-        output(
-            "stress.root_side_max",
-            units::PASCAL,
-            Some(MPA),
-            OutputSource::Forces(|f| f.stresses.root_max[1]),
-            "Largest root stress of the side gears by ISO 10300 method B1",
-        ),
-        books("damage.planet", units::ONE, |b| b.damage[0][0], "Miner sum of the roots of the worst planet"),
-        books("damage.side", units::ONE, |b| b.damage[1][0], "Miner sum of the roots of the worse side gear"),
-        books("damage.planet_flank", units::ONE, |b| b.damage[0][1], "Miner sum of pitting of the worst planet"),
-        books("damage.side_flank", units::ONE, |b| b.damage[1][1], "Miner sum of pitting of the worse side gear"),
-        books("heat.contact", units::JOULE, |b| b.heat[0], "Heat of contact damping since the start"),
-        books("heat.tooth_friction", units::JOULE, |b| b.heat[1], "Heat of friction along the flanks since the start"),
-        books("heat.thrust", units::JOULE, |b| b.heat[2], "Heat of thrust washers and pins since the start"),
-        books("heat.clutch", units::JOULE, |b| b.heat[3], "Heat of limited-slip clutches and lock since the start"),
-        books("heat.drag", units::JOULE, |b| b.heat[4], "Heat of bearings and oil since the start"),
-        books("heat.half_shaft", units::JOULE, |b| b.heat[5], "Heat of damping in the half-shafts since the start"),
-        books("heat.support", units::JOULE, |b| b.heat[6], "Heat of damping in pins and case since the start"),
+        books("heat.contact", units::JOULE, |b| b.heat[CONTACT_HEAT], "Heat of contact damping since the start"),
         books("held.sides", units::ONE, |b| b.held[0], "Side gears that dry friction holds to the carrier"),
         books("held.planets", units::ONE, |b| b.held[1], "Groups of planets that dry friction holds on their pins"),
+        books("held.wheels", units::ONE, |b| b.held[2], "Wheels that their brakes hold"),
         books("solver.steps", units::ONE, |b| b.steps, "Accepted steps"),
         books("solver.rejected", units::ONE, |b| b.rejected, "Rejected steps"),
         books("solver.rhs_calls", units::ONE, |b| b.rhs_calls, "Evaluations of the tooth forces"),
@@ -264,5 +202,16 @@ pub fn rows() -> Vec<Variable> {
             "Stored energy less work of the inputs plus heat; 0 for an exact solution",
         ),
     ]);
+    for (place, heat) in heats().enumerate() {
+        let source = OutputSource::Heat(CONTACT_HEAT + 1 + place);
+        rows.push(output(heat.output, units::JOULE, None, source, heat.description));
+    }
+    for (place, reading) in readings().enumerate() {
+        let source = match reading.changes {
+            Changes::Always => OutputSource::Reading(place),
+            Changes::ByStep => OutputSource::LedgerReading(place),
+        };
+        rows.push(output(reading.name, reading.unit, reading.display, source, reading.description));
+    }
     rows
 }

@@ -1,16 +1,15 @@
 //! Rows of the parameters: all fixed but those that say tunable.
 
-use super::declare::{integer, real, switch};
-use super::row::{Variability, Variable};
-use super::units;
 use crate::contact::{ContactLaw, DampingModel};
+use crate::declaration::{Parameter, Row, choice, integer, real, switch, tunable, units};
 use crate::geometry::AddendumSystem;
-use crate::model::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
+use crate::model::effects;
+use crate::model::{CarrierDrive, GearContact, Method, Parameters, PlanetSpin, SideDrive, Start};
 
 /// Rows of all parameters.
-pub fn rows() -> Vec<Variable> {
+pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     use units::{DEG, MM, MPA, N_PER_MM, N_PER_MM_UM, N_PER_MM15, NS_PER_MM};
-    let mut rows = vec![
+    let mut rows: Vec<Row<Parameter<Parameters>>> = vec![
         real(
             "geometry.module",
             units::METRE,
@@ -44,7 +43,7 @@ pub fn rows() -> Vec<Variable> {
             "Angle between planet and side gear axes; a differential needs 90 deg",
         ),
         real("geometry.face_width", units::METRE, Some(MM), (1e-4, 1.0), |p| &mut p.geometry.face_width, "Face width"),
-        choice!("geometry.addendum_system", "AddendumSystem", geometry.addendum_system,
+        choice!("geometry.addendum_system", "AddendumSystem", Parameters, |p| &mut p.geometry.addendum_system,
             "Rule for addenda and dedenda",
             AddendumSystem::Standard => "standard" "addendum 1.0 m, dedendum 1.25 m on both gears",
             AddendumSystem::Gleason => "gleason" "Gleason long-and-short addenda",
@@ -183,7 +182,7 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.inertia.right_end,
             "Wheel side of the right half-shaft; rigid on the side gear unless effects.half_shaft; 0 = none",
         ),
-        choice!("contact.law", "ContactLaw", contact.law, "Law of tooth contact",
+        choice!("contact.law", "ContactLaw", Parameters, |p| &mut p.contact.law, "Law of tooth contact",
             ContactLaw::Impact => "impact" "Adams IMPACT at the mean cone distance",
             ContactLaw::Line => "line" "tooth stiffness from geometry over the face width, linear",
             ContactLaw::LineWeber => "line_weber" "the same with the Hertz part as the load has it"),
@@ -201,17 +200,14 @@ pub fn rows() -> Vec<Variable> {
             "Contact stiffness K; N/m^e where the exponent is not 1.5",
         ),
         real("contact.exponent", units::ONE, None, (1.0, 3.0), |p| &mut p.contact.exponent, "Force exponent e"),
-        Variable {
-            variability: Variability::Tunable,
-            ..real(
-                "contact.damping",
-                units::NS_PER_M,
-                Some(NS_PER_MM),
-                (0.0, 1e9),
-                |p| &mut p.contact.damping,
-                "Contact damping C at full penetration",
-            )
-        },
+        tunable(real(
+            "contact.damping",
+            units::NS_PER_M,
+            Some(NS_PER_MM),
+            (0.0, 1e9),
+            |p| &mut p.contact.damping,
+            "Contact damping C at full penetration",
+        )),
         real(
             "contact.penetration_depth",
             units::METRE,
@@ -220,7 +216,7 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.contact.penetration_depth,
             "Penetration at which damping is full",
         ),
-        choice!("contact.damping_model", "DampingModel", contact.damping_model, "Damping of a tooth pair",
+        choice!("contact.damping_model", "DampingModel", Parameters, |p| &mut p.contact.damping_model, "Damping of a tooth pair",
             DampingModel::Step => "step" "contact.damping, built up over contact.penetration_depth as in Adams IMPACT",
             DampingModel::Restitution => "restitution" "Hunt-Crossley, from contact.restitution at contact.impact_speed"),
         real(
@@ -262,24 +258,24 @@ pub fn rows() -> Vec<Variable> {
         ),
     ];
     rows.extend([
-        choice!("scene.carrier_drive", "CarrierDrive", scene.carrier_drive, "How the carrier is driven",
+        choice!("scene.carrier_drive", "CarrierDrive", Parameters, |p| &mut p.scene.carrier_drive, "How the carrier is driven",
             CarrierDrive::Speed => "speed" "carrier.speed_command is imposed",
             CarrierDrive::Torque => "torque" "carrier.torque_command acts; carrier.speed_command is the initial speed"),
-        choice!("scene.left_drive", "SideDrive", scene.left_drive, "How the left half-shaft is driven",
+        choice!("scene.left_drive", "SideDrive", Parameters, |p| &mut p.scene.left_drive, "How the left half-shaft is driven",
             SideDrive::Torque => "torque" "the load torque acts on its wheel side",
             SideDrive::Speed => "speed" "the speed command is imposed on its wheel side; the half-shaft twists"),
-        choice!("scene.right_drive", "SideDrive", scene.right_drive, "How the right half-shaft is driven",
+        choice!("scene.right_drive", "SideDrive", Parameters, |p| &mut p.scene.right_drive, "How the right half-shaft is driven",
             SideDrive::Torque => "torque" "the load torque acts on its wheel side",
             SideDrive::Speed => "speed" "the speed command is imposed on its wheel side; the half-shaft twists"),
-        choice!("scene.planet_spin", "PlanetSpin", scene.planet_spin, "Whether planets spin freely on their pins",
+        choice!("scene.planet_spin", "PlanetSpin", Parameters, |p| &mut p.scene.planet_spin, "Whether planets spin freely on their pins",
             PlanetSpin::Free => "free" "spin follows from the tooth forces",
             PlanetSpin::Imposed => "imposed" "planet.spin_command is imposed"),
-        choice!("scene.gear_contact", "GearContact", scene.gear_contact, "Representation of tooth contact",
+        choice!("scene.gear_contact", "GearContact", Parameters, |p| &mut p.scene.gear_contact, "Representation of tooth contact",
             GearContact::Ideal => "ideal" "no teeth: Willis' equation as a constraint",
             GearContact::Lumped => "lumped" "one spring per mesh",
             GearContact::Tooth => "tooth" "tooth pair by tooth pair along the path of contact",
             GearContact::Solid => "solid" "solids with faceted flanks, pressed together by geometry alone"),
-        choice!("scene.start", "Start", scene.start, "State at the start time",
+        choice!("scene.start", "Start", Parameters, |p| &mut p.scene.start, "State at the start time",
             Start::Equilibrium => "equilibrium" "meshes preloaded by the loads at the start time",
             Start::Rolling => "rolling" "speeds by Willis' equation, teeth in mid-gap, unloaded",
             Start::Rest => "rest" "everything at rest that is not imposed"),
@@ -293,21 +289,12 @@ pub fn rows() -> Vec<Variable> {
             |p| &mut p.effects.corner_contact,
             "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
         ),
-        switch("effects.tooth_errors", |p| &mut p.effects.tooth_errors, "Deviations, modifications and misalignment"),
-        switch(
-            "effects.tooth_fault",
-            |p| &mut p.effects.tooth_fault,
-            "A tooth that breaks by fault.trigger or in time",
-        ),
-        switch("effects.tooth_friction", |p| &mut p.effects.tooth_friction, "Friction along the flanks"),
-        switch("effects.thrust_friction", |p| &mut p.effects.thrust_friction, "Friction of thrust washers and pins"),
-        switch("effects.limited_slip", |p| &mut p.effects.limited_slip, "Clutch packs between side gears and carrier"),
-        switch("effects.half_shaft", |p| &mut p.effects.half_shaft, "Torsion of the half-shafts"),
-        switch("effects.pin_compliance", |p| &mut p.effects.pin_compliance, "Pins and case that give way"),
-        switch("effects.bearing_drag", |p| &mut p.effects.bearing_drag, "Drag of bearings and churned oil"),
-        switch("effects.final_drive", |p| &mut p.effects.final_drive, "Excitation by the final drive's ring gear"),
-        switch("effects.strength", |p| &mut p.effects.strength, "Stress and fatigue of the teeth"),
-        choice!("solver.method", "SolverMethod", solver.method, "Integration method",
+    ]);
+    rows.extend(
+        effects::switches().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.effects))),
+    );
+    rows.extend([
+        choice!("solver.method", "SolverMethod", Parameters, |p| &mut p.solver.method, "Integration method",
             Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5",
             Method::FixedStep => "fixed_step" "implicit steps of fixed size and bounded work, for real time",
             Method::Radau => "radau" "Radau IIA of order 5, adaptive, for comparison",
@@ -350,6 +337,8 @@ pub fn rows() -> Vec<Variable> {
             "Planets that are identical and in phase are simulated once and counted; false: each by itself",
         ),
     ]);
-    rows.extend(super::effects::rows());
+    rows.extend(
+        effects::parameters().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.specs))),
+    );
     rows
 }

@@ -2,8 +2,9 @@
 //!
 //! Some states are outputs; the others, and all derivatives, are local. What a scene does not have is 0.
 
-use super::row::{Access, Causality, OutputSource, Variability, Variable};
-use super::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use super::access::{Access, OutputSource, Variable};
+use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use crate::declaration::{Causality, output};
 use crate::model::{BODIES, Body, STATES};
 
 /// A state and its derivative.
@@ -98,18 +99,8 @@ bodies! {
 }
 
 fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'static str) -> Variable {
-    Variable {
-        name,
-        description,
-        causality: Causality::Local,
-        variability: Variability::Continuous,
-        unit: Some(unit),
-        display: None,
-        range: None,
-        nominal: None,
-        derivative_of: None,
-        access: Access::Output(source),
-    }
+    let row = output(name, unit, None, Access::Output(source), description);
+    Variable { causality: Causality::Local, ..row }
 }
 
 /// Adds the rows that are missing to `rows`, tells the states' magnitudes there, and returns the indices of states and

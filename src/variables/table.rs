@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
-use super::row::{Access, Causality, Range, Variable};
+use super::access::{Access, Variable};
+use crate::declaration::{Causality, Range, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
 
@@ -25,9 +26,10 @@ pub struct Table {
 pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
-        let mut rows = super::parameters::rows();
-        rows.extend(super::inputs::rows());
-        rows.extend(super::outputs::rows());
+        let mut rows: Vec<Variable> = Vec::new();
+        rows.extend(super::parameters::rows().into_iter().map(|row| row.map(Access::from)));
+        rows.extend(super::inputs::rows().into_iter().map(|row| row.map(Access::Input)));
+        rows.extend(super::outputs::rows().into_iter().map(|row| row.map(Access::Output)));
         let (states, derivatives) = super::states::complete(&mut rows);
         let of = |c: Causality| (0..rows.len()).filter(|&i| rows[i].causality == c).collect();
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
@@ -74,6 +76,17 @@ pub fn check_ranges(parameters: &Parameters) -> Vec<Problem> {
         _ => None,
     });
     checked.collect()
+}
+
+/// `fixed` with the tunable parameters of `parameters`.
+pub fn tuned(parameters: &Parameters, fixed: &Parameters) -> Parameters {
+    let (mut from, mut to) = (*parameters, *fixed);
+    for row in table().rows.iter().filter(|row| row.variability == Variability::Tunable) {
+        if let Access::Real(access) = row.access {
+            *access(&mut to) = *access(&mut from);
+        }
+    }
+    to
 }
 
 /// GUID of this interface: changes whenever a row changes in what a host relies on.

@@ -28,7 +28,7 @@ impl SecondOrder<1> for Kinked {
     fn weights(&self, _: &Point<1>) -> Point<1> {
         Point { q: [1.0], v: [1.0] }
     }
-    fn crossing(&self, start: &Point<1>, end: &Point<1>) -> Option<f64> {
+    fn crossing(&self, (start, _): (&Point<1>, f64), (end, _): (&Point<1>, f64)) -> Option<f64> {
         let (from, to) = (start.q[0] * self.side, end.q[0] * self.side);
         // to the middle of what counts as landed
         (to < -LANDING).then(|| (from + 0.5 * LANDING) / (from - to))

@@ -56,7 +56,7 @@ impl Case {
 pub fn turn(errors: &ToothErrorSpec) -> Result<Scene> {
     let mut scene = load::parse("turn", Path::new("turn.toml"), TURN)?;
     scene.parameters.effects.tooth_errors = *errors != ToothErrorSpec::default();
-    scene.parameters.tooth_errors = *errors;
+    scene.parameters.specs.tooth_errors = *errors;
     Ok(scene)
 }
 

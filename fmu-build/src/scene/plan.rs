@@ -44,7 +44,8 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     let (freedoms, imposed) = (plan.freedoms(), plan.imposed());
     line("size", &format!("{freedoms} degrees of freedom, {imposed} of them imposed; {} states", 2 * freedoms));
     line("cost class", meaning(simulation.cost()));
-    let mut active: Vec<String> = plan.active().map(|name| format!("{name}: {}", description(name))).collect();
+    let mut active: Vec<String> =
+        simulation.active_effects().map(|name| format!("{name}: {}", description(name))).collect();
     if scene.inputs.lock > 0.0 {
         active.push(format!("lock.command: the lock holds at {} of its torque", scene.inputs.lock));
     }

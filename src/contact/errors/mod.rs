@@ -5,29 +5,18 @@
 //! (`runout`), tip relief (`relief`), lengthwise crowning (`crowning`), and misalignment (`misalignment`). A broken tooth
 //! (`chip`) stands apart, because it comes into being while running.
 
-#[cfg(feature = "tooth_errors")]
 mod action;
-#[cfg(feature = "tooth_errors")]
 mod all;
-#[cfg(feature = "tooth_fault")]
 mod chip;
-#[cfg(feature = "tooth_errors")]
 mod crowning;
-#[cfg(feature = "tooth_errors")]
 mod misalignment;
-#[cfg(feature = "tooth_errors")]
 pub mod pitch;
-#[cfg(feature = "tooth_errors")]
 mod random;
-#[cfg(feature = "tooth_errors")]
 mod relief;
-#[cfg(feature = "tooth_errors")]
 mod runout;
 mod spec;
 
-#[cfg(feature = "tooth_errors")]
 pub use all::ToothErrors;
-#[cfg(feature = "tooth_fault")]
 pub use chip::Chip;
 pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
 
@@ -58,5 +47,5 @@ pub struct PairId {
     pub flank: Flank,
 }
 
-#[cfg(all(test, feature = "tooth_errors"))]
+#[cfg(test)]
 mod tests;

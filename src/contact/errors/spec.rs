@@ -165,7 +165,6 @@ fn within(variable: &'static str, value: f64, [least, most]: [f64; 2], unit: &st
     }
 }
 
-#[cfg(feature = "tooth_errors")]
 impl ToothErrorSpec {
     /// Material in excess that no tooth pair exceeds [m]: cumulative pitch of both gears at the heel, runout, and rigid
     /// displacements, all at their worst at once.

@@ -3,23 +3,117 @@
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
 //! with the square of the speed (ISO/TR 14179-1).
 
-use super::super::causes::Cause;
-use super::super::effect_specs::BearingDragSpec;
-use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Slopes};
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units::{self, DEG_PER_S};
+use crate::declaration::{Parameter, Row, real};
+use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
+use crate::model::scene::Plan;
+
+/// Drag of bearings and oil.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BearingDragSpec {
+    /// Load-independent bearing torque on the carrier [N·m].
+    pub carrier_torque: f64,
+    /// Viscous drag on the carrier [N·m·s/rad].
+    pub carrier_viscous: f64,
+    /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
+    pub carrier_churning: f64,
+    /// Load-independent bearing torque on each side gear [N·m].
+    pub side_torque: f64,
+    /// Viscous drag on each side gear [N·m·s/rad].
+    pub side_viscous: f64,
+    /// Speed at which bearing torque has built up [rad/s].
+    pub breakaway_speed: f64,
+}
+
+impl Default for BearingDragSpec {
+    fn default() -> Self {
+        Self {
+            carrier_torque: 0.5,
+            carrier_viscous: 5e-3,
+            carrier_churning: 1e-4,
+            side_torque: 0.2,
+            side_viscous: 1e-3,
+            breakaway_speed: 0.1,
+        }
+    }
+}
+
+impl Declare for BearingDragSpec {
+    const DESCRIPTION: &'static str = "Drag of bearings and churned oil";
+    const HEAT: Option<Heat> =
+        Some(Heat { output: "heat.drag", description: "Heat of bearings and oil since the start", at_wheels: false });
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            real(
+                "bearing_drag.carrier_torque",
+                units::NEWTON_METRE,
+                None,
+                (0.0, 1e4),
+                |p| &mut p.carrier_torque,
+                "Load-independent bearing torque on the carrier",
+            ),
+            real(
+                "bearing_drag.carrier_viscous",
+                units::NMS_PER_RAD,
+                None,
+                (0.0, 1e3),
+                |p| &mut p.carrier_viscous,
+                "Viscous drag on the carrier",
+            ),
+            real(
+                "bearing_drag.carrier_churning",
+                units::NMS2_PER_RAD2,
+                None,
+                (0.0, 1e2),
+                |p| &mut p.carrier_churning,
+                "Churning of oil by the carrier, with the square of its speed",
+            ),
+            real(
+                "bearing_drag.side_torque",
+                units::NEWTON_METRE,
+                None,
+                (0.0, 1e4),
+                |p| &mut p.side_torque,
+                "Load-independent bearing torque on each side gear",
+            ),
+            real(
+                "bearing_drag.side_viscous",
+                units::NMS_PER_RAD,
+                None,
+                (0.0, 1e3),
+                |p| &mut p.side_viscous,
+                "Viscous drag on each side gear",
+            ),
+            real(
+                "bearing_drag.breakaway_speed",
+                units::RAD_PER_S,
+                Some(DEG_PER_S),
+                (1e-6, 1e3),
+                |p| &mut p.breakaway_speed,
+                "Speed at which the bearing torque has built up",
+            ),
+        ]
+    }
+}
+
+impl Effect for BearingDragSpec {
+    fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
+        Some(Box::new(Drag { spec: *self, heat: setting.heat }))
+    }
+}
 
 /// Drag on carrier and side gears.
 #[derive(Clone, Copy, Debug)]
-pub struct BearingDrag {
+struct Drag {
     spec: BearingDragSpec,
+    heat: usize,
 }
 
-impl BearingDrag {
-    /// Drag of the scene.
-    pub fn new(setting: &Setting) -> Self {
-        Self { spec: setting.parameters.specs.bearing_drag }
-    }
-
+impl Drag {
     /// Torque against the rotation of body `i` and its slope by the speed.
     fn drag(&self, at: &Bodies, i: usize) -> (f64, f64) {
         let spec = &self.spec;
@@ -37,12 +131,12 @@ impl BearingDrag {
     }
 }
 
-impl BodyEffect for BearingDrag {
+impl BodyEffect for Drag {
     fn act(&self, at: &Bodies, out: &mut Action) {
         for i in 0..3 {
             let (torque, _) = self.drag(at, i);
             out.force[i] -= torque;
-            out.heat[Cause::Drag as usize] += torque * at.v[i];
+            out.heat[self.heat] += torque * at.v[i];
         }
     }
 

@@ -1,27 +1,65 @@
 //! Excitation by the final drive: the carrier's torque or imposed speed varies with the mesh order of the ring gear,
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ) — the first harmonic of a gear pair's mesh excitation.
 
-use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Slopes};
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units;
+use crate::declaration::{Parameter, Row, integer, real};
+use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
+use crate::model::scene::Plan;
+use crate::model::scene::layout::CARRIER;
 use crate::numeric::{cos, sin};
+
+/// Excitation by the final drive's ring gear.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FinalDriveSpec {
+    /// Teeth of the ring gear.
+    pub ring_teeth: i32,
+    /// Amplitude relative to the carrier's command, of torque or of speed.
+    pub amplitude: f64,
+}
+
+impl Default for FinalDriveSpec {
+    fn default() -> Self {
+        Self { ring_teeth: 37, amplitude: 0.02 }
+    }
+}
+
+impl Declare for FinalDriveSpec {
+    const DESCRIPTION: &'static str = "Excitation by the final drive's ring gear";
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            integer("final_drive.ring_teeth", (1, 1000), |p| &mut p.ring_teeth, "Teeth of the ring gear"),
+            real(
+                "final_drive.amplitude",
+                units::ONE,
+                None,
+                (0.0, 1.0),
+                |p| &mut p.amplitude,
+                "Amplitude of the excitation relative to the carrier's command",
+            ),
+        ]
+    }
+}
+
+impl Effect for FinalDriveSpec {
+    fn on_bodies(&self, _: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+        let (teeth, amplitude) = (f64::from(self.ring_teeth), self.amplitude);
+        Some(Box::new(Excitation { teeth, amplitude, imposed: plan.carrier_imposed }))
+    }
+}
 
 /// Excitation of the carrier.
 #[derive(Clone, Copy, Debug)]
-pub struct FinalDrive {
+struct Excitation {
     teeth: f64,
     amplitude: f64,
     imposed: bool,
 }
 
-impl FinalDrive {
-    /// Excitation of the scene.
-    pub fn new(setting: &Setting) -> Self {
-        let spec = &setting.parameters.specs.final_drive;
-        Self { teeth: f64::from(spec.ring_teeth), amplitude: spec.amplitude, imposed: setting.plan.carrier_imposed }
-    }
-}
-
-impl BodyEffect for FinalDrive {
+impl BodyEffect for Excitation {
     fn act(&self, at: &Bodies, out: &mut Action) {
         let c = at.layout.carrier();
         let wave = sin(self.teeth * at.q[c]);
@@ -47,10 +85,6 @@ impl BodyEffect for FinalDrive {
     }
 
     fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
-        if self.imposed {
-            command * (1.0 + self.amplitude * cos(self.teeth * q[super::super::layout::CARRIER]))
-        } else {
-            command
-        }
+        if self.imposed { command * (1.0 + self.amplitude * cos(self.teeth * q[CARRIER])) } else { command }
     }
 }

@@ -2,53 +2,176 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_p / L.
 
-use super::super::causes::Cause;
-use super::super::effect_specs::HalfShaftSpec;
-use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Slopes};
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units::{self, DEG};
+use crate::declaration::{Parameter, Row, real};
+use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Reading, Setting};
+use crate::model::scene::{Plan, Requests, SideDrive};
+use crate::problem::Problem;
+
+/// Torsion of the half-shafts.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HalfShaftSpec {
+    /// Stiffness, left and right [N·m/rad].
+    pub stiffness: [f64; 2],
+    /// Damping, left and right [N·m·s/rad].
+    pub damping: [f64; 2],
+}
+
+impl Default for HalfShaftSpec {
+    fn default() -> Self {
+        Self { stiffness: [1e4; 2], damping: [5.0; 2] }
+    }
+}
+
+impl Declare for HalfShaftSpec {
+    const DESCRIPTION: &'static str = "Torsion of the half-shafts";
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.half_shaft",
+        description: "Heat of damping in the half-shafts since the start",
+        at_wheels: false,
+    });
+    const READINGS: &'static [Reading] = &[twist("left.twist"), twist("right.twist")];
+    /// A speed-driven side acts through its half-shaft.
+    const MAY_ACT_UNSWITCHED: bool = true;
+    const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            real(
+                "half_shaft.left_stiffness",
+                units::NM_PER_RAD,
+                None,
+                (0.0, 1e9),
+                |p| &mut p.stiffness[0],
+                "Torsional stiffness of the left half-shaft",
+            ),
+            real(
+                "half_shaft.left_damping",
+                units::NMS_PER_RAD,
+                None,
+                (0.0, 1e6),
+                |p| &mut p.damping[0],
+                "Torsional damping of the left half-shaft",
+            ),
+            real(
+                "half_shaft.right_stiffness",
+                units::NM_PER_RAD,
+                None,
+                (0.0, 1e9),
+                |p| &mut p.stiffness[1],
+                "Torsional stiffness of the right half-shaft",
+            ),
+            real(
+                "half_shaft.right_damping",
+                units::NMS_PER_RAD,
+                None,
+                (0.0, 1e6),
+                |p| &mut p.damping[1],
+                "Torsional damping of the right half-shaft",
+            ),
+        ]
+    }
+}
+
+impl Effect for HalfShaftSpec {
+    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        let twist = self.requests(setting).shafts;
+        let drives = [setting.scene.left_drive, setting.scene.right_drive];
+        for s in 0..2 {
+            if (twist[s] || drives[s] == SideDrive::Speed) && self.stiffness[s] <= 0.0 {
+                found.push(Problem::new(
+                    ["half_shaft.left_stiffness", "half_shaft.right_stiffness"][s],
+                    format!("{} N.m/rad: a half-shaft that twists needs a stiffness above 0", self.stiffness[s]),
+                ));
+            }
+        }
+    }
+
+    fn requests(&self, setting: &Setting) -> Requests {
+        // an end without inertia passes its load on at once: its shaft twists but has no motion of its own
+        let end = [setting.inertia.left_end, setting.inertia.right_end];
+        Requests { shafts: end.map(|inertia| setting.on && inertia > 0.0), ..Requests::default() }
+    }
+
+    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+        let shafts = HalfShafts::new(self, plan);
+        plan.ends.then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
+    }
+
+    fn read(&self, on: bool, plan: &Plan, at: &Bodies, out: &mut [f64]) {
+        for s in 0..2 {
+            if plan.shafts[s] {
+                out[s] = at.q[at.layout.end(s)];
+            } else if on && self.stiffness[s] > 0.0 {
+                // the static twist, as the end has no motion of its own
+                out[s] = at.inputs.load_torque[s] / self.stiffness[s];
+            }
+        }
+    }
+}
+
+const fn twist(name: &'static str) -> Reading {
+    Reading {
+        name,
+        unit: units::RADIAN,
+        display: Some(DEG),
+        changes: Changes::Always,
+        description: "Twist of the half-shaft, side gear ahead of the wheel; 0 where it is rigid",
+    }
+}
 
 /// The half-shafts that have an end of their own.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfShafts {
-    spec: HalfShaftSpec,
+    stiffness: [f64; 2],
+    damping: [f64; 2],
 }
 
 impl HalfShafts {
-    /// Half-shafts of the scene.
-    pub fn new(setting: &Setting) -> Self {
-        let mut spec = setting.parameters.specs.half_shaft;
-        // a rigid side has neither twist nor torque of its own
-        for s in 0..2 {
-            if !setting.plan.shafts[s] {
-                (spec.stiffness[s], spec.damping[s]) = (0.0, 0.0);
-            }
-        }
-        Self { spec }
+    /// Half-shafts of `plan`. A rigid side has neither twist nor torque.
+    pub fn new(spec: &HalfShaftSpec, plan: &Plan) -> Self {
+        let of = |values: [f64; 2]| [0, 1].map(|s| if plan.shafts[s] { values[s] } else { 0.0 });
+        Self { stiffness: of(spec.stiffness), damping: of(spec.damping) }
     }
 
-    /// Torque that the shaft of side `s` hands to the wheel [N·m].
-    pub fn torque(spec: &HalfShaftSpec, at: &Bodies, s: usize) -> f64 {
-        let end = at.layout.end(s);
-        spec.stiffness[s] * at.q[end] + spec.damping[s] * (at.v[s] - at.v[end])
+    /// Torque that the shaft of side `s` delivers to the wheel at `twist` [rad] changing at `rate` [rad/s] [N·m].
+    #[inline(always)]
+    pub fn torque(&self, s: usize, twist: f64, rate: f64) -> f64 {
+        self.stiffness[s] * twist + self.damping[s] * rate
+    }
+
+    /// Twist at which the shaft of side `s` delivers `torque` [N·m] at rest [rad].
+    pub fn static_twist(&self, s: usize, torque: f64) -> f64 {
+        torque / self.stiffness[s]
     }
 }
 
-impl BodyEffect for HalfShafts {
+/// Half-shafts as they act on side gears and ends.
+#[derive(Clone, Copy, Debug)]
+struct Twist {
+    shafts: HalfShafts,
+    heat: usize,
+}
+
+impl BodyEffect for Twist {
     fn act(&self, at: &Bodies, out: &mut Action) {
         for s in 0..2 {
             let end = at.layout.end(s);
-            let torque = Self::torque(&self.spec, at, s);
+            let rate = at.v[s] - at.v[end];
+            let torque = self.shafts.torque(s, at.q[end], rate);
             out.force[s] -= torque;
             out.force[end] += torque;
-            let rate = at.v[s] - at.v[end];
-            out.heat[Cause::Shaft as usize] += self.spec.damping[s] * rate * rate;
+            out.heat[self.heat] += self.shafts.damping[s] * rate * rate;
         }
     }
 
     fn slopes(&self, at: &Bodies, out: &mut Slopes) {
         for s in 0..2 {
             let end = at.layout.end(s);
-            let (k, c) = (self.spec.stiffness[s], self.spec.damping[s]);
+            let (k, c) = (self.shafts.stiffness[s], self.shafts.damping[s]);
             out.position(s, end, -k);
             out.position(end, end, k);
             out.velocity(s, s, -c);
@@ -62,7 +185,7 @@ impl BodyEffect for HalfShafts {
         (0..2)
             .map(|s| {
                 let twist = at.q[at.layout.end(s)];
-                0.5 * self.spec.stiffness[s] * twist * twist
+                0.5 * self.shafts.stiffness[s] * twist * twist
             })
             .sum()
     }

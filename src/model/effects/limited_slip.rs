@@ -4,21 +4,110 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use super::super::causes::Cause;
-use super::super::effect_specs::LimitedSlipSpec;
-use super::super::grip::{Grip, PlanetGrip, SideGrip};
+use serde::{Deserialize, Serialize};
 
-/// Hold of the clutch packs.
-pub fn grip(spec: &LimitedSlipSpec) -> Grip {
-    Grip {
-        cause: Cause::Clutch,
-        side: SideGrip {
-            constant: spec.preload,
-            per_torque: spec.torque_coefficient,
-            stiffness: spec.stiffness,
-            ..SideGrip::default()
-        },
-        planet: PlanetGrip::default(),
-        static_ratio: spec.static_ratio,
+use crate::declaration::units;
+use crate::declaration::{Parameter, Row, real, tunable};
+use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
+use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
+use crate::model::scene::GearContact;
+use crate::problem::Problem;
+
+/// Clutch packs between side gears and carrier.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LimitedSlipSpec {
+    /// Torque of each clutch without load [N·m].
+    pub preload: f64,
+    /// Torque of each clutch per torque of the meshes on its side gear.
+    pub torque_coefficient: f64,
+    /// Torque at which a stuck clutch breaks loose over its sliding torque.
+    pub static_ratio: f64,
+    /// Stiffness of a stuck clutch [N·m/rad].
+    pub stiffness: f64,
+}
+
+impl Default for LimitedSlipSpec {
+    fn default() -> Self {
+        Self { preload: 50.0, torque_coefficient: 0.1, static_ratio: 1.0, stiffness: 1e5 }
+    }
+}
+
+/// Heat of all clutches between side gears and carrier.
+pub const CLUTCH_HEAT: Heat = Heat {
+    output: "heat.clutch",
+    description: "Heat of limited-slip clutches and lock since the start",
+    at_wheels: false,
+};
+
+impl Declare for LimitedSlipSpec {
+    const DESCRIPTION: &'static str = "Clutch packs between side gears and carrier";
+    const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            tunable(real(
+                "limited_slip.preload",
+                units::NEWTON_METRE,
+                None,
+                (0.0, 1e6),
+                |p| &mut p.preload,
+                "Torque of each clutch without load",
+            )),
+            tunable(real(
+                "limited_slip.torque_coefficient",
+                units::ONE,
+                None,
+                (0.0, 10.0),
+                |p| &mut p.torque_coefficient,
+                "Torque of each clutch per torque of the meshes on its side gear",
+            )),
+            real(
+                "limited_slip.static_ratio",
+                units::ONE,
+                None,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+                "Torque at which a stuck clutch breaks loose over its sliding torque",
+            ),
+            real(
+                "limited_slip.stiffness",
+                units::NM_PER_RAD,
+                None,
+                (1.0, 1e9),
+                |p| &mut p.stiffness,
+                "Stiffness of a stuck clutch",
+            ),
+        ]
+    }
+}
+
+impl Effect for LimitedSlipSpec {
+    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        if self.torque_coefficient == 0.0 {
+            return;
+        }
+        let contact = match setting.scene.gear_contact {
+            GearContact::Ideal => "ideal",
+            GearContact::Solid => "solid",
+            GearContact::Lumped | GearContact::Tooth => return,
+        };
+        found.push(Problem::new(
+            "limited_slip.torque_coefficient",
+            format!(
+                "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
+                 it must be 0 (preload alone), or choose lumped or tooth",
+                self.torque_coefficient
+            ),
+        ));
+    }
+
+    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+        let side = SideFriction {
+            constant: self.preload,
+            per_torque: self.torque_coefficient,
+            stiffness: self.stiffness,
+            ..SideFriction::default()
+        };
+        Some(FrictionSource { side, static_ratio: self.static_ratio, ..FrictionSource::new(setting.heat) })
     }
 }

@@ -1,15 +1,65 @@
 //! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
 
-use super::super::causes::Cause;
-use super::super::effect_specs::LockSpec;
-use super::super::grip::{Grip, PlanetGrip, SideGrip};
+use serde::{Deserialize, Serialize};
 
-/// Hold of the lock at full command.
-pub fn grip(spec: &LockSpec) -> Grip {
-    Grip {
-        cause: Cause::Clutch,
-        side: SideGrip { constant: spec.torque, stiffness: spec.stiffness, ..SideGrip::default() },
-        planet: PlanetGrip::default(),
-        static_ratio: 1.0,
+use super::limited_slip::CLUTCH_HEAT;
+use crate::declaration::units;
+use crate::declaration::{Parameter, Range, Row, command, real};
+use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
+use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
+
+/// A lock between side gears and carrier, by command.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LockSpec {
+    /// Torque that each side holds at full command [N·m].
+    pub torque: f64,
+    /// Stiffness of each side at full command [N·m/rad].
+    pub stiffness: f64,
+}
+
+impl Default for LockSpec {
+    fn default() -> Self {
+        Self { torque: 5e3, stiffness: 1e6 }
+    }
+}
+
+impl Declare for LockSpec {
+    const DESCRIPTION: &'static str = "Lock between side gears and carrier, by lock.command";
+    const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
+    const EXAMPLE: &'static [(&'static str, f64)] = &[("lock.command", 1.0)];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            real(
+                "lock.torque",
+                units::NEWTON_METRE,
+                None,
+                (0.0, 1e7),
+                |p| &mut p.torque,
+                "Torque that the lock holds on each side at full command",
+            ),
+            real(
+                "lock.stiffness",
+                units::NM_PER_RAD,
+                None,
+                (1.0, 1e9),
+                |p| &mut p.stiffness,
+                "Stiffness of the lock on each side at full command",
+            ),
+        ]
+    }
+
+    fn inputs() -> Vec<Row<InputField>> {
+        let at: InputField = |i| &mut i.lock;
+        let row = command("lock.command", at, "Command of the differential lock: 0 open, 1 locked");
+        // a build without effects accepts no command for it
+        vec![Row { range: Some(Range { min: 0.0, max: if BUILT { 1.0 } else { 0.0 } }), ..row }]
+    }
+}
+
+impl Effect for LockSpec {
+    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+        let side = SideFriction { constant: self.torque, stiffness: self.stiffness, ..SideFriction::default() };
+        Some(FrictionSource { side, by_lock: true, ..FrictionSource::new(setting.heat) })
     }
 }

@@ -1,104 +1,166 @@
-//! Effects beside the meshing of teeth: each a file with its formula, its derivatives, its energy and its heat.
-//!
-//! A scene holds a list of those that are on. What is off is not in the list; a scene with nothing on has no list.
+//! The effects, one file and one line in the list each. Parameters, switches, rows, heat, readings and what acts in a scene
+//! follow from the list. What an effect may declare and do stands in `effect_kinds`; `docs/architecture.md` tells how to
+//! add one.
 
-mod body;
-
-use super::effect_specs::EffectSpecs;
-use super::grip::Grip;
-pub use body::{Action, Bodies, BodyEffect, Slopes};
-
-#[cfg(feature = "bearing_drag")]
-pub mod bearing_drag;
-#[cfg(feature = "final_drive")]
-pub mod final_drive;
-#[cfg(feature = "half_shaft")]
+mod bearing_drag;
+mod final_drive;
 pub mod half_shaft;
-#[cfg(feature = "limited_slip")]
-pub mod limited_slip;
-#[cfg(feature = "lock")]
-pub mod lock;
-#[cfg(feature = "pin_compliance")]
-pub mod pin_compliance;
-#[cfg(feature = "thrust_friction")]
-pub mod thrust_friction;
+mod limited_slip;
+mod lock;
+mod pin_compliance;
+pub mod strength;
+mod thrust_friction;
+mod tooth_errors;
+mod tooth_fault;
+mod tooth_friction;
 
-use super::parameters::Parameters;
-use super::plan::Plan;
-use crate::geometry::Pair;
+use serde::{Deserialize, Serialize};
 
-/// What a scene's effects need to know to set themselves up.
-pub struct Setting<'a> {
-    /// Parameters.
-    pub parameters: &'a Parameters,
-    /// Gears.
-    pub pair: &'a Pair,
-    /// Plan of the scene.
-    pub plan: &'a Plan,
+use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
+use crate::declaration::{Parameter, Row, switch};
+use crate::friction::ToothFrictionSpec;
+use crate::model::effect_kinds::effect::{Declare, Effect, Heat, InputField, Needs, Reading};
+
+/// An effect as the rest of the program sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Declared {
+    /// Name, as in `effects.NAME` and `NAME.parameter`.
+    pub name: &'static str,
+    /// What it is.
+    pub description: &'static str,
+    /// Name of its switch; `None` where an input commands it.
+    pub switch: Option<&'static str>,
+    /// Representations of tooth contact it needs; `None` works with all.
+    pub needs: Option<Needs>,
+    /// Whether it may act although its switch is off.
+    pub may_act_unswitched: bool,
+    /// Its heat.
+    pub heat: Option<Heat>,
+    /// Its own outputs.
+    pub readings: &'static [Reading],
+    /// Values that make it visible in an example.
+    pub example: &'static [(&'static str, f64)],
 }
 
-/// Switches that this build leaves out, by their names.
-pub fn left_out(name: &str) -> bool {
-    match name {
-        "effects.bearing_drag" => !cfg!(feature = "bearing_drag"),
-        "effects.final_drive" => !cfg!(feature = "final_drive"),
-        "effects.half_shaft" => !cfg!(feature = "half_shaft"),
-        "effects.limited_slip" => !cfg!(feature = "limited_slip"),
-        "lock.command" => !cfg!(feature = "lock"),
-        "effects.pin_compliance" => !cfg!(feature = "pin_compliance"),
-        "effects.strength" => !cfg!(feature = "strength"),
-        "effects.thrust_friction" => !cfg!(feature = "thrust_friction"),
-        "effects.tooth_errors" => !cfg!(feature = "tooth_errors"),
-        "effects.tooth_fault" => !cfg!(feature = "tooth_fault"),
-        "effects.tooth_friction" => !cfg!(feature = "tooth_friction"),
-        _ => false,
+impl Declared {
+    const fn new<E: Declare>(name: &'static str, switch: Option<&'static str>) -> Self {
+        Self {
+            name,
+            description: E::DESCRIPTION,
+            switch,
+            needs: E::NEEDS,
+            may_act_unswitched: E::MAY_ACT_UNSWITCHED,
+            heat: E::HEAT,
+            readings: E::READINGS,
+            example: E::EXAMPLE,
+        }
     }
 }
 
-/// Forces and torques on bodies that the scene's effects add, besides dry friction.
-pub fn body_effects(setting: &Setting) -> Vec<Box<dyn BodyEffect>> {
-    let mut list: Vec<Box<dyn BodyEffect>> = Vec::new();
-    let effects = &setting.parameters.effects;
-    let _ = (&mut list, effects);
-    #[cfg(feature = "half_shaft")]
-    if setting.plan.ends {
-        list.push(Box::new(half_shaft::HalfShafts::new(setting)));
-    }
-    #[cfg(feature = "pin_compliance")]
-    if effects.pin_compliance {
-        list.push(Box::new(pin_compliance::PinCompliance::new(setting)));
-    }
-    #[cfg(feature = "bearing_drag")]
-    if effects.bearing_drag {
-        list.push(Box::new(bearing_drag::BearingDrag::new(setting)));
-    }
-    #[cfg(feature = "final_drive")]
-    if effects.final_drive {
-        list.push(Box::new(final_drive::FinalDrive::new(setting)));
-    }
-    list
+/// Adds to each row of an effect the way from all parameters to those of the effect.
+fn within<E: 'static>(
+    rows: Vec<Row<Parameter<E>>>,
+    group: fn(&mut EffectParameters) -> &mut E,
+) -> impl Iterator<Item = Row<Parameter<EffectParameters>>> {
+    rows.into_iter().map(move |row| row.map(|at| at.within(group)))
 }
 
-/// What holds bodies together by dry friction: washers, pins and clutches.
-pub fn grips(setting: &Setting) -> Vec<Grip> {
-    let mut list = Vec::new();
-    let effects = &setting.parameters.effects;
-    let _ = (&mut list, effects);
-    #[cfg(feature = "thrust_friction")]
-    if effects.thrust_friction {
-        list.push(thrust_friction::grip(&setting.parameters.specs.thrust_friction, setting.pair));
-    }
-    #[cfg(feature = "limited_slip")]
-    if effects.limited_slip {
-        list.push(limited_slip::grip(&setting.parameters.specs.limited_slip));
-    }
-    list
+macro_rules! effects {
+    (switched { $($name:ident: $effect:ty,)+ } commanded { $($command:ident: $commanded:ty,)+ }) => {
+        /// Switches of the effects, and of two properties of plain teeth.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct Effects {
+            /// Backlash `geometry.backlash`; off = teeth without play.
+            pub backlash: bool,
+            /// Tip-corner contact outside the path of contact; off = pairs enter and leave abruptly.
+            pub corner_contact: bool,
+            $(#[allow(missing_docs)] pub $name: bool,)+
+        }
+
+        impl Effects {
+            /// Nothing but the teeth: backlash and corner contact.
+            pub const TEETH: Self = Self { backlash: true, corner_contact: true, $($name: false),+ };
+
+            /// All switches, by their names.
+            pub fn switches(&self) -> impl Iterator<Item = (&'static str, bool)> {
+                let teeth = [("effects.backlash", self.backlash), ("effects.corner_contact", self.corner_contact)];
+                let effects = [$((concat!("effects.", stringify!($name)), self.$name)),+];
+                teeth.into_iter().chain(effects)
+            }
+
+            /// Names of all switches that are on.
+            pub fn active(&self) -> impl Iterator<Item = &'static str> {
+                self.switches().filter_map(|(name, on)| on.then_some(name))
+            }
+        }
+
+        /// Parameters of all effects.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[allow(missing_docs)]
+        pub struct EffectParameters {
+            $(pub $name: $effect,)+
+            $(pub $command: $commanded,)+
+        }
+
+        impl Default for EffectParameters {
+            fn default() -> Self {
+                Self { $($name: <$effect>::start(),)+ $($command: <$commanded>::start(),)+ }
+            }
+        }
+
+        /// All effects, in the order in which they are set up.
+        pub const EFFECTS: &[Declared] = &[
+            $(Declared::new::<$effect>(stringify!($name), Some(concat!("effects.", stringify!($name)))),)+
+            $(Declared::new::<$commanded>(stringify!($command), None),)+
+        ];
+
+        /// The same with their parameters, and whether they are on.
+        pub fn configured<'a>(
+            effects: &Effects,
+            parameters: &'a EffectParameters,
+        ) -> [(&'static Declared, bool, &'a dyn Effect); EFFECTS.len()] {
+            let mut index = 0..EFFECTS.len();
+            let mut next = |on: bool, effect: &'a dyn Effect| (&EFFECTS[index.next().unwrap_or(0)], on, effect);
+            [$(next(effects.$name, &parameters.$name),)+ $(next(true, &parameters.$command),)+]
+        }
+
+        /// Rows of the switches.
+        pub fn switches() -> Vec<Row<Parameter<Effects>>> {
+            vec![$(switch(concat!("effects.", stringify!($name)), |e| &mut e.$name, <$effect>::DESCRIPTION)),+]
+        }
+
+        /// Rows of the parameters.
+        pub fn parameters() -> Vec<Row<Parameter<EffectParameters>>> {
+            let mut rows = Vec::new();
+            $(rows.extend(within(<$effect>::parameters(), |p| &mut p.$name));)+
+            $(rows.extend(within(<$commanded>::parameters(), |p| &mut p.$command));)+
+            rows
+        }
+
+        /// Rows of the inputs.
+        pub fn inputs() -> Vec<Row<InputField>> {
+            let mut rows = Vec::new();
+            $(rows.extend(<$effect>::inputs());)+
+            $(rows.extend(<$commanded>::inputs());)+
+            rows
+        }
+    };
 }
 
-/// The lock at full command, if this build has one.
-pub fn lock_grip(_specs: &EffectSpecs) -> Option<Grip> {
-    #[cfg(feature = "lock")]
-    return Some(lock::grip(&_specs.lock));
-    #[cfg(not(feature = "lock"))]
-    None
+effects! {
+    switched {
+        tooth_errors: ToothErrorSpec,
+        tooth_fault: ToothFaultSpec,
+        tooth_friction: ToothFrictionSpec,
+        thrust_friction: thrust_friction::ThrustFrictionSpec,
+        limited_slip: limited_slip::LimitedSlipSpec,
+        half_shaft: half_shaft::HalfShaftSpec,
+        pin_compliance: pin_compliance::PinComplianceSpec,
+        bearing_drag: bearing_drag::BearingDragSpec,
+        final_drive: final_drive::FinalDriveSpec,
+        strength: strength::StrengthSpec,
+    }
+    commanded {
+        lock: lock::LockSpec,
+    }
 }

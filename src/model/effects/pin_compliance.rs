@@ -4,30 +4,105 @@
 //! its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w + τ ẇ). Linear springs
 //! with damping proportional to stiffness.
 
-use super::super::causes::Cause;
-use super::Setting;
-use super::body::{Action, Bodies, BodyEffect, Slopes};
-use crate::integrate::in_pairs;
-use crate::numeric::cos;
+use serde::{Deserialize, Serialize};
 
-/// Springs of pins and case.
-#[derive(Clone, Copy, Debug)]
-pub struct PinCompliance {
-    pin: f64,
-    case: f64,
-    time: f64,
+use crate::declaration::units::{self, N_PER_UM};
+use crate::declaration::{Parameter, Row, real};
+use crate::integrate::in_pairs;
+use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::scene::{GearContact, Plan, Requests};
+use crate::numeric::cos;
+use crate::problem::Problem;
+
+/// What gives way in series with the teeth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PinComplianceSpec {
+    /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
+    pub pin_stiffness: f64,
+    /// Stiffness of the case against the thrust of a side gear [N/m].
+    pub case_stiffness: f64,
+    /// Damping over stiffness [s].
+    pub damping_time: f64,
 }
 
-impl PinCompliance {
-    /// Springs of the scene.
-    pub fn new(setting: &Setting) -> Self {
-        let spec = &setting.parameters.specs.pin_compliance;
-        let arm = setting.pair.mean_cone * cos(setting.pair.gears[0].pitch);
-        Self { pin: spec.pin_stiffness * arm * arm, case: spec.case_stiffness, time: spec.damping_time }
+impl Default for PinComplianceSpec {
+    fn default() -> Self {
+        Self { pin_stiffness: 5e8, case_stiffness: 1e9, damping_time: 1e-6 }
     }
 }
 
-impl BodyEffect for PinCompliance {
+impl Declare for PinComplianceSpec {
+    const DESCRIPTION: &'static str = "Elastic pins and case";
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.support",
+        description: "Heat of damping in pins and case since the start",
+        at_wheels: false,
+    });
+    const NEEDS: Option<Needs> = Some(Needs {
+        contacts: &[GearContact::Lumped, GearContact::Tooth],
+        why: "it follows from the forces of the meshes, which solid teeth give in one direction only",
+    });
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            real(
+                "pin_compliance.pin_stiffness",
+                units::N_PER_M,
+                Some(N_PER_UM),
+                (1e3, 1e13),
+                |p| &mut p.pin_stiffness,
+                "Stiffness of a pin against the tangential force of its planet",
+            ),
+            real(
+                "pin_compliance.case_stiffness",
+                units::N_PER_M,
+                Some(N_PER_UM),
+                (1e3, 1e13),
+                |p| &mut p.case_stiffness,
+                "Stiffness of the case against the thrust of a side gear",
+            ),
+            real(
+                "pin_compliance.damping_time",
+                units::SECOND,
+                None,
+                (0.0, 1.0),
+                |p| &mut p.damping_time,
+                "Damping over stiffness of pins and case",
+            ),
+        ]
+    }
+}
+
+impl Effect for PinComplianceSpec {
+    fn requests(&self, _: &Setting) -> Requests {
+        Requests { pins: true, ..Requests::default() }
+    }
+
+    fn on_teeth(&self, _: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+        // a seat that moves along its axis changes the gap over the face
+        teeth.sliced = true;
+        Ok(())
+    }
+
+    fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
+        let arm = setting.pair.mean_cone * cos(setting.pair.gears[0].pitch);
+        let (pin, case) = (self.pin_stiffness * arm * arm, self.case_stiffness);
+        Some(Box::new(Springs { pin, case, time: self.damping_time, heat: setting.heat }))
+    }
+}
+
+/// Springs of pins and case.
+#[derive(Clone, Copy, Debug)]
+struct Springs {
+    pin: f64,
+    case: f64,
+    time: f64,
+    heat: usize,
+}
+
+impl BodyEffect for Springs {
     fn act(&self, at: &Bodies, out: &mut Action) {
         let layout = at.layout;
         let carrier = layout.carrier();
@@ -42,11 +117,11 @@ impl BodyEffect for PinCompliance {
             heat[g] = layout.members[g] * self.pin * self.time * rate * rate;
         }
         out.force[carrier] += in_pairs(layout.groups, |g| pins[g]);
-        out.heat[Cause::Support as usize] += in_pairs(layout.groups, |g| heat[g]);
+        out.heat[self.heat] += in_pairs(layout.groups, |g| heat[g]);
         for s in 0..2 {
             let i = layout.seat(s);
             out.force[i] -= self.case * (at.q[i] + self.time * at.v[i]);
-            out.heat[Cause::Support as usize] += self.case * self.time * at.v[i] * at.v[i];
+            out.heat[self.heat] += self.case * self.time * at.v[i] * at.v[i];
         }
     }
 

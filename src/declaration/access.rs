@@ -1,0 +1,48 @@
+//! The way from a group of values to one of them, and from a group within another.
+
+use super::row::EnumType;
+
+/// Access to a value of type `T` in a group `P`. Rows are made once and live as long as the program.
+pub type Field<P, T> = &'static (dyn for<'a> Fn(&'a mut P) -> &'a mut T + Send + Sync);
+/// Reading of an enumeration in a group `P`.
+pub type GetChoice<P> = &'static (dyn Fn(&P) -> i32 + Send + Sync);
+/// Assignment of a value to an enumeration in a group `P`.
+pub type SetChoice<P> = &'static (dyn Fn(&mut P, i32) + Send + Sync);
+
+/// Access to a parameter in a group `P` of parameters, by its FMI type.
+#[derive(Clone, Copy)]
+pub enum Parameter<P: 'static> {
+    /// A real.
+    Real(Field<P, f64>),
+    /// An integer.
+    Integer(Field<P, i32>),
+    /// A Boolean.
+    Boolean(Field<P, bool>),
+    /// An enumeration: its type, reading, and assignment of a value that is one of its choices.
+    Enumeration(&'static EnumType, GetChoice<P>, SetChoice<P>),
+}
+
+/// Keeps `closure` as long as the program, like the row it belongs to.
+pub(super) fn keep<F>(closure: F) -> &'static F {
+    Box::leak(Box::new(closure))
+}
+
+fn project<P, Q, T>(field: Field<P, T>, group: fn(&mut Q) -> &mut P) -> Field<Q, T> {
+    keep(move |q| field(group(q)))
+}
+
+impl<P> Parameter<P> {
+    /// The same parameter where its group is part of a larger one.
+    pub fn within<Q: Copy>(self, group: fn(&mut Q) -> &mut P) -> Parameter<Q> {
+        match self {
+            Self::Real(field) => Parameter::Real(project(field, group)),
+            Self::Integer(field) => Parameter::Integer(project(field, group)),
+            Self::Boolean(field) => Parameter::Boolean(project(field, group)),
+            Self::Enumeration(kind, get, set) => Parameter::Enumeration(
+                kind,
+                keep(move |q: &Q| get(group(&mut { *q }))),
+                keep(move |q: &mut Q, value| set(group(q), value)),
+            ),
+        }
+    }
+}

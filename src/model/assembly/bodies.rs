@@ -1,0 +1,101 @@
+//! Moments of inertia of the bodies, assembled from parameters and solids.
+
+use crate::geometry::Pair;
+use crate::geometry::solid::mass::gear_mass;
+use crate::model::scene::Plan;
+use crate::model::scene::layout::{CARRIER, MAX_DOF};
+use crate::model::setup::Parameters;
+
+/// Inertias that the equations of motion need [kg·m²].
+///
+/// Planet axes are perpendicular to the carrier axis, so the kinetic energy is diagonal in the absolute speeds of
+/// carrier and side gears and the relative spins of the planets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertias {
+    /// Carrier with the transverse inertia of all planets.
+    pub carrier: f64,
+    /// Side gears with their rigid ends.
+    pub side: [f64; 2],
+    /// Wheel-side ends alone, left and right.
+    pub end: [f64; 2],
+    /// One planet about its own axis.
+    pub planet: f64,
+    /// One planet about the carrier's axis.
+    pub planet_transverse: f64,
+    /// Mass of a side gear [kg].
+    pub side_mass: f64,
+    /// Number of planets.
+    pub planets: f64,
+}
+
+impl Inertias {
+    /// Inertias of the scene; gear solids scaled to the given inertia where that is given instead.
+    pub fn new(p: &Parameters, pair: &Pair) -> Self {
+        let [planet, side] = [0, 1].map(|i| gear_mass(pair, &p.geometry, i, p.material.density));
+        let (side_axial, planet_axial) =
+            if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
+        let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
+        let end = [p.inertia.left_end, p.inertia.right_end];
+        let planets = f64::from(p.geometry.planet_count);
+        Self {
+            carrier: p.inertia.carrier + planets * transverse,
+            side: end.map(|e| side_axial + e),
+            end,
+            planet: planet_axial,
+            planet_transverse: transverse,
+            side_mass: side.mass * (side_axial / side.axial),
+            planets,
+        }
+    }
+
+    /// Inertia by degree of freedom of `plan`, planets and pins singly, and the ends that stay rigid on their side gears.
+    pub fn by_freedom(&self, plan: &Plan) -> ([f64; MAX_DOF], [f64; 2]) {
+        let layout = plan.layout();
+        let mut inertia = [0.0; MAX_DOF];
+        let rigid_end = [0, 1].map(|s| if plan.shafts[s] { 0.0 } else { self.end[s] });
+        for s in 0..2 {
+            inertia[s] = self.side[s] - self.end[s] + rigid_end[s];
+            if plan.pins {
+                inertia[layout.seat(s)] = self.side_mass;
+            }
+            if plan.ends {
+                inertia[layout.end(s)] = self.end[s] - rigid_end[s];
+            }
+        }
+        inertia[CARRIER] = self.carrier;
+        for g in 0..layout.groups {
+            inertia[layout.planet(g)] = self.planet;
+            if plan.pins {
+                inertia[layout.pin(g)] = self.planet_transverse;
+            }
+        }
+        if plan.pins {
+            inertia[CARRIER] -= self.planets * self.planet_transverse;
+        }
+        (inertia, rigid_end)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::solid::mass::GearMass;
+
+    #[test]
+    fn planets_turn_with_the_carrier_across_their_axes() {
+        let mut p = Parameters::default();
+        p.geometry.planet_count = 4;
+        let pair = Pair::new(&p.geometry);
+        let GearMass { axial, transverse_at_apex, .. } = gear_mass(&pair, &p.geometry, 0, p.material.density);
+        let j = Inertias::new(&p, &pair);
+        assert!((j.carrier / (0.02 + 4.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
+        assert_eq!(j.planet, axial);
+        // given inertias scale the solid
+        p.inertia.from_geometry = false;
+        p.inertia.planet = 3.0 * axial;
+        p.inertia.left_end = 0.5;
+        let j = Inertias::new(&p, &pair);
+        assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
+        assert_eq!((j.planet, j.side), (3.0 * axial, [9e-5 + 0.5, 9e-5]));
+    }
+}

@@ -1,0 +1,103 @@
+//! The ideal differential: no teeth, Willis' equation as a constraint, two degrees of freedom ω_c and ψ̇.
+//!
+//! With ω_L,R = ω_c ± r ψ̇, r = z_p/z_s, the kinetic energy gives M (ω̇_c, ψ̈)ᵀ = (T_c − T_L − T_R, r (T_R − T_L) + T_ψ)ᵀ,
+//! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constant between communication
+//! points, so speeds are linear and angles quadratic in time: the step is exact.
+
+use crate::model::assembly::bodies::Inertias;
+use crate::model::scene::Inputs;
+use crate::model::scene::Plan;
+use crate::model::scene::layout::{CARRIER, PLANET};
+
+/// Constants of the ideal differential.
+#[derive(Clone, Copy, Debug)]
+pub struct Ideal {
+    /// Scene plan.
+    pub plan: Plan,
+    /// Inertias.
+    pub inertia: Inertias,
+    /// r = z_p/z_s.
+    pub ratio: f64,
+}
+
+/// Accelerations and the torques of the drives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IdealMotion {
+    /// ω̇_c [rad/s²].
+    pub carrier: f64,
+    /// ψ̈ [rad/s²].
+    pub spin: f64,
+    /// Torque on the carrier [N·m].
+    pub carrier_torque: f64,
+    /// Torque that imposes the spin, all planets together [N·m].
+    pub spin_torque: f64,
+}
+
+impl Ideal {
+    /// M of the equations of motion: m₁₁, m₁₂, m₂₂ [kg·m²].
+    fn mass(&self) -> [f64; 3] {
+        let (r, j) = (self.ratio, &self.inertia);
+        let [left, right] = self.side_inertia();
+        [j.carrier + left + right, r * (left - right), r * r * (left + right) + j.planets * j.planet]
+    }
+
+    /// Inertias of the side gears: an end behind a shaft that twists does not move with its gear [kg·m²].
+    fn side_inertia(&self) -> [f64; 2] {
+        let j = &self.inertia;
+        [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
+    }
+
+    /// What free speeds take of a jump of imposed ones: the spin by the carrier, and the carrier by the spin. Sides of
+    /// unequal inertia couple both.
+    pub fn impulse(&self) -> [f64; 2] {
+        let [m11, m12, m22] = self.mass();
+        let plan = &self.plan;
+        [
+            if plan.carrier_imposed && !plan.spin_imposed { -m12 / m22 } else { 0.0 },
+            if plan.spin_imposed && !plan.carrier_imposed { -m12 / m11 } else { 0.0 },
+        ]
+    }
+
+    /// Accelerations of the side gears.
+    pub fn side_accelerations(&self, m: &IdealMotion) -> [f64; 2] {
+        [m.carrier + self.ratio * m.spin, m.carrier - self.ratio * m.spin]
+    }
+
+    /// Accelerations under `inputs`.
+    pub fn motion(&self, inputs: &Inputs) -> IdealMotion {
+        let r = self.ratio;
+        let [left, right] = inputs.load_torque;
+        let [m11, m12, m22] = self.mass();
+        let (f1, f2) = (inputs.carrier_torque - left - right, r * (right - left));
+        let (carrier, spin) = match (self.plan.carrier_imposed, self.plan.spin_imposed) {
+            (true, true) => (0.0, 0.0),
+            (true, false) => (0.0, f2 / m22),
+            (false, true) => (f1 / m11, 0.0),
+            (false, false) => {
+                let determinant = m11 * m22 - m12 * m12;
+                ((f1 * m22 - f2 * m12) / determinant, (f2 * m11 - f1 * m12) / determinant)
+            }
+        };
+        let carrier_torque =
+            if self.plan.carrier_imposed { m11 * carrier + m12 * spin + left + right } else { inputs.carrier_torque };
+        let spin_torque = if self.plan.spin_imposed { m12 * carrier + m22 * spin - f2 } else { 0.0 };
+        IdealMotion { carrier, spin, carrier_torque, spin_torque }
+    }
+
+    /// Sets side gear speeds by Willis' equation.
+    pub fn constrain(&self, v: &mut [f64]) {
+        let (carrier, spin) = (v[CARRIER], v[PLANET]);
+        v[0] = carrier + self.ratio * spin;
+        v[1] = carrier - self.ratio * spin;
+    }
+
+    /// Kinetic energy at the velocities `v` [J].
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let j = &self.inertia;
+        let [left, right] = self.side_inertia();
+        0.5 * (j.carrier * v[CARRIER] * v[CARRIER]
+            + left * v[0] * v[0]
+            + right * v[1] * v[1]
+            + j.planets * j.planet * v[PLANET] * v[PLANET])
+    }
+}

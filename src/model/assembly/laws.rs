@@ -1,0 +1,118 @@
+//! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
+
+use crate::contact::any_spring::AnySpring;
+use crate::contact::damping::{self, Damping};
+use crate::contact::detailed::Slice;
+use crate::contact::impact::Impact;
+use crate::contact::law::{Face, Lumped, Power};
+use crate::contact::mesh::Law;
+use crate::contact::stiffness::{PairStiffness, RootSpec};
+use crate::contact::{ContactLaw, DampingModel, hertz};
+use crate::geometry::Pair;
+use crate::model::assembly::face::{centroid, gauss_slices};
+use crate::model::assembly::solid;
+use crate::model::scene::GearContact;
+use crate::model::setup::Parameters;
+use crate::problem::Problem;
+
+/// One law in its two forms.
+pub struct Laws {
+    /// For a plain mesh.
+    pub law: Law,
+    /// For a mesh in detail: the elastic part by itself,
+    pub spring: AnySpring,
+    /// and the slices of the face it acts on.
+    pub slices: Vec<Slice>,
+    /// Cone distance at which the resultant of a pair acts [m].
+    pub cone: f64,
+}
+
+impl Laws {
+    /// Law of the scene; `slices` is the number of slices wanted over the face where the law can be cut into slices.
+    pub fn new(p: &Parameters, pair: &Pair, slices: usize) -> Result<Self, Problem> {
+        let damping = Self::damping(p);
+        let (outer, inner) = (pair.outer_cone, pair.inner_cone);
+        let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
+        let centroid = centroid(pair);
+        let stiffness = || {
+            let root = RootSpec { fillet: p.geometry.root_fillet };
+            PairStiffness::new(pair, &root, p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load)
+        };
+        // a resultant at `cone` of a load that grows with R, spread so that the line load is the one there
+        let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
+        let whole = |cone: f64, weight: f64| vec![Slice { cone, weight, width: width(cone) }];
+        if p.scene.gear_contact == GearContact::Lumped {
+            let per_width = if p.contact.mesh_stiffness_from_geometry {
+                stiffness()?.mesh_mean()
+            } else {
+                p.contact.mesh_stiffness
+            };
+            let k = per_width * moment / (centroid * centroid);
+            return Ok(Self {
+                law: Law::Lumped(Lumped { stiffness: k, damping }),
+                spring: AnySpring::Linear(k, centroid),
+                slices: whole(centroid, 1.0),
+                cone: centroid,
+            });
+        }
+        if p.scene.gear_contact == GearContact::Solid {
+            let impact = impact(p, pair);
+            return Ok(Self {
+                law: Law::Solid(Box::new(solid::mesh(p, pair, impact, damping))),
+                spring: AnySpring::Power(impact, pair.mean_cone),
+                slices: whole(pair.mean_cone, 1.0),
+                cone: pair.mean_cone,
+            });
+        }
+        let face = || if slices > 1 { gauss_slices(inner, outer) } else { whole(centroid, moment) };
+        Ok(match p.contact.law {
+            ContactLaw::Impact => {
+                let impact = impact(p, pair);
+                let law = match damping {
+                    Damping::Step { .. } => Law::Impact(impact),
+                    Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
+                };
+                let spring = AnySpring::Power(impact, pair.mean_cone);
+                Self { law, spring, slices: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
+            }
+            ContactLaw::Line => {
+                let specific = stiffness()?.line();
+                let spring = AnySpring::Line(specific.clone());
+                let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                Self { law, spring, slices: face(), cone: centroid }
+            }
+            ContactLaw::LineWeber => {
+                let specific = stiffness()?.line_weber();
+                let spring = AnySpring::LineWeber(specific.clone());
+                let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                Self { law, spring, slices: face(), cone: centroid }
+            }
+        })
+    }
+
+    /// Damping of a tooth pair.
+    pub fn damping(p: &Parameters) -> Damping {
+        match p.contact.damping_model {
+            DampingModel::Step => {
+                Damping::Step { coefficient: p.contact.damping, per_full_depth: 1.0 / p.contact.penetration_depth }
+            }
+            // a restitution that has no damping to go with it is refused before
+            DampingModel::Restitution => Damping::HuntCrossley {
+                lambda: damping::dimensionless_damping(p.contact.restitution).unwrap_or(0.0) / p.contact.impact_speed,
+            },
+        }
+    }
+}
+
+fn impact(p: &Parameters, pair: &Pair) -> Impact {
+    let hertz = || {
+        let radius = |i| 0.5 * pair.outer_pitch_diameter(i);
+        hertz::stiffness(radius(0), radius(1), p.material.young_modulus, p.material.poisson_ratio)
+    };
+    Impact {
+        stiffness: if p.contact.stiffness_from_hertz { hertz() } else { p.contact.stiffness },
+        exponent: p.contact.exponent,
+        damping: p.contact.damping,
+        per_full_depth: 1.0 / p.contact.penetration_depth,
+    }
+}

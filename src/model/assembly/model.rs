@@ -1,0 +1,168 @@
+//! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
+
+use super::additions::{Additions, BodyEffects};
+use super::bodies::Inertias;
+use super::face::{centroid, slice_cones};
+use super::ideal::Ideal;
+use super::laws::Laws;
+use super::rigid::Rigid;
+use super::solid;
+use super::teeth::Teeth;
+use crate::contact::ContactLaw;
+use crate::contact::detailed::Detailed;
+use crate::contact::gaps::FlankGaps;
+use crate::contact::mesh::Mesh;
+use crate::geometry::{Pair, checks};
+use crate::model::effect_kinds::effect::BUILT;
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effects::strength::Strength;
+use crate::model::scene::layout::MAX_DOF;
+use crate::model::scene::{GearContact, Layout, Plan, Requests};
+use crate::model::setup::{Parameters, SceneEffects, validation};
+use crate::problem::Problem;
+
+/// How the gears are represented.
+#[derive(Clone, Debug)]
+pub enum Gears {
+    /// Willis' equation: in closed form while nothing acts on bodies, integrated otherwise.
+    Rigid(Box<Rigid>),
+    /// Meshes.
+    Teeth(Box<Teeth>),
+}
+
+/// Everything derived from the parameters; it does not change while a simulation runs, but for tunable parameters.
+#[derive(Clone, Debug)]
+pub struct Model {
+    /// Parameters it was made from.
+    pub parameters: Parameters,
+    /// Geometry of the pair.
+    pub pair: Pair,
+    /// Ideal differential of the same scene.
+    pub ideal: Ideal,
+    /// How the gears are represented.
+    pub gears: Gears,
+    /// Stress and fatigue, where the scene asks for them.
+    pub strength: Option<Box<Strength>>,
+    /// Where each degree of freedom stands.
+    pub layout: Layout,
+    /// Periods of the positions: a tooth pitch, for the carrier a turn [rad].
+    pub periods: [f64; MAX_DOF],
+    /// What is unusual about the scene.
+    pub warnings: Vec<Problem>,
+}
+
+impl Model {
+    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
+    pub fn new(parameters: &Parameters) -> Result<Self, Vec<Problem>> {
+        let spec = parameters.gears();
+        if let Some(problem) = checks::shaft_angle(&spec) {
+            return Err(vec![problem]);
+        }
+        let pair = Pair::new(&spec);
+        let mut problems = checks::errors(&spec, &pair);
+        problems.extend(validation::problems(parameters, &pair));
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let effects = parameters.scene_effects(&pair);
+        let setting = effects.setting;
+        let tooth = tooth_effects(parameters, &effects).map_err(|p| vec![p])?;
+        let requests = effects.requests();
+        let individual = tooth.individual || !parameters.solver.merge_planets;
+        let plan = Plan::new(&parameters.scene, &spec, &pair, &Requests { individual, ..requests });
+        let plan = plan.map_err(|p| vec![p])?;
+        let inertia = Inertias::new(parameters, &pair);
+        let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
+        let ideal = Ideal { plan, inertia, ratio };
+        let mut warnings = checks::warnings(&spec, &pair);
+        warnings.extend(effects.warnings());
+        let bodies = BodyEffects::new(parameters, &effects, &plan);
+        let gears = match plan.contact {
+            GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
+            GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
+                let laws = Laws::new(parameters, &pair, tooth.slices()).map_err(|p| vec![p])?;
+                Gears::Teeth(Box::new(teeth(parameters, &pair, &ideal, laws, tooth, bodies)))
+            }
+        };
+        let strength = if BUILT && parameters.effects.strength {
+            Some(Box::new(Strength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
+        } else {
+            None
+        };
+        Ok(Self {
+            parameters: *parameters,
+            ideal,
+            gears,
+            strength,
+            layout: plan.layout(),
+            periods: plan.periods(&pair),
+            warnings,
+            pair,
+        })
+    }
+
+    /// Takes over tunable parameters from `parameters`, which must differ in those alone.
+    pub fn tune(&mut self, parameters: &Parameters) {
+        self.parameters = *parameters;
+        let effects = parameters.scene_effects(&self.pair);
+        match &mut self.gears {
+            Gears::Rigid(rigid) => rigid.bodies.friction = effects.friction(),
+            Gears::Teeth(teeth) => {
+                let damping = Laws::damping(parameters);
+                teeth.mesh.law.set_damping(damping);
+                let additions = &mut teeth.additions;
+                additions.detailed.damping = damping;
+                if let Ok(tooth) = effects.on_teeth() {
+                    additions.detailed.friction = tooth.friction;
+                }
+                additions.bodies.friction = effects.friction();
+                // a coefficient that was 0 needs the loads from now on
+                additions.in_detail |= additions.bodies.needs_loads();
+            }
+        }
+    }
+}
+
+/// What effects do to single teeth; solid teeth take their errors themselves.
+fn tooth_effects(p: &Parameters, effects: &SceneEffects) -> Result<ToothEffects, Problem> {
+    if p.scene.gear_contact == GearContact::Solid {
+        return Ok(ToothEffects { individual: solid::is_individual(p), ..ToothEffects::default() });
+    }
+    let mut tooth = effects.on_teeth()?;
+    // slices where the law can be cut and something varies over the face
+    let pair = effects.setting.pair;
+    let cones = match p.contact.law {
+        ContactLaw::Impact => vec![pair.mean_cone],
+        _ if tooth.sliced => slice_cones(pair),
+        _ => vec![centroid(pair)],
+    };
+    tooth.set_cones(&cones);
+    Ok(tooth)
+}
+
+fn teeth(
+    p: &Parameters,
+    pair: &Pair,
+    ideal: &Ideal,
+    laws: Laws,
+    tooth: ToothEffects,
+    mut bodies: BodyEffects,
+) -> Teeth {
+    let plan = ideal.plan;
+    // a tooth may neither bend by the working depth nor reach the next gap
+    let working_depth = (pair.gears[0].addendum + pair.gears[1].addendum) / pair.outer_cone;
+    let jump = working_depth.min(0.5 * pair.base_pitch);
+    let single = plan.contact == GearContact::Lumped;
+    let in_detail = tooth.gaps[1].is_some() || tooth.friction.is_some() || plan.pins || bodies.needs_loads();
+    bodies.always |= in_detail || p.effects.strength;
+    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, jump);
+    let additions = Additions {
+        detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, tooth.friction),
+        in_detail,
+        friction_heat: tooth.friction_heat,
+        gaps: tooth.gaps,
+        perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
+        bodies,
+    };
+    Teeth::new(pair, mesh, plan, &ideal.inertia, jump, additions)
+}

@@ -1,0 +1,83 @@
+//! Constants of the ideal differential with effects on bodies.
+//!
+//! All speeds follow from those that Willis' equation leaves free: v = P u with u = (ω_c, ψ̇, ends). Forces Q then give
+//! u̇ = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c) for the free ones under the accelerations u̇_c of imposed ones, so that
+//! v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and f = (1 − W M) P_c.
+
+use super::additions::BodyEffects;
+use super::ideal::Ideal;
+use crate::model::scene::layout::PLANET;
+use crate::model::scene::{Layout, Plan};
+
+/// Degrees of freedom with ends of half-shafts.
+pub const MOST: usize = 6;
+
+/// Motions that may be imposed: carrier, spin, left and right end.
+pub const IMPOSED: usize = 4;
+
+/// Constants of an ideal differential with effects.
+#[derive(Clone, Debug)]
+pub struct Rigid {
+    /// Scene plan.
+    pub plan: Plan,
+    /// Index of each degree of freedom.
+    pub layout: Layout,
+    /// Inertia by degree of freedom, all planets together [kg·m²].
+    pub inertia: [f64; MOST],
+    /// Inertias of ends that are rigid on their side gears [kg·m²].
+    pub rigid_end: [f64; 2],
+    /// r = z_p/z_s.
+    pub ratio: f64,
+    /// W: accelerations by forces.
+    pub mobility: [[f64; MOST]; MOST],
+    /// Columns of f: for the carrier, the spin and both ends; zero where the motion is not imposed.
+    pub follow: [[f64; MOST]; IMPOSED],
+    /// Effects on bodies.
+    pub bodies: BodyEffects,
+}
+
+impl Rigid {
+    /// Constants of the scene.
+    pub fn new(ideal: &Ideal, bodies: BodyEffects) -> Self {
+        let plan = ideal.plan;
+        let layout = plan.layout();
+        let (by_freedom, rigid_end) = ideal.inertia.by_freedom(&plan);
+        let mut inertia: [f64; MOST] = std::array::from_fn(|i| by_freedom[i]);
+        inertia[PLANET] = ideal.inertia.planets * ideal.inertia.planet;
+        let n = layout.count();
+        let r = ideal.ratio;
+        // columns of P
+        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        let end = |s: usize| std::array::from_fn(|i| f64::from(plan.shafts[s] && i == layout.end(s)));
+        let columns = [carrier, [r, -r, 0.0, 1.0, 0.0, 0.0], end(0), end(1)];
+        let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
+        let moves = [true, true, plan.shafts[0], plan.shafts[1]];
+        let free: Vec<[f64; MOST]> = (0..IMPOSED).filter(|&k| moves[k] && !imposed[k]).map(|k| columns[k]).collect();
+        let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
+        let m = nalgebra::DMatrix::from_fn(n, n, |i, j| if i == j { inertia[i] } else { 0.0 });
+        // inertias are positive, so that the reduced matrix has an inverse
+        let reduced = (p.transpose() * &m * &p).try_inverse();
+        let w = reduced.map_or_else(|| nalgebra::DMatrix::zeros(n, n), |inverse| &p * inverse * p.transpose());
+        let c = nalgebra::DMatrix::from_fn(n, IMPOSED, |i, k| if imposed[k] { columns[k][i] } else { 0.0 });
+        let follow = &c - &w * &m * &c;
+        let mut this = Self {
+            plan,
+            layout,
+            inertia,
+            rigid_end,
+            ratio: r,
+            mobility: [[0.0; MOST]; MOST],
+            follow: [[0.0; MOST]; IMPOSED],
+            bodies,
+        };
+        for i in 0..n {
+            for k in 0..IMPOSED {
+                this.follow[k][i] = follow[(i, k)];
+            }
+            for j in 0..n {
+                this.mobility[i][j] = w[(i, j)];
+            }
+        }
+        this
+    }
+}

@@ -1,0 +1,67 @@
+//! Solid teeth of a scene: their law, and where their gears stand.
+
+use crate::contact::damping::Damping;
+use crate::contact::errors::ToothErrorSpec;
+use crate::contact::impact::Impact;
+use crate::contact::solid::mesh::{Slice, SolidMesh, SolidSpec};
+use crate::contact::solid::pose::Displacement;
+use crate::geometry::Pair;
+use crate::geometry::assembly::azimuth;
+use crate::model::assembly::face::gauss_slices;
+use crate::model::setup::Parameters;
+use crate::numeric::{cos, sin};
+
+/// Mesh of the scene `p` with the elastic law and damping of a pair.
+pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> SolidMesh {
+    let errors = errors(p);
+    let displaced = displaced(&errors, p.geometry.planet_count);
+    let width = pair.outer_cone - pair.inner_cone;
+    let alike = errors.crowning == 0.0 && displaced.iter().flatten().all(|d| d.along == [0.0; 2] && d.across == 0.0);
+    let slices = if alike {
+        vec![Slice { cone: pair.mean_cone, share: 1.0, width, relief: 0.0 }]
+    } else {
+        let slice = |s: crate::contact::detailed::Slice| {
+            let x = (s.cone - pair.mean_cone) / (0.5 * width);
+            let share = s.width * s.cone / (width * pair.mean_cone);
+            Slice { cone: s.cone, share, width: s.width, relief: errors.crowning * x * x }
+        };
+        gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(slice).collect()
+    };
+    let spec = SolidSpec {
+        fillet: p.geometry.root_fillet * pair.module / pair.outer_cone,
+        facets: usize::try_from(p.solid.facets).unwrap_or(1).max(1),
+        smoothing: p.solid.smoothing,
+        slices,
+        displaced,
+    };
+    let slack = errors.planet_axial_offset.abs()
+        + errors.side_axial_offset.abs()
+        + 2.0 * errors.axis_offset.abs()
+        + pair.outer_cone * errors.shaft_angle_error.abs();
+    SolidMesh::new(pair, &spec, elastic, damping, slack)
+}
+
+/// Whether planets stand differently before their side gears.
+pub fn is_individual(p: &Parameters) -> bool {
+    let displaced = displaced(&errors(p), p.geometry.planet_count);
+    displaced.iter().any(|d| *d != displaced[0])
+}
+
+fn errors(p: &Parameters) -> ToothErrorSpec {
+    if p.effects.tooth_errors { p.specs.tooth_errors } else { ToothErrorSpec::default() }
+}
+
+/// Displacements of each planet before the left and the right side gear.
+fn displaced(errors: &ToothErrorSpec, planets: i32) -> Vec<[Displacement; 2]> {
+    let of_planet = |i: i32| {
+        // pins move along t of planet 0, which is sinφ r̂ + cosφ t of the planet at φ
+        let at = azimuth(usize::try_from(i).unwrap_or(0), planets);
+        let outward = errors.planet_axial_offset + errors.axis_offset * sin(at);
+        [1.0, -1.0].map(|side| Displacement {
+            along: [outward, -errors.side_axial_offset],
+            across: errors.axis_offset * cos(at),
+            lean: side * errors.shaft_angle_error,
+        })
+    };
+    (0..planets).map(of_planet).collect()
+}

@@ -1,0 +1,72 @@
+//! Constants of the equations of motion of a differential with teeth.
+
+use super::additions::Additions;
+use super::bodies::Inertias;
+use crate::contact::mesh::Mesh;
+use crate::geometry::Pair;
+use crate::model::scene::layout::{CARRIER, MAX_DOF};
+use crate::model::scene::{Layout, Plan};
+
+/// Sign σ of the left and right side.
+pub const SIGMA: [f64; 2] = [1.0, -1.0];
+
+/// A differential with teeth.
+#[derive(Clone, Debug)]
+pub struct Teeth {
+    /// The mesh, alike for all planets and both sides.
+    pub mesh: Mesh,
+    /// Scene plan.
+    pub plan: Plan,
+    /// Index of each degree of freedom.
+    pub layout: Layout,
+    /// Inertias by degree of freedom, of planets and pins singly [kg·m², for seats kg].
+    pub inertia: [f64; MAX_DOF],
+    /// Their reciprocals, 0 where the motion is imposed.
+    pub inverse_inertia: [f64; MAX_DOF],
+    /// Inertias of the wheel-side ends that are rigid on their side gears [kg·m²].
+    pub rigid_end: [f64; 2],
+    /// sinδ_b of planet and side gear.
+    pub lever: [f64; 2],
+    /// Base pitch on the unit sphere [rad].
+    pub base_pitch: f64,
+    /// Approach beyond which a tooth would jump [rad].
+    pub jump: f64,
+    /// What acts besides plain teeth; boxed, so that the layout of these constants is the same in every build.
+    pub additions: Box<Additions>,
+}
+
+impl Teeth {
+    /// Constants of the scene `plan` with the meshes `mesh` of `pair`.
+    pub fn new(pair: &Pair, mesh: Mesh, plan: Plan, inertias: &Inertias, jump: f64, additions: Additions) -> Self {
+        let layout = plan.layout();
+        let (inertia, rigid_end) = inertias.by_freedom(&plan);
+        let mut inverse_inertia = [0.0; MAX_DOF];
+        for i in 0..layout.count() {
+            inverse_inertia[i] = 1.0 / inertia[i];
+        }
+        if plan.carrier_imposed {
+            inverse_inertia[CARRIER] = 0.0;
+        }
+        for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
+            inverse_inertia[layout.planet(g)] = 0.0;
+        }
+        for s in (0..2).filter(|_| plan.ends) {
+            // a side without a shaft of its own has no end to move
+            if plan.side_imposed[s] || !plan.shafts[s] {
+                inverse_inertia[layout.end(s)] = 0.0;
+            }
+        }
+        Self {
+            mesh,
+            plan,
+            layout,
+            inertia,
+            inverse_inertia,
+            rigid_end,
+            lever: pair.lever(),
+            base_pitch: pair.base_pitch,
+            jump,
+            additions: Box::new(additions),
+        }
+    }
+}

@@ -1,0 +1,310 @@
+//! Equations of motion with tooth contact.
+//!
+//! Degrees of freedom: α_L, α_R (side gears relative to the carrier), θ_c, and the spin ψ of each group of planets;
+//! velocities ω_L, ω_R, ω_c (absolute) and ψ̇, in which the kinetic energy is diagonal:
+//!
+//!   J_s ω̇_s = Σ Q_α − T_s,   J_c ω̇_c = T_c − Σ_s Σ Q_α,   I_p ψ̈ = Q_ψL + Q_ψR,   α̇_s = ω_s − ω_c
+//!
+//! with q = sinδ_bs α − σ sinδ_bp ψ and x = σ sinδ_bp ψ + h of every mesh, σ = +1 left, −1 right, and the mesh forces
+//! Q_α = sinδ_bs F_q, Q_ψ = σ sinδ_bp (F_x − F_q). Imposed motions have a given acceleration.
+//!
+//! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
+//! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
+
+use super::power::Power;
+use super::state::State;
+use crate::contact::mesh::{MeshForce, MeshState};
+use crate::integrate::{Matrix, Point, in_pairs};
+use crate::model::assembly::teeth::{SIGMA, Teeth};
+use crate::model::effect_kinds::dry_friction::FrictionState;
+use crate::model::effect_kinds::friction::Friction;
+use crate::model::scene::layout::{CARRIER, HOLDS, LEFT, MAX_GROUPS};
+use crate::model::scene::{Course, Inputs};
+
+/// Derivatives of forces and of the carrier's imposed acceleration.
+pub struct Jacobian<const N: usize> {
+    /// ∂force/∂position.
+    pub by_position: Matrix<N>,
+    /// ∂force/∂(rate of position).
+    pub by_rate: Matrix<N>,
+    /// ∂force/∂velocity.
+    pub by_velocity: Matrix<N>,
+    /// ∂(imposed acceleration of the carrier)/∂position and velocity.
+    pub of_imposed: [[f64; N]; 2],
+}
+
+impl<const N: usize> Default for Jacobian<N> {
+    fn default() -> Self {
+        Self {
+            by_position: [[0.0; N]; N],
+            by_rate: [[0.0; N]; N],
+            by_velocity: [[0.0; N]; N],
+            of_imposed: [[0.0; N]; 2],
+        }
+    }
+}
+
+/// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
+/// move, and whether effects act beside the teeth.
+#[derive(Clone, Copy)]
+pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> {
+    /// Constants.
+    pub teeth: &'a Teeth,
+    pub(in crate::model) inputs: Inputs,
+    pub(in crate::model) course: Course,
+    driven: bool,
+    pub(in crate::model) friction_state: [FrictionState; HOLDS],
+    pub(in crate::model) friction: Friction,
+    pub(in crate::model) fault: bool,
+    /// Relative position taken out by wrapping, by group and side [rad].
+    offset: [[f64; 2]; MAX_GROUPS],
+    /// Pitches by which the planets have been wrapped, in the sense of x of the left mesh.
+    wrapped: [i64; MAX_GROUPS],
+}
+
+impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'a, N, G, P, FULL> {
+    /// Index of the first group of planets.
+    pub const PLANET: usize = CARRIER + 1 + 2 * P;
+    /// Index of the first pin.
+    pub const PIN: usize = Self::PLANET + G;
+    /// Whether half-shafts have ends of their own.
+    pub const ENDS: bool = N > Self::PLANET + (1 + P) * G;
+
+    /// Equations at `state`'s wrapping under `inputs`.
+    pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
+        let mut offset = [[0.0; 2]; MAX_GROUPS];
+        let mut wrapped = [0; MAX_GROUPS];
+        for g in 0..G {
+            wrapped[g] = state.turns[Self::PLANET + g];
+            for s in 0..2 {
+                let spin = if s == 0 { wrapped[g] } else { -wrapped[g] };
+                offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
+            }
+        }
+        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
+        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
+        let friction =
+            if FULL { teeth.additions.bodies.friction(state.lock, &inputs, &course) } else { Friction::default() };
+        let (friction_state, fault) = (state.friction, state.fault);
+        Self { teeth, inputs, course, driven, friction_state, friction, fault, offset, wrapped }
+    }
+
+    /// Whether inputs change while they act.
+    #[inline(always)]
+    pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
+        FULL && self.driven
+    }
+
+    /// The equations `time` [s] later, as far as inputs go.
+    pub(in crate::model) fn later(&self, time: f64) -> Self {
+        let (inputs, course) = self.course.after(time, &self.inputs);
+        self.under(&inputs, &course)
+    }
+
+    /// The same equations under other inputs.
+    pub(in crate::model) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
+        Self { inputs: *inputs, course: *course, ..*self }
+    }
+
+    /// State of the mesh of group `g` with side `s`.
+    #[inline(always)]
+    pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
+        let [planet, side] = self.teeth.lever;
+        let turn = SIGMA[s] * planet;
+        let (travel, travel_rate) = (turn * at.q[Self::PLANET + g], turn * at.v[Self::PLANET + g]);
+        let (angle, speed) = if P == 0 {
+            (at.q[s], at.v[s] - at.v[CARRIER])
+        } else {
+            (at.q[s] - at.q[Self::PIN + g], at.v[s] - at.v[Self::PIN + g])
+        };
+        MeshState {
+            position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
+            rate: [side * speed - travel_rate, travel_rate],
+            which: [self.teeth.plan.group(g).planet, s],
+        }
+    }
+
+    /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
+    #[inline(always)]
+    pub(in crate::model) fn wrapped(&self, g: usize, s: usize) -> i64 {
+        if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
+    }
+
+    #[inline(always)]
+    pub(in crate::model) fn members(&self, g: usize) -> f64 {
+        self.teeth.plan.group(g).members
+    }
+
+    /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
+    #[inline(always)]
+    pub(in crate::model) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
+        let [planet, side] = self.teeth.lever;
+        let on = |s: usize| in_pairs(G, |g| self.members(g) * side * force(g, s)[0]);
+        let on_side = [on(0), on(1)];
+        for s in 0..2 {
+            sum[s] += on_side[s];
+        }
+        if P == 0 {
+            sum[CARRIER] -= on_side[0] + on_side[1];
+        }
+        for g in 0..G {
+            let (left, right) = (force(g, 0), force(g, 1));
+            sum[Self::PLANET + g] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
+            if P > 0 {
+                sum[Self::PIN + g] -= side * left[0] + side * right[0];
+            }
+        }
+    }
+
+    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
+    #[inline(always)]
+    pub(in crate::model) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let [planet, side] = self.teeth.lever;
+        let turn = SIGMA[s] * planet;
+        let columns = by.map(|[q, x, w]| [side * q, turn * (x - q), w]);
+        std::array::from_fn(|row| {
+            std::array::from_fn(|c| match row {
+                0 => side * columns[0][c],
+                1 => turn * (columns[1][c] - columns[0][c]),
+                _ => columns[2][c],
+            })
+        })
+    }
+
+    /// The same of a mesh whose side gear has no seat of its own.
+    #[inline(always)]
+    pub(in crate::model) fn block(&self, s: usize, by: &[[f64; 2]; 2]) -> [[f64; 3]; 3] {
+        let [[qq, qx], [xq, xx]] = *by;
+        self.local_block(s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
+    }
+
+    /// Adds the blocks of all meshes to ∂(sums)/∂(positions) or ∂(sums)/∂(rates).
+    #[inline(always)]
+    pub(in crate::model) fn add_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
+        for g in 0..G {
+            let (i, members) = (Self::PLANET + g, self.members(g));
+            for s in 0..2 {
+                let l = &blocks[g][s];
+                m[s][i] += members * l[0][1];
+                m[i][s] += l[1][0];
+                m[i][i] += l[1][1];
+                if P == 0 {
+                    m[CARRIER][i] -= members * l[0][1];
+                } else {
+                    let (pin, seat) = (Self::PIN + g, CARRIER + 1 + s);
+                    m[s][pin] -= members * l[0][0];
+                    m[seat][pin] -= members * l[2][0];
+                    m[seat][i] += members * l[2][1];
+                    m[pin][s] -= l[0][0];
+                    m[pin][pin] += l[0][0];
+                    m[pin][i] -= l[0][1];
+                    m[pin][seat] -= l[0][2];
+                    m[i][pin] -= l[1][0];
+                    m[i][seat] += l[1][2];
+                }
+            }
+        }
+        let total = |s: usize, row: usize, c: usize| in_pairs(G, |g| self.members(g) * blocks[g][s][row][c]);
+        for s in 0..2 {
+            let diagonal = total(s, 0, 0);
+            m[s][s] += diagonal;
+            if P == 0 {
+                m[CARRIER][s] -= diagonal;
+            } else {
+                let seat = CARRIER + 1 + s;
+                m[s][seat] += total(s, 0, 2);
+                m[seat][s] += total(s, 2, 0);
+                m[seat][seat] += total(s, 2, 2);
+            }
+        }
+    }
+
+    /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
+    #[inline(always)]
+    pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
+        let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
+        let rates = &self.course.rates[0];
+        let mut input = 0.0;
+        for s in 0..2 {
+            let wheel = if FULL && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
+            if FULL && plan.side_imposed[s] {
+                input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
+            } else {
+                sum[wheel] -= self.inputs.load_torque[s];
+                input -= self.inputs.load_torque[s] * at.v[wheel];
+            }
+        }
+        let drive = if plan.carrier_imposed {
+            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        } else {
+            self.inputs.carrier_torque + if FULL { power.drive } else { 0.0 }
+        };
+        input += drive * at.v[CARRIER];
+        sum[CARRIER] += drive;
+        if plan.spin_imposed {
+            let inertial = if FULL { self.teeth.inertia[Self::PLANET] * rates.planet_spin } else { 0.0 };
+            input -= in_pairs(G, |g| self.members(g) * (sum[Self::PLANET + g] - inertial) * at.v[Self::PLANET + g]);
+        }
+        for i in 0..N {
+            sum[i] *= inverse[i];
+        }
+        if FULL && plan.carrier_imposed {
+            sum[CARRIER] = imposed[CARRIER];
+        }
+        if self.is_driven_by_inputs() {
+            for g in (0..G).filter(|_| plan.spin_imposed) {
+                sum[Self::PLANET + g] = rates.planet_spin;
+            }
+            for s in (0..2).filter(|&s| plan.side_imposed[s]) {
+                sum[N - 2 + s] = rates.side_speed[s];
+            }
+        }
+        power.input += input;
+    }
+
+    /// Sums of tooth torques on side gears, carrier, planets and pins without any input, and the heat of contact.
+    #[inline(always)]
+    pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
+        let mut sum = [0.0; N];
+        let mut load = [[MeshForce::default(); 2]; G];
+        for g in 0..G {
+            for s in 0..2 {
+                load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
+            }
+        }
+        self.add_forces(|g, s| load[g][s].force, &mut sum);
+        (sum, in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
+    }
+
+    /// Elastic energy of all meshes [J].
+    pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
+        in_pairs(G, |g| {
+            let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
+            self.members(g) * (of(0) + of(1))
+        })
+    }
+
+    /// Kinetic energy [J].
+    pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
+        let one = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
+        let planets =
+            in_pairs(G, |g| self.members(g) * (one(Self::PLANET + g) + if P > 0 { one(Self::PIN + g) } else { 0.0 }));
+        let others = |range: std::ops::Range<usize>| range.map(one).sum::<f64>();
+        0.5 * (others(0..Self::PLANET) + planets + others(Self::PLANET + (1 + P) * G..N))
+    }
+
+    /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
+    #[inline(always)]
+    pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
+        let mut deepest = (f64::NEG_INFINITY, 0, 0);
+        for g in 0..G {
+            for s in 0..2 {
+                let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
+                if approach > deepest.0 {
+                    deepest = (approach, g, s);
+                }
+            }
+        }
+        deepest
+    }
+}

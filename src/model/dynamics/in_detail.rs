@@ -1,0 +1,150 @@
+//! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
+
+use super::equations::{Equations, Jacobian};
+use super::power::Power;
+use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
+use crate::contact::gaps::FlankGaps;
+use crate::integrate::{Point, in_pairs};
+use crate::model::effect_kinds::dry_friction::Pressure;
+use crate::model::scene::layout::CARRIER;
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::numeric::{Dual, Scalar, sqrt};
+
+/// Variables of a mesh in detail: q, x, w and their rates.
+pub(super) const LOCAL: usize = 6;
+
+/// Numbers, or numbers with derivatives by the variables of one mesh.
+pub trait Local: Scalar {
+    /// Variable `i` of the mesh.
+    fn local(value: f64, i: usize) -> Self;
+    /// Derivatives by the variables of the mesh; zero for plain numbers.
+    fn slopes(&self) -> [f64; LOCAL];
+}
+
+impl Local for f64 {
+    fn local(value: f64, _: usize) -> Self {
+        value
+    }
+    fn slopes(&self) -> [f64; LOCAL] {
+        [0.0; LOCAL]
+    }
+}
+
+impl Local for Dual<LOCAL> {
+    fn local(value: f64, i: usize) -> Self {
+        Dual::variable(value, i)
+    }
+    fn slopes(&self) -> [f64; LOCAL] {
+        self.d
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Index of the first axial seat.
+    pub(super) const SEAT: usize = CARRIER + 1;
+
+    /// Gaps of the teeth as they are now.
+    pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
+        self.teeth.additions.gaps[usize::from(self.fault)].as_deref()
+    }
+
+    /// State of the mesh of group `g` with side `s` in detail.
+    fn detailed_state<T: Local>(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState<T> {
+        let state = self.mesh_state(at, g, s);
+        let seat = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
+        let of = |i: usize, [a, b]: [f64; 2], c: f64| [T::local(a, i), T::local(b, i + 1), T::local(c, i + 2)];
+        DetailedState {
+            position: of(0, state.position, seat[0]),
+            rate: of(3, state.rate, seat[1]),
+            wrapped: self.wrapped(g, s),
+        }
+    }
+
+    /// Loads of the mesh of group `g` with side `s` in detail; calls `look` with each loaded slice.
+    pub(in crate::model) fn detail<T: Local>(
+        &self,
+        at: &Point<N>,
+        g: usize,
+        s: usize,
+        look: impl FnMut(&SliceLoad),
+    ) -> DetailedLoad<T> {
+        let state = self.detailed_state(at, g, s);
+        let gaps = self.gaps().map(|g| g as _);
+        let names = (self.teeth.plan.group(g).planet, s);
+        self.teeth.additions.detailed.load(&self.teeth.mesh.engagement, gaps, names, &state, look)
+    }
+
+    /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes.
+    pub(in crate::model) fn mesh_pressures<T: Local>(
+        &self,
+        loads: &[[DetailedLoad<T>; 2]; G],
+    ) -> ([Pressure; 2], [Pressure; G]) {
+        let side = self.teeth.lever[1];
+        let sides = [0, 1].map(|s| Pressure {
+            thrust: in_pairs(G, |g| self.members(g) * loads[g][s].side_axial.value()),
+            load: in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value()).abs(),
+        });
+        let planets = std::array::from_fn(|g| {
+            let [l, r] = &loads[g];
+            let across = l.tangential.value() + r.tangential.value();
+            let along = l.side_axial.value() - r.side_axial.value();
+            Pressure {
+                thrust: l.planet_axial.value() + r.planet_axial.value(),
+                load: sqrt(across * across + along * along),
+            }
+        });
+        (sides, planets)
+    }
+
+    pub(in crate::model) fn all_loads<T: Local>(&self, at: &Point<N>) -> [[DetailedLoad<T>; 2]; G] {
+        std::array::from_fn(|g| [0, 1].map(|s| self.detail(at, g, s, |_| {})))
+    }
+
+    /// Meshes in detail, and the dry friction that their loads cause.
+    pub(in crate::model) fn act_in_detail<T: Local>(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        power: &mut Power,
+        slopes: Option<&mut Jacobian<N>>,
+    ) {
+        let loads = self.all_loads::<T>(at);
+        self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
+        if P > 0 {
+            for s in 0..2 {
+                sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].value());
+            }
+        }
+        for (i, place) in [CONTACT_HEAT, self.teeth.additions.friction_heat].into_iter().enumerate() {
+            if i == 0 || place != CONTACT_HEAT {
+                power.heat[place] = in_pairs(G, |g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
+            }
+        }
+        let (sides, planets) = self.mesh_pressures(&loads);
+        self.add_friction(at, &self.pressures_of(&sides, &planets), sum, power);
+        if let Some(j) = slopes {
+            let block = |part: usize| {
+                std::array::from_fn(|g| {
+                    [0, 1].map(|s| {
+                        let force: [[f64; LOCAL]; 3] = loads[g][s].force.map(|f| f.slopes());
+                        self.local_block(s, &force.map(|d| [d[part], d[part + 1], d[part + 2]]))
+                    })
+                })
+            };
+            self.add_blocks(&block(0), &mut j.by_position);
+            self.add_blocks(&block(3), &mut j.by_rate);
+            self.friction_slopes_by_loads(&loads, &planets, j);
+        }
+    }
+
+    /// Elastic energy of the mesh of group `g` with side `s` [J].
+    pub(in crate::model) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
+        let additions = &self.teeth.additions;
+        if !(FULL && additions.in_detail) {
+            return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
+        }
+        let state = self.detailed_state(at, g, s);
+        let names = (self.teeth.plan.group(g).planet, s);
+        additions.detailed.energy(&self.teeth.mesh.engagement, self.gaps().map(|g| g as _), names, &state)
+    }
+}

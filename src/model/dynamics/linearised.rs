@@ -1,0 +1,78 @@
+//! The equations of motion with teeth, linearised: exact derivatives of the accelerations.
+
+use super::equations::{Equations, Jacobian};
+use super::power::Power;
+use crate::contact::mesh::MeshForce;
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
+use crate::model::scene::layout::CARRIER;
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    fn divide_by_inertia(&self, m: &mut Matrix<N>) {
+        for (row, inverse) in m.iter_mut().zip(&self.teeth.inverse_inertia) {
+            row.iter_mut().for_each(|x| *x *= inverse);
+        }
+    }
+
+    /// ∂(tooth torques)/∂q, for the static equilibrium.
+    pub fn tooth_stiffness(&self, at: &Point<N>) -> Matrix<N> {
+        let mut m = [[0.0; N]; N];
+        let mut by = [[[[0.0; 3]; 3]; 2]; G];
+        for g in 0..G {
+            for s in 0..2 {
+                let mut state = self.mesh_state(at, g, s);
+                state.rate = [0.0; 2];
+                by[g][s] = self.block(s, &self.teeth.mesh.linearise(&state).1.by_position);
+            }
+        }
+        self.add_blocks(&by, &mut m);
+        m
+    }
+
+    pub(in crate::model) fn linearise_teeth(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        let mut power = Power::default();
+        let (mut acceleration, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let mut load = [[MeshForce::default(); 2]; G];
+        let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
+        for g in 0..G {
+            for s in 0..2 {
+                let (force, jacobian) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+                load[g][s] = force;
+                position[g][s] = self.block(s, &jacobian.by_position);
+                rate[g][s] = self.block(s, &jacobian.by_rate);
+            }
+        }
+        self.add_forces(|g, s| load[g][s].force, &mut acceleration);
+        self.add_blocks(&position, &mut by_position);
+        self.add_blocks(&rate, &mut by_velocity);
+        power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+        // α̇ = ω_s − ω_c
+        self.times_rates(&mut by_velocity);
+        self.divide_by_inertia(&mut by_position);
+        self.divide_by_inertia(&mut by_velocity);
+        self.finish(at, &mut acceleration, &[0.0; N], &mut power);
+        Linearisation { acceleration, by_position, by_velocity, power }
+    }
+
+    pub(in crate::model) fn linearise_all(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        let mut power = Power::default();
+        let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);
+        let mut slopes = Jacobian::default();
+        self.act(at, &mut acceleration, &mut imposed, &mut power, Some(&mut slopes));
+        let Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed } = slopes;
+        let mut of_rates = by_rate;
+        self.times_rates(&mut of_rates);
+        for i in 0..N {
+            for j in 0..N {
+                by_velocity[i][j] += of_rates[i][j];
+            }
+        }
+        self.divide_by_inertia(&mut by_position);
+        self.divide_by_inertia(&mut by_velocity);
+        if self.teeth.plan.carrier_imposed {
+            (by_position[CARRIER], by_velocity[CARRIER]) = (of_imposed[0], of_imposed[1]);
+        }
+        self.finish(at, &mut acceleration, &imposed, &mut power);
+        Linearisation { acceleration, by_position, by_velocity, power }
+    }
+}

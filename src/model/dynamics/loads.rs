@@ -1,0 +1,113 @@
+//! Loads of the tooth pairs of a mesh at an instant.
+//!
+//! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm
+//! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
+//! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
+
+use crate::contact::mesh::{Law, Mesh};
+use crate::contact::pairs::{Flank, Spot, ToothPair};
+use crate::contact::tooth_load::{ToothLoad, Touch};
+use crate::geometry::Pair;
+use crate::integrate::Point;
+use crate::model::dynamics::equations::Equations;
+use crate::numeric::{cos, sin, sqrt};
+
+/// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
+pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
+    let [lever_p, lever_s] = pair.lever();
+    let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
+    let corner = &mesh.engagement.corner;
+    let (planet, side) = match contact.spot {
+        Spot::Path => (
+            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.place),
+            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.place),
+        ),
+        Spot::PlanetTip => {
+            let corner = corner[0].exact(contact.place);
+            (along(corner.own_polar, lever_p * (1.0 - corner.gap.d)), along(corner.mate_polar, lever_s))
+        }
+        Spot::SideTip => {
+            let corner = corner[1].exact(contact.place);
+            (along(corner.mate_polar, lever_p), along(corner.own_polar, lever_s * (1.0 - corner.gap.d)))
+        }
+    };
+    let forward = sqrt((1.0 - planet * planet - side * side).max(0.0));
+    [planet, side, if contact.flank == Flank::Drive { forward } else { -forward }]
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Shows every loaded tooth pair of the mesh of group `g` with side `s`.
+    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
+        let mesh = &self.teeth.mesh;
+        let planet = self.teeth.plan.group(g).planet;
+        let wrapped = self.wrapped(g, s);
+        let teeth = |flank: Flank, number: i64| {
+            let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
+            self.teeth.additions.perfect.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
+        };
+        if FULL && self.teeth.additions.in_detail {
+            self.detail::<f64>(at, g, s, |slice| {
+                visit(&ToothLoad {
+                    planet,
+                    side: s,
+                    flank: slice.pair.flank,
+                    spot: slice.spot,
+                    place: slice.place,
+                    teeth: teeth(slice.pair.flank, slice.pair.number),
+                    s: slice.s,
+                    cone: slice.cone,
+                    share: slice.share,
+                    line_load: slice.line_load,
+                    depth: slice.arc * slice.cone,
+                    normal: slice.normal,
+                    friction: slice.friction,
+                    parts: slice.parts,
+                    touch: None,
+                });
+            });
+            return;
+        }
+        if let Law::Solid(solid) = &mesh.law {
+            solid.loaded(&self.mesh_state(at, g, s), |load| {
+                let (spot, place) = mesh.engagement.rigid_spot(load.s);
+                visit(&ToothLoad {
+                    planet,
+                    side: s,
+                    flank: load.flank,
+                    spot,
+                    place,
+                    teeth: teeth(load.flank, load.number),
+                    s: load.s,
+                    cone: load.slice.cone,
+                    share: load.slice.share,
+                    line_load: load.force.total / load.slice.width,
+                    depth: load.depth * load.slice.cone,
+                    normal: load.force.total,
+                    friction: 0.0,
+                    parts: load.parts(),
+                    touch: Some(Touch { point: load.point, polar: load.polar }),
+                });
+            });
+            return;
+        }
+        mesh.loaded(&self.mesh_state(at, g, s), |contact, force| {
+            visit(&ToothLoad {
+                planet,
+                side: s,
+                flank: contact.flank,
+                spot: contact.spot,
+                place: contact.place,
+                teeth: teeth(contact.flank, contact.number),
+                s: contact.s,
+                cone: mesh.cone,
+                share: 1.0,
+                line_load: force.total / self.teeth.additions.detailed.whole_width(),
+                depth: contact.depth * mesh.cone,
+                normal: force.total,
+                friction: 0.0,
+                parts: parts(pair, mesh, contact),
+                touch: None,
+            });
+        });
+    }
+}

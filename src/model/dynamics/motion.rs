@@ -1,0 +1,181 @@
+//! The equations with tooth contact as an integrator sees them: rates, natural magnitudes, energy, kinks and switches.
+
+use super::equations::Equations;
+use super::power::Power;
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
+use crate::model::scene::layout::CARRIER;
+use crate::model::scene::{Course, Inputs};
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+
+/// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
+const APPROACH_FLOOR: f64 = 1e-4;
+/// Approach of teeth that an iteration may come to from within the lash [rad], and by which factor it may deepen one.
+const FIRST_APPROACH: f64 = 5e-4;
+const APPROACH_GROWTH: f64 = 4.0;
+/// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
+const SPEED_FLOOR: f64 = 1.0;
+/// Twist below which that of a half-shaft is resolved absolutely [rad].
+const TWIST_FLOOR: f64 = 1e-3;
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrder<N> for Equations<'_, N, G, P, FULL> {
+    type Power = Power;
+    const ALIKE: (usize, usize) = (Self::PLANET, (1 + P) * G);
+
+    #[inline(always)]
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+        let mut rates = *v;
+        for s in 0..2 {
+            rates[s] -= v[CARRIER];
+        }
+        if P > 0 {
+            for g in 0..G {
+                rates[Self::PIN + g] -= v[CARRIER];
+            }
+        }
+        if Self::ENDS {
+            for s in 0..2 {
+                rates[N - 2 + s] = v[s] - v[N - 2 + s];
+            }
+        }
+        rates
+    }
+
+    #[inline(always)]
+    fn times_rates(&self, m: &mut Matrix<N>) {
+        for row in m.iter_mut() {
+            row[CARRIER] -= row[0] + row[1];
+            if P > 0 {
+                row[CARRIER] -= in_pairs(G, |g| row[Self::PIN + g]);
+            }
+            if Self::ENDS {
+                for s in 0..2 {
+                    row[s] += row[N - 2 + s];
+                    row[N - 2 + s] = -row[N - 2 + s];
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
+        let mut power = Power::default();
+        if FULL {
+            let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
+            self.act(at, &mut sum, &mut imposed, &mut power, None);
+            self.finish(at, &mut sum, &imposed, &mut power);
+            (sum, power)
+        } else {
+            let (mut sum, heat) = self.tooth_torques(at);
+            power.heat[CONTACT_HEAT] = heat;
+            self.finish(at, &mut sum, &[0.0; N], &mut power);
+            (sum, power)
+        }
+    }
+
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        if FULL { self.linearise_all(at) } else { self.linearise_teeth(at) }
+    }
+
+    #[inline(always)]
+    fn is_driven(&self) -> bool {
+        self.is_driven_by_inputs()
+    }
+
+    #[inline(always)]
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+        if self.is_driven_by_inputs() { self.later(time).evaluate(at) } else { self.evaluate(at) }
+    }
+
+    #[inline(always)]
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+        if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
+    }
+
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        let [first, second] = self.later(time).course.rates;
+        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
+    }
+
+    #[inline(always)]
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);
+        let [planet, side] = self.teeth.lever.map(|lever| lever * per_approach);
+        let mut q = [planet; N];
+        (q[0], q[1], q[CARRIER]) = (side, side, 1.0);
+        // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
+        let carrier = SPEED_FLOOR + 2.0 * at.v[CARRIER].abs();
+        let mut spin = 0.0f64;
+        for g in 0..G {
+            spin = spin.max(at.v[Self::PLANET + g].abs());
+        }
+        let side_speed = 1.0 / (carrier + spin * self.teeth.lever[0] / self.teeth.lever[1]);
+        let mut v = [1.0 / (carrier + spin); N];
+        (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
+        if P > 0 {
+            let per_length = per_approach / self.teeth.mesh.cone;
+            for s in 0..2 {
+                q[CARRIER + 1 + s] = per_length;
+                v[CARRIER + 1 + s] = v[s] / self.teeth.mesh.cone;
+            }
+            for g in 0..G {
+                (q[Self::PIN + g], v[Self::PIN + g]) = (side, v[CARRIER]);
+            }
+        }
+        if Self::ENDS {
+            for s in 0..2 {
+                q[N - 2 + s] = 1.0 / (TWIST_FLOOR + at.q[N - 2 + s].abs());
+                v[N - 2 + s] = v[s];
+            }
+        }
+        Point { q, v }
+    }
+
+    #[inline(always)]
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
+        [self.kinetic_energy(at), if FULL { self.stored(at, true) } else { self.elastic_energy(at) }]
+    }
+
+    #[inline(always)]
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
+        // pairs that come and go abruptly bring energy that no force gave
+        if !self.teeth.mesh.engagement.corner_contact() {
+            return 0.0;
+        }
+        Power::imbalance::<FULL>(energies, h, power)
+    }
+
+    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        let mut part = 1.0f64;
+        for g in 0..G {
+            for s in 0..2 {
+                let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[0]);
+                let most = self.teeth.mesh.half_backlash()
+                    + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.mesh.approach(from));
+                if to.abs() > most {
+                    part = part.min((most.copysign(to) - from) / (to - from));
+                }
+            }
+        }
+        part
+    }
+
+    #[inline(always)]
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        for g in 0..G {
+            for s in 0..2 {
+                let found = self.teeth.mesh.kink(&self.mesh_state(at, g, s), h);
+                first = match (first, found) {
+                    (Some(a), Some(b)) => Some(a.min(b)),
+                    (a, b) => a.or(b),
+                };
+            }
+        }
+        first
+    }
+
+    #[inline(always)]
+    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+        if FULL { self.friction_crossing(start, end) } else { None }
+    }
+}

@@ -1,0 +1,62 @@
+//! The ledger of a step: work and heat from their rates, and whether they balance with the energy.
+
+use crate::integrate::Step;
+use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
+
+/// Rates of the ledger.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Power {
+    /// Net power of all inputs into the system [W].
+    pub input: f64,
+    /// Power turned into heat by cause [W].
+    pub heat: [f64; HEATS],
+    /// Torques of the half-shafts [N·m].
+    pub shaft: [f64; 2],
+    /// Torque of the carrier's drive beyond its command [N·m].
+    pub drive: f64,
+}
+
+/// Part of the kinetic energy that rounding may take from the balance of a step.
+const ENERGY_ROUNDING: f64 = 1e-13;
+
+impl Power {
+    /// Halfway between two.
+    pub fn mean(&self, other: &Self) -> Self {
+        let mean = |a: f64, b: f64| 0.5 * (a + b);
+        Self {
+            input: mean(self.input, other.input),
+            heat: std::array::from_fn(|i| mean(self.heat[i], other.heat[i])),
+            shaft: [0, 1].map(|s| mean(self.shaft[s], other.shaft[s])),
+            drive: mean(self.drive, other.drive),
+        }
+    }
+
+    /// By how much the ledger of a step of size `h` does not close, over the energy that the step dealt with: stored,
+    /// worked and turned into heat. Kinetic energy, most of which nothing ever touches, counts by its rounding alone.
+    #[inline(always)]
+    pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> f64 {
+        let simpson = |of: &dyn Fn(&Self) -> f64| h / 6.0 * (of(a) + 4.0 * of(m) + of(b));
+        let work = simpson(&|p| p.input);
+        let heat = simpson(&|p| if ALL { p.heat.iter().sum() } else { p.heat[CONTACT_HEAT] });
+        let gained = (after[0] - before[0]) + (after[1] - before[1]);
+        let dealt = before[1].max(after[1]) + work.abs() + heat.abs();
+        let off = (gained - work + heat).abs() - ENERGY_ROUNDING * (before[0] + after[0]);
+        if off > 0.0 { off / dealt.max(f64::MIN_POSITIVE) } else { 0.0 }
+    }
+}
+
+/// Simpson's rule on begin, middle and end of a step.
+#[inline(always)]
+pub fn simpson<const N: usize>(step: &Step<N, Power>, of: impl Fn(&Power) -> f64) -> f64 {
+    let [a, m, b] = &step.power;
+    step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
+}
+
+/// Books work and heat of a step; the causes of heat beside contact only where there can be any.
+#[inline(always)]
+pub fn book<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
+    *work += simpson(step, |p| p.input);
+    for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {
+        heat[i] += simpson(step, |p| p.heat[i]);
+    }
+}

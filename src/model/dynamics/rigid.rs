@@ -1,0 +1,403 @@
+//! The ideal differential with effects on bodies: Willis' equation stays a constraint, the rest is integrated.
+//!
+//! Accelerations are v̇ = W Q + f u̇_c (`assembly::rigid`). The torque of the meshes on a side gear is the force of the
+//! constraint, λ_s = J_s ω̇_s − Q_s.
+
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
+use crate::model::assembly::rigid::{IMPOSED, Rigid};
+use crate::model::dynamics::power::Power;
+use crate::model::dynamics::state::State;
+use crate::model::effect_kinds::body::{Action, Bodies, Slopes};
+use crate::model::effect_kinds::dry_friction::{FrictionState, Mode, Pressure, Slip};
+use crate::model::effect_kinds::friction::Friction;
+use crate::model::scene::layout::{CARRIER, HOLDS, PLANET, WHEELS};
+use crate::model::scene::{Course, Inputs};
+use crate::model::setup::effect_outputs::HEATS;
+
+/// Torques that follow from the constraint.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RigidTorques {
+    /// Of the carrier's drive [N·m].
+    pub carrier: f64,
+    /// Of what imposes the spin [N·m].
+    pub spin: f64,
+    /// Of the meshes on each side gear [N·m].
+    pub gears: [f64; 2],
+}
+
+/// The equations under given inputs.
+#[derive(Clone, Copy)]
+pub struct RigidEquations<'a, const N: usize> {
+    /// Constants.
+    pub rigid: &'a Rigid,
+    inputs: Inputs,
+    course: Course,
+    driven: bool,
+    /// State of the dry friction.
+    pub friction_state: [FrictionState; HOLDS],
+    friction: Friction,
+}
+
+impl<'a, const N: usize> RigidEquations<'a, N> {
+    /// Whether half-shafts have ends.
+    const ENDS: bool = N > PLANET + 1;
+
+    /// Equations under `inputs` at `state`.
+    pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
+        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
+        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
+        let friction = rigid.bodies.friction(state.lock, &inputs, &course);
+        Self { rigid, inputs, course, driven, friction_state: state.friction, friction }
+    }
+
+    fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
+        let Self { inputs, course, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &course.rates[0] }
+    }
+
+    /// Bodies that may stick, by their number: side gears, wheels. Planets stick with the side gears here.
+    fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
+        [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|&i| self.friction.on(i).is_on())
+    }
+
+    /// Degree of freedom on which the friction of body `i` acts.
+    fn freedom_of(&self, i: usize) -> usize {
+        if i < WHEELS { i } else { self.wheel(i - WHEELS) }
+    }
+
+    /// Motion of body `i` against the surface it rubs on: carrier, or ground.
+    fn slip(&self, at: &Point<N>, i: usize) -> Slip {
+        let body = self.freedom_of(i);
+        if i < WHEELS {
+            return Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] };
+        }
+        let s = i - WHEELS;
+        let twist = if body == s { 0.0 } else { at.q[body] };
+        Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
+    }
+
+    /// Loads on all rubbing surfaces `time` [s] after the inputs were set.
+    fn pressures(&self, time: f64) -> [Pressure; HOLDS] {
+        let mut all = [Pressure::default(); HOLDS];
+        let wheels = if self.driven {
+            self.friction.wheel_pressures(&self.course.after(time, &self.inputs).0)
+        } else {
+            self.friction.wheel_pressures(&self.inputs)
+        };
+        all[WHEELS..].copy_from_slice(&wheels);
+        all
+    }
+
+    /// Torques of the friction on the wheels [N·m].
+    pub fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
+        let pressures = self.pressures(0.0);
+        [WHEELS, WHEELS + 1].map(|i| {
+            let friction = self.friction.on(i);
+            let torque = || friction.torque(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+            if friction.is_on() { torque() } else { 0.0 }
+        })
+    }
+
+    fn wheel(&self, s: usize) -> usize {
+        if Self::ENDS && self.rigid.plan.shafts[s] { N - 2 + s } else { s }
+    }
+
+    /// The equations `time` [s] later, as far as inputs go.
+    fn later(&self, time: f64) -> Self {
+        let (inputs, course) = self.course.after(time, &self.inputs);
+        self.under(&inputs, &course)
+    }
+
+    /// The same equations under other inputs.
+    pub(in crate::model) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
+        Self { inputs: *inputs, course: *course, ..*self }
+    }
+
+    /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
+    fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], [f64; IMPOSED]) {
+        let rates = &self.course.rates[0];
+        let (mut sum, mut imposed) = ([0.0; N], rates.carrier_speed);
+        let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
+        for effect in self.rigid.bodies.forces.iter() {
+            effect.act(&self.bodies(at), &mut out);
+        }
+        let plan = &self.rigid.plan;
+        let pressures = self.pressures(0.0);
+        for i in self.bodies_with_friction() {
+            let (friction, state, slip) = (self.friction.on(i), &self.friction_state[i], self.slip(at, i));
+            let torque = friction.torque(state, &slip, &pressures[i]);
+            sum[self.freedom_of(i)] -= torque;
+            if i < WHEELS {
+                sum[CARRIER] += torque;
+            }
+            friction.heat(state, &slip, &pressures[i], 1.0, &mut power.heat);
+        }
+        for s in 0..2 {
+            power.shaft[s] = self.inputs.load_torque[s];
+            if Self::ENDS && plan.shafts[s] {
+                let end = N - 2 + s;
+                power.shaft[s] = self.rigid.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
+            }
+            let wheel = self.wheel(s);
+            if plan.side_imposed[s] {
+                let inertial = self.rigid.inertia[wheel] * rates.side_speed[s];
+                power.input += (inertial - sum[wheel]) * at.v[wheel];
+            } else {
+                sum[wheel] -= self.inputs.load_torque[s];
+                power.input -= self.inputs.load_torque[s] * at.v[wheel];
+            }
+        }
+        if !plan.carrier_imposed {
+            let drive = self.inputs.carrier_torque + power.drive;
+            sum[CARRIER] += drive;
+            power.input += drive * at.v[CARRIER];
+        }
+        (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+    }
+
+    fn accelerations(&self, sum: &[f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
+        let rigid = self.rigid;
+        std::array::from_fn(|i| {
+            let free: f64 = (0..N).map(|j| rigid.mobility[i][j] * sum[j]).sum();
+            free + (0..IMPOSED).map(|k| rigid.follow[k][i] * imposed[k]).sum::<f64>()
+        })
+    }
+
+    /// The part of the accelerations that inputs `inputs` on the course `course` have, for accelerations are linear in both.
+    pub(in crate::model) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
+        let part = |inputs: &Inputs, course: &Course| {
+            let these = self.under(inputs, course);
+            let (sum, imposed) = these.forces(at, &mut Power::default());
+            these.accelerations(&sum, &imposed)
+        };
+        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        std::array::from_fn(|i| with[i] - without[i])
+    }
+
+    fn torques_of(&self, sum: &[f64; N], a: &[f64; N], excess: f64) -> RigidTorques {
+        let rigid = self.rigid;
+        let lack: [f64; N] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
+        let plan = &rigid.plan;
+        RigidTorques {
+            carrier: if plan.carrier_imposed {
+                lack[0] + lack[1] + lack[CARRIER]
+            } else {
+                self.inputs.carrier_torque + excess
+            },
+            spin: if plan.spin_imposed { rigid.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
+            gears: [lack[0], lack[1]],
+        }
+    }
+
+    /// Torques that follow from the constraint.
+    pub fn torques(&self, at: &Point<N>) -> RigidTorques {
+        let mut power = Power::default();
+        let (sum, imposed) = self.forces(at, &mut power);
+        self.torques_of(&sum, &self.accelerations(&sum, &imposed), power.drive)
+    }
+
+    /// Energy of half-shafts and stuck friction [J].
+    fn stored(&self, at: &Point<N>) -> f64 {
+        let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
+        let energy = |i: usize| self.friction.on(i).energy(&self.friction_state[i], self.slip(at, i).position);
+        bodies + self.bodies_with_friction().map(energy).sum::<f64>()
+    }
+
+    /// Distance of each friction from its switch, where it acts.
+    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
+        let pressures = self.pressures(0.0);
+        let mut margins = [None; HOLDS];
+        for i in self.bodies_with_friction() {
+            let margin = self.friction.on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+            margins[i] = Some(margin);
+        }
+        margins
+    }
+
+    /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
+    pub fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
+        let pressures = self.pressures(time);
+        let due = |i: usize| self.friction.on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+        self.bodies_with_friction().any(due)
+    }
+
+    /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
+    pub fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+        let pressures = self.pressures(time);
+        for i in self.bodies_with_friction().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
+            anchors[i] = self.friction.on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
+        }
+    }
+
+    /// Switches friction where it is due at `at`, `time` [s] after the inputs were set, on `bodies`; what its springs
+    /// lose is heat.
+    pub fn settle_friction(
+        &mut self,
+        at: &Point<N>,
+        time: f64,
+        bodies: std::ops::Range<usize>,
+        heat: &mut [f64; HEATS],
+    ) {
+        let pressures = self.pressures(time);
+        for i in [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|i| bodies.contains(i)) {
+            let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
+            if friction.is_on() {
+                friction.settle(&mut self.friction_state[i], &slip, &pressures[i], 1.0, heat);
+            }
+        }
+    }
+
+    /// Takes friction over from another stiffness.
+    pub fn take_friction_over(&mut self, at: &Point<N>, heat: &mut [f64; HEATS]) {
+        for i in [0, 1, WHEELS, WHEELS + 1] {
+            let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
+            friction.take_over(&mut self.friction_state[i], &slip, heat, 1.0);
+        }
+    }
+}
+
+impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
+    type Power = Power;
+
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
+        let kinetic: f64 = (0..N).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
+        [0.5 * kinetic, self.stored(at)]
+    }
+
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
+        Power::imbalance::<true>(energies, h, power)
+    }
+
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+        let mut rates = *v;
+        for s in 0..2 {
+            rates[s] -= v[CARRIER];
+            if Self::ENDS {
+                rates[N - 2 + s] = v[s] - v[N - 2 + s];
+            }
+        }
+        rates
+    }
+
+    fn times_rates(&self, m: &mut Matrix<N>) {
+        for row in m.iter_mut() {
+            row[CARRIER] -= row[0] + row[1];
+            if Self::ENDS {
+                for s in 0..2 {
+                    row[s] += row[N - 2 + s];
+                    row[N - 2 + s] = -row[N - 2 + s];
+                }
+            }
+        }
+    }
+
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
+        let mut power = Power::default();
+        let (sum, imposed) = self.forces(at, &mut power);
+        let a = self.accelerations(&sum, &imposed);
+        let torques = self.torques_of(&sum, &a, power.drive);
+        if self.rigid.plan.carrier_imposed {
+            power.input += torques.carrier * at.v[CARRIER];
+        }
+        power.input += torques.spin * at.v[PLANET];
+        (a, power)
+    }
+
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
+        let (acceleration, power) = self.evaluate(at);
+        let (mut by_position, mut by_velocity, mut by_rate) = ([[0.0; N]; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let mut imposed = [[0.0; N]; 2];
+        let mut out = Slopes {
+            n: N,
+            by_position: by_position.as_flattened_mut(),
+            by_velocity: by_velocity.as_flattened_mut(),
+            imposed: imposed.each_mut().map(|row| row.as_mut_slice()),
+        };
+        for effect in self.rigid.bodies.forces.iter() {
+            effect.slopes(&self.bodies(at), &mut out);
+        }
+        for i in self.bodies_with_friction() {
+            let [k, c] = self.friction.on(i).torque_slopes(&self.friction_state[i]);
+            let body = self.freedom_of(i);
+            if i < WHEELS {
+                for (row, sign) in [(i, -1.0), (CARRIER, 1.0)] {
+                    by_position[row][i] += sign * k;
+                    by_rate[row][i] += sign * c;
+                }
+                continue;
+            }
+            // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
+            let s = i - WHEELS;
+            by_position[body][CARRIER] -= k;
+            by_position[body][s] -= k;
+            if body != s {
+                by_position[body][body] += k;
+            }
+            by_velocity[body][body] -= c;
+        }
+        self.times_rates(&mut by_rate);
+        let rigid = self.rigid;
+        let follow = rigid.follow[0];
+        let moved = |m: &Matrix<N>, imposed: &[f64; N]| -> Matrix<N> {
+            std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    (0..N).map(|k| rigid.mobility[i][k] * m[k][j]).sum::<f64>() + follow[i] * imposed[j]
+                })
+            })
+        };
+        for i in 0..N {
+            for j in 0..N {
+                by_velocity[i][j] += by_rate[i][j];
+            }
+        }
+        Linearisation {
+            acceleration,
+            by_position: moved(&by_position, &imposed[0]),
+            by_velocity: moved(&by_velocity, &imposed[1]),
+            power,
+        }
+    }
+
+    fn is_driven(&self) -> bool {
+        self.driven
+    }
+
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+        if self.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
+    }
+
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+        if self.driven { self.later(time).linearise(at) } else { self.linearise(at) }
+    }
+
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        let [first, second] = self.later(time).course.rates;
+        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
+    }
+
+    fn weights(&self, at: &Point<N>) -> Point<N> {
+        let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
+        let mut weights = Point { q: [1.0; N], v: [1.0 / (carrier + at.v[PLANET].abs()); N] };
+        if self.friction.is_any() {
+            // a stuck clutch or wheel turns by milliradians
+            (weights.q[0], weights.q[1]) = (1e3, 1e3);
+        }
+        if Self::ENDS {
+            for s in 0..2 {
+                weights.q[N - 2 + s] = 1.0 / (1e-3 + at.q[N - 2 + s].abs());
+            }
+        }
+        weights
+    }
+
+    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+        let pressures = [start, end].map(|(_, time)| self.pressures(time));
+        self.bodies_with_friction()
+            .filter_map(|i| {
+                let slips = [self.slip(start.0, i), self.slip(end.0, i)];
+                let ends = [(&slips[0], &pressures[0][i]), (&slips[1], &pressures[1][i])];
+                self.friction.on(i).crossing(&self.friction_state[i], ends[0], ends[1])
+            })
+            .reduce(f64::min)
+    }
+}

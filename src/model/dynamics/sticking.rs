@@ -1,0 +1,298 @@
+//! Dry friction in the equations of motion: torques, derivatives, energy, and where it sticks or slides.
+
+use super::equations::{Equations, Jacobian};
+use super::in_detail::{LOCAL, Local};
+use super::power::Power;
+use crate::contact::detailed::DetailedLoad;
+use crate::integrate::{Point, in_pairs};
+use crate::model::assembly::teeth::SIGMA;
+use crate::model::effect_kinds::dry_friction::{DryFriction, Mode, Pressure, Slip};
+use crate::model::scene::layout::{CARRIER, HELD_PLANETS, HOLDS, WHEELS};
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
+    fn bodies_that_stick() -> impl Iterator<Item = usize> {
+        (0..HELD_PLANETS + G).chain(WHEELS..WHEELS + 2)
+    }
+
+    /// Those on which friction acts.
+    fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
+        Self::bodies_that_stick().filter(|&i| self.friction.on(i).is_on())
+    }
+
+    /// Degree of freedom on which the friction of body `i` acts.
+    fn freedom_of(&self, i: usize) -> usize {
+        match i {
+            0..HELD_PLANETS => i,
+            HELD_PLANETS..WHEELS => Self::PLANET + i - HELD_PLANETS,
+            _ => self.wheel(i - WHEELS),
+        }
+    }
+
+    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
+    fn wheel(&self, s: usize) -> usize {
+        if Self::ENDS && self.teeth.plan.shafts[s] { N - 2 + s } else { s }
+    }
+
+    /// Motion of body `i` against the surface it rubs on: carrier, pin, or ground.
+    fn slip(&self, at: &Point<N>, i: usize) -> Slip {
+        let body = self.freedom_of(i);
+        match i {
+            0..HELD_PLANETS => Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] },
+            HELD_PLANETS..WHEELS => Slip { position: at.q[body], speed: at.v[body] },
+            _ => {
+                let s = i - WHEELS;
+                let twist = if body == s { 0.0 } else { at.q[body] };
+                Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
+            }
+        }
+    }
+
+    /// Friction on body `i`, and how many bodies it stands for.
+    fn friction_on(&self, i: usize) -> (&DryFriction, f64) {
+        let count = if (HELD_PLANETS..WHEELS).contains(&i) { self.members(i - HELD_PLANETS) } else { 1.0 };
+        (self.friction.on(i), count)
+    }
+
+    /// Loads on all rubbing surfaces under the present inputs, given those of side gears and planets.
+    pub(in crate::model) fn pressures_of(&self, sides: &[Pressure], planets: &[Pressure]) -> [Pressure; HOLDS] {
+        let mut all = [Pressure::default(); HOLDS];
+        all[..sides.len()].copy_from_slice(sides);
+        all[HELD_PLANETS..HELD_PLANETS + planets.len()].copy_from_slice(planets);
+        all[WHEELS..].copy_from_slice(&self.friction.wheel_pressures(&self.inputs));
+        all
+    }
+
+    /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
+    fn pressures(&self, at: &Point<N>, time: f64) -> [Pressure; HOLDS] {
+        let mut all = if self.friction.depends_on_load() {
+            let (sides, planets) = self.mesh_pressures(&self.all_loads::<f64>(at));
+            self.pressures_of(&sides, &planets)
+        } else {
+            self.pressures_of(&[], &[])
+        };
+        if self.is_driven_by_inputs() {
+            let (inputs, _) = self.course.after(time, &self.inputs);
+            all[WHEELS..].copy_from_slice(&self.friction.wheel_pressures(&inputs));
+        }
+        all
+    }
+
+    /// Adds the torques and the heat of dry friction.
+    pub(in crate::model) fn add_friction(
+        &self,
+        at: &Point<N>,
+        pressures: &[Pressure; HOLDS],
+        sum: &mut [f64; N],
+        power: &mut Power,
+    ) {
+        for i in self.bodies_with_friction() {
+            let (friction, count) = self.friction_on(i);
+            let (state, slip) = (&self.friction_state[i], self.slip(at, i));
+            let torque = friction.torque(state, &slip, &pressures[i]);
+            sum[self.freedom_of(i)] -= torque;
+            if i < HELD_PLANETS {
+                sum[CARRIER] += torque;
+            }
+            friction.heat(state, &slip, &pressures[i], count, &mut power.heat);
+        }
+    }
+
+    /// Adds the torques of brakes that slide, which follow from the inputs alone.
+    pub(in crate::model) fn add_brakes(&self, sum: &mut [f64; N]) {
+        let pressures = self.friction.wheel_pressures(&self.inputs);
+        for s in (0..2).filter(|&s| self.friction.wheel[s].is_on()) {
+            let direction = self.friction_state[WHEELS + s].mode.direction();
+            sum[self.wheel(s)] -= direction * self.friction.wheel[s].limit(&pressures[s]);
+        }
+    }
+
+    /// Torques of the friction on the wheels [N·m].
+    pub(in crate::model) fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
+        let pressures = self.friction.wheel_pressures(&self.inputs);
+        [0, 1].map(|s| {
+            let (friction, i) = (&self.friction.wheel[s], WHEELS + s);
+            if friction.is_on() {
+                friction.torque(&self.friction_state[i], &self.slip(at, i), &pressures[s])
+            } else {
+                0.0
+            }
+        })
+    }
+
+    /// Derivatives of dry friction by the motion of the bodies it holds.
+    pub(in crate::model) fn friction_slopes(&self, j: &mut Jacobian<N>) {
+        for i in self.bodies_with_friction() {
+            let [k, c] = self.friction.on(i).torque_slopes(&self.friction_state[i]);
+            let body = self.freedom_of(i);
+            if i >= WHEELS {
+                // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
+                let s = i - WHEELS;
+                j.by_position[body][CARRIER] -= k;
+                j.by_position[body][s] -= k;
+                if body != s {
+                    j.by_position[body][body] += k;
+                }
+                j.by_velocity[body][body] -= c;
+                continue;
+            }
+            j.by_position[body][body] -= k;
+            j.by_rate[body][body] -= c;
+            if i < HELD_PLANETS {
+                j.by_position[CARRIER][i] += k;
+                j.by_rate[CARRIER][i] += c;
+            }
+        }
+    }
+
+    /// Derivatives of dry friction by the loads of the meshes.
+    pub(in crate::model) fn friction_slopes_by_loads<T: Local>(
+        &self,
+        loads: &[[DetailedLoad<T>; 2]; G],
+        planets: &[Pressure; G],
+        j: &mut Jacobian<N>,
+    ) {
+        let side = self.teeth.lever[1];
+        let [of_side, of_planet] = [self.friction.side.limit_slopes(), self.friction.planet.limit_slopes()];
+        for s in 0..2 {
+            let direction = self.friction_state[s].mode.direction();
+            if direction == 0.0 || !self.friction.side.is_on() {
+                continue;
+            }
+            let torque = in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value());
+            let slopes: [[f64; LOCAL]; G] = std::array::from_fn(|g| {
+                let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
+                std::array::from_fn(|k| {
+                    self.members(g) * (of_side[0] * axial[k] + of_side[1] * torque.signum() * side * force[k])
+                })
+            });
+            for (row, sign) in [(s, -direction), (CARRIER, direction)] {
+                self.spread(row, sign, s, &slopes, j);
+            }
+        }
+        for g in 0..G {
+            let direction = self.friction_state[2 + g].mode.direction();
+            if direction == 0.0 || !self.friction.planet.is_on() {
+                continue;
+            }
+            let [l, r] = &loads[g];
+            let across = l.tangential.value() + r.tangential.value();
+            let along = l.side_axial.value() - r.side_axial.value();
+            let per = if planets[g].load > 0.0 { of_planet[1] / planets[g].load } else { 0.0 };
+            for s in 0..2 {
+                let load = &loads[g][s];
+                let (t, a, p) = (load.tangential.slopes(), load.side_axial.slopes(), load.planet_axial.slopes());
+                let mut slopes = [[0.0; LOCAL]; G];
+                slopes[g] =
+                    std::array::from_fn(|k| of_planet[0] * p[k] + per * (across * t[k] + SIGMA[s] * along * a[k]));
+                self.spread(Self::PLANET + g, -direction, s, &slopes, j);
+            }
+        }
+    }
+
+    /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`.
+    fn spread(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; LOCAL]; G], j: &mut Jacobian<N>) {
+        let [planet, side] = self.teeth.lever;
+        let turn = SIGMA[s] * planet;
+        for (part, m) in [(0, &mut j.by_position), (3, &mut j.by_rate)] {
+            m[row][s] += sign * in_pairs(G, |g| side * slopes[g][part]);
+            for g in 0..G {
+                let d = &slopes[g];
+                m[row][Self::PLANET + g] += sign * turn * (d[part + 1] - d[part]);
+                if P > 0 {
+                    m[row][Self::PIN + g] -= sign * side * d[part];
+                }
+            }
+            if P > 0 {
+                m[row][Self::SEAT + s] += sign * in_pairs(G, |g| slopes[g][part + 2]);
+            }
+        }
+    }
+
+    /// Energy of stuck friction [J].
+    pub(in crate::model) fn friction_energy(&self, at: &Point<N>) -> f64 {
+        let energy = |i: usize| {
+            let (friction, count) = self.friction_on(i);
+            count * friction.energy(&self.friction_state[i], self.slip(at, i).position)
+        };
+        self.bodies_with_friction().map(energy).sum()
+    }
+
+    /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
+    pub(in crate::model) fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+        if !self.friction.is_any() {
+            return None;
+        }
+        let pressures = [start, end].map(|(at, time)| self.pressures(at, time));
+        self.bodies_with_friction()
+            .filter_map(|i| {
+                let slips = [self.slip(start.0, i), self.slip(end.0, i)];
+                let ends = [(&slips[0], &pressures[0][i]), (&slips[1], &pressures[1][i])];
+                self.friction.on(i).crossing(&self.friction_state[i], ends[0], ends[1])
+            })
+            .reduce(f64::min)
+    }
+
+    /// Distance of each friction from its switch, where it acts.
+    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
+        let mut margins = [None; HOLDS];
+        if FULL && self.friction.is_any() {
+            let pressures = self.pressures(at, 0.0);
+            for i in self.bodies_with_friction() {
+                let margin = self.friction.on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+                margins[i] = Some(margin);
+            }
+        }
+        margins
+    }
+
+    /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
+    pub(in crate::model) fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
+        if !self.friction.is_any() {
+            return false;
+        }
+        let pressures = self.pressures(at, time);
+        self.bodies_with_friction()
+            .any(|i| self.friction.on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]))
+    }
+
+    /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
+    #[inline(always)]
+    pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+        if self.friction_state.iter().all(|state| state.mode == Mode::Stuck) {
+            return;
+        }
+        let pressures = self.pressures(at, time);
+        for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
+            anchors[i] = self.friction.on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
+        }
+    }
+
+    /// Switches friction where it is due at `at`, `time` [s] after the inputs were set, on `bodies`; what its springs
+    /// lose is heat.
+    pub(in crate::model) fn settle_friction(
+        &mut self,
+        at: &Point<N>,
+        time: f64,
+        bodies: std::ops::Range<usize>,
+        heat: &mut [f64],
+    ) {
+        let pressures = self.pressures(at, time);
+        for i in Self::bodies_that_stick().filter(|i| bodies.contains(i)) {
+            let (friction, count) = self.friction_on(i);
+            let (friction, slip) = (*friction, self.slip(at, i));
+            if friction.is_on() {
+                friction.settle(&mut self.friction_state[i], &slip, &pressures[i], count, heat);
+            }
+        }
+    }
+
+    /// Takes friction over from other stiffnesses: it starts on bodies that were free, and ends on others.
+    pub(in crate::model) fn take_friction_over(&mut self, at: &Point<N>, heat: &mut [f64]) {
+        for i in Self::bodies_that_stick() {
+            let (friction, count) = self.friction_on(i);
+            let (friction, slip) = (*friction, self.slip(at, i));
+            friction.take_over(&mut self.friction_state[i], &slip, heat, count);
+        }
+    }
+}

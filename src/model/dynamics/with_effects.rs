@@ -1,0 +1,167 @@
+//! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
+
+use super::equations::{Equations, Jacobian};
+use super::in_detail::LOCAL;
+use super::power::Power;
+use crate::contact::mesh::MeshForce;
+use crate::integrate::{Matrix, Point, in_pairs};
+use crate::model::effect_kinds::body::{Action, Bodies, Slopes};
+use crate::model::scene::layout::CARRIER;
+use crate::model::scene::{Course, Inputs};
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::numeric::Dual;
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// All positions and velocities as effects see them.
+    pub(in crate::model) fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
+        let Self { inputs, course, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs, input_rates: &course.rates[0] }
+    }
+
+    /// Forces of everything but commanded torques; derivatives where they are asked for.
+    #[inline(always)]
+    pub(in crate::model) fn act(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        imposed: &mut [f64; N],
+        power: &mut Power,
+        slopes: Option<&mut Jacobian<N>>,
+    ) {
+        match slopes {
+            None => {
+                if self.teeth.additions.in_detail {
+                    self.act_in_detail::<f64>(at, sum, power, None);
+                } else {
+                    let (forces, heat) = self.tooth_torques(at);
+                    *sum = forces;
+                    power.heat[CONTACT_HEAT] = heat;
+                    self.add_friction(at, &self.pressures_of(&[], &[]), sum, power);
+                }
+                self.act_on_bodies(at, sum, imposed, power);
+            }
+            Some(j) => {
+                if self.teeth.additions.in_detail {
+                    self.act_in_detail::<Dual<LOCAL>>(at, sum, power, Some(j));
+                } else {
+                    let mut load = [[MeshForce::default(); 2]; G];
+                    let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
+                    for g in 0..G {
+                        for s in 0..2 {
+                            let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+                            load[g][s] = force;
+                            position[g][s] = self.block(s, &by.by_position);
+                            rate[g][s] = self.block(s, &by.by_rate);
+                        }
+                    }
+                    self.add_forces(|g, s| load[g][s].force, sum);
+                    self.add_blocks(&position, &mut j.by_position);
+                    self.add_blocks(&rate, &mut j.by_rate);
+                    power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+                    self.add_friction(at, &self.pressures_of(&[], &[]), sum, power);
+                }
+                self.friction_slopes(j);
+                self.act_on_bodies(at, sum, imposed, power);
+                let mut imposed_by = [[0.0; N]; 2];
+                let mut out = Slopes {
+                    n: N,
+                    by_position: j.by_position.as_flattened_mut(),
+                    by_velocity: j.by_velocity.as_flattened_mut(),
+                    imposed: imposed_by.each_mut().map(|row| row.as_mut_slice()),
+                };
+                for effect in self.teeth.additions.bodies.forces.iter() {
+                    effect.slopes(&self.bodies(at), &mut out);
+                }
+                j.of_imposed = imposed_by;
+            }
+        }
+    }
+
+    /// The part of the accelerations that follows from `inputs` on the course `course`: accelerations are linear in both.
+    pub(in crate::model) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
+        let part = |inputs: &Inputs, course: &Course| {
+            let these = self.under(inputs, course);
+            let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+            these.add_brakes(&mut sum);
+            these.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
+            these.finish(at, &mut sum, &imposed, &mut power);
+            sum
+        };
+        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        std::array::from_fn(|i| with[i] - without[i])
+    }
+
+    /// Effects on bodies.
+    fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &mut [f64; N], power: &mut Power) {
+        let bodies = self.bodies(at);
+        imposed[CARRIER] += bodies.input_rates.carrier_speed;
+        let mut out =
+            Action { force: sum, imposed: &mut imposed[CARRIER], drive: &mut power.drive, heat: &mut power.heat };
+        for effect in self.teeth.additions.bodies.forces.iter() {
+            effect.act(&bodies, &mut out);
+        }
+        if Self::ENDS {
+            power.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
+        }
+    }
+
+    /// Torque that the half-shaft of side `s` delivers to the wheel, where it twists [N·m].
+    pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
+        if !Self::ENDS || !self.teeth.plan.shafts[s] {
+            return self.inputs.load_torque[s];
+        }
+        let end = N - 2 + s;
+        self.teeth.additions.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
+    }
+
+    /// Sums of the forces of meshes, pins and seats at rest, and their derivatives, for the static equilibrium.
+    pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
+        let (mut sum, mut j) = ([0.0; N], Jacobian::default());
+        let mut power = Power::default();
+        let still = Point { q: at.q, v: [0.0; N] };
+        let loads = self.all_loads::<Dual<LOCAL>>(&still);
+        self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
+        if P > 0 {
+            for s in 0..2 {
+                sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].v);
+            }
+        }
+        let blocks = std::array::from_fn(|g| {
+            [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]])))
+        });
+        self.add_blocks(&blocks, &mut j.by_position);
+        let mut carrier = 0.0;
+        let bodies = self.bodies(&still);
+        let mut action =
+            Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
+        let mut unused = [[0.0; N]; 2];
+        let mut slopes = Slopes {
+            n: N,
+            by_position: j.by_position.as_flattened_mut(),
+            by_velocity: j.by_velocity.as_flattened_mut(),
+            imposed: unused.each_mut().map(|row| row.as_mut_slice()),
+        };
+        for effect in self.teeth.additions.bodies.forces.iter().filter(|e| e.is_structure()) {
+            effect.act(&bodies, &mut action);
+            effect.slopes(&bodies, &mut slopes);
+        }
+        (sum, j.by_position)
+    }
+
+    /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
+    pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
+        let additions = &self.teeth.additions;
+        let mut energy = if additions.in_detail {
+            in_pairs(G, |g| self.members(g) * (self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1)))
+        } else {
+            self.elastic_energy(at)
+        };
+        let bodies = self.bodies(at);
+        energy +=
+            additions.bodies.forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&bodies)).sum::<f64>();
+        if all {
+            energy += self.friction_energy(at);
+        }
+        energy
+    }
+}

@@ -1,0 +1,77 @@
+//! What an effect on bodies sees, and what it adds.
+
+use std::fmt::Debug;
+
+use crate::model::scene::{Inputs, Layout};
+
+/// Positions and velocities of all degrees of freedom, and what the host commands.
+pub struct Bodies<'a> {
+    /// Positions.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub v: &'a [f64],
+    /// Index of each degree of freedom.
+    pub layout: &'a Layout,
+    /// Inputs.
+    pub inputs: &'a Inputs,
+    /// How fast they change [per s].
+    pub input_rates: &'a Inputs,
+}
+
+/// Forces and torques by degree of freedom (on each planet singly), and heat by cause.
+pub struct Action<'a> {
+    /// Sums of forces.
+    pub force: &'a mut [f64],
+    /// Acceleration of a carrier whose motion is imposed, commanded so far [rad/s²].
+    pub imposed: &'a mut f64,
+    /// Torque of the carrier's drive beyond its command [N·m].
+    pub drive: &'a mut f64,
+    /// Heat by its place in the ledger [W].
+    pub heat: &'a mut [f64],
+}
+
+/// Derivatives of the forces, row by row.
+pub struct Slopes<'a> {
+    /// Degrees of freedom in a row.
+    pub n: usize,
+    /// ∂force/∂position.
+    pub by_position: &'a mut [f64],
+    /// ∂force/∂velocity.
+    pub by_velocity: &'a mut [f64],
+    /// ∂(imposed acceleration of the carrier)/∂position and ∂/∂velocity.
+    pub imposed: [&'a mut [f64]; 2],
+}
+
+impl Slopes<'_> {
+    /// Adds to ∂force_i/∂position_j.
+    #[inline]
+    pub fn position(&mut self, i: usize, j: usize, value: f64) {
+        self.by_position[i * self.n + j] += value;
+    }
+
+    /// Adds to ∂force_i/∂velocity_j.
+    #[inline]
+    pub fn velocity(&mut self, i: usize, j: usize, value: f64) {
+        self.by_velocity[i * self.n + j] += value;
+    }
+}
+
+/// An effect that acts on bodies beside the teeth.
+pub trait BodyEffect: Debug + Send + Sync {
+    /// Adds forces and heat.
+    fn act(&self, at: &Bodies, out: &mut Action);
+    /// Adds the exact derivatives of the forces.
+    fn slopes(&self, at: &Bodies, out: &mut Slopes);
+    /// Whether it is part of the structure that carries static loads.
+    fn is_structure(&self) -> bool {
+        false
+    }
+    /// Energy it stores [J].
+    fn energy(&self, _at: &Bodies) -> f64 {
+        0.0
+    }
+    /// Speed that an imposed carrier has instead of `command` [rad/s].
+    fn carrier_speed(&self, _q: &[f64], command: f64) -> f64 {
+        command
+    }
+}

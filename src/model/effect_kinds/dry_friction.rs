@@ -1,0 +1,356 @@
+//! Dry friction that sticks: a spring while a body is held, a limit torque while it slides.
+//!
+//! While stuck T = k (z + τ ω) with the rotation z since the body stopped, while sliding T = ±T_max (P. R. Dahl's and
+//! Jenkins' element: a spring in series with a Coulomb slider). The rotation z is a position of the model less an anchor,
+//! so that sticking adds no state and a constant load is held without creep. While sliding the spring drags the anchor
+//! along, step by step, so that a body stops with the torque that the spring has then, never with more. The integrator
+//! ends a step at each transition; the energy that the spring loses there is booked as heat.
+
+use serde::{Deserialize, Serialize};
+
+/// Whether a body sticks, or in which direction it slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Held by the spring from its anchor.
+    #[default]
+    Stuck,
+    /// Slides forward.
+    Forward,
+    /// Slides backward.
+    Backward,
+}
+
+impl Mode {
+    /// +1 or −1 while sliding, 0 while stuck.
+    pub fn direction(self) -> f64 {
+        match self {
+            Mode::Stuck => 0.0,
+            Mode::Forward => 1.0,
+            Mode::Backward => -1.0,
+        }
+    }
+}
+
+/// State of the friction on a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrictionState {
+    /// Stuck or sliding.
+    pub mode: Mode,
+    /// Position at which the spring is relaxed [rad]; while sliding, where it would be.
+    pub anchor: f64,
+    /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
+    pub stiffness: f64,
+}
+
+/// Damping of the spring over its stiffness τ, where the source gives none [s].
+pub const DAMPING_TIME: f64 = 1e-4;
+/// How closely a step ends at the limit torque, relative to it.
+const LIMIT_TOLERANCE: f64 = 1e-5;
+/// How closely a step ends at zero speed [rad/s].
+const SPEED_TOLERANCE: f64 = 1e-6;
+/// Limit torque below which friction is none [N·m].
+const NOTHING: f64 = 1e-9;
+/// Parts of a step within which a switch is looked for.
+const FRACTIONS: (f64, f64) = (1e-3, 0.999);
+/// Most sources of friction on one body.
+pub const SOURCES: usize = 3;
+
+/// Loads that press the surfaces together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pressure {
+    /// Thrust on a side gear, or on a planet [N].
+    pub thrust: f64,
+    /// Magnitude of the torque of the meshes on a side gear [N·m], of the force across a planet's pin [N], or limit
+    /// torque of a wheel [N·m].
+    pub load: f64,
+}
+
+/// Motion of a body against the surface it rubs on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip {
+    /// Position [rad].
+    pub position: f64,
+    /// Speed [rad/s].
+    pub speed: f64,
+}
+
+/// Friction on one kind of body from all its sources.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct DryFriction {
+    parts: [Part; SOURCES],
+    count: usize,
+    /// Stiffness of all sources together [N·m/rad].
+    pub stiffness: f64,
+    damping_time: f64,
+    /// Where the energy is booked that the spring loses when the last source goes off.
+    released: usize,
+}
+
+/// Limit torque of one source, and where its heat is booked.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Part {
+    /// Constant part [N·m].
+    pub constant: f64,
+    /// Per thrust [m].
+    pub per_thrust: f64,
+    /// Per load.
+    pub per_load: f64,
+    /// Limit while stuck over limit while sliding.
+    pub static_ratio: f64,
+    /// Index of its heat.
+    pub heat: usize,
+}
+
+impl DryFriction {
+    /// No source yet; what the spring loses when the last goes off is booked at `released`.
+    pub fn new(damping_time: f64, released: usize) -> Self {
+        Self { damping_time, released, ..Self::default() }
+    }
+
+    /// Adds a source.
+    pub fn push(&mut self, part: Part, stiffness: f64) {
+        if stiffness > 0.0 && self.count < SOURCES {
+            self.parts[self.count] = part;
+            self.count += 1;
+            self.stiffness += stiffness;
+        }
+    }
+
+    fn parts(&self) -> &[Part] {
+        &self.parts[..self.count]
+    }
+
+    /// Whether there is any source.
+    pub fn is_on(&self) -> bool {
+        self.count > 0
+    }
+
+    /// Whether the limit torque depends on loads.
+    pub fn depends_on_load(&self) -> bool {
+        self.parts().iter().any(|p| p.per_thrust != 0.0 || p.per_load != 0.0)
+    }
+
+    /// Limit torque while sliding [N·m].
+    pub fn limit(&self, by: &Pressure) -> f64 {
+        self.parts().iter().map(|p| p.at(by)).sum()
+    }
+
+    /// Its slopes by thrust and load.
+    pub fn limit_slopes(&self) -> [f64; 2] {
+        self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load])
+    }
+
+    fn breakaway(&self, by: &Pressure) -> f64 {
+        self.parts().iter().map(|p| p.static_ratio * p.at(by)).sum()
+    }
+
+    /// Torque against the motion.
+    pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+        match state.mode {
+            Mode::Stuck => self.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
+            Mode::Forward => self.limit(by),
+            Mode::Backward => -self.limit(by),
+        }
+    }
+
+    /// Slopes of the torque by position and speed; those by loads are [`Self::limit_slopes`].
+    pub fn torque_slopes(&self, state: &FrictionState) -> [f64; 2] {
+        match state.mode {
+            Mode::Stuck => [self.stiffness, self.damping_time * self.stiffness],
+            _ => [0.0; 2],
+        }
+    }
+
+    /// Adds the heat to its causes, `count` bodies alike.
+    pub fn heat(&self, state: &FrictionState, slip: &Slip, by: &Pressure, count: f64, heat: &mut [f64]) {
+        let power = match state.mode {
+            Mode::Stuck => self.stiffness * self.damping_time * slip.speed * slip.speed,
+            _ => self.torque(state, slip, by) * slip.speed,
+        };
+        self.book(count * power, by, heat);
+    }
+
+    /// Shares `amount` out to the causes in proportion to their limit torques.
+    fn book(&self, amount: f64, by: &Pressure, heat: &mut [f64]) {
+        let whole = self.limit(by);
+        for part in self.parts() {
+            let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
+            heat[part.heat] += amount * share;
+        }
+    }
+
+    /// Energy in the spring [J].
+    pub fn energy(&self, state: &FrictionState, position: f64) -> f64 {
+        let z = position - state.anchor;
+        if state.mode == Mode::Stuck { 0.5 * self.stiffness * z * z } else { 0.0 }
+    }
+
+    /// Distance past the switch, as a fraction of the tolerance: negative before it, above 1 too far.
+    fn overshoot(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+        match state.mode {
+            Mode::Stuck => {
+                // a spring past its limit that is being unwound is cut back, it does not slide
+                let torque = self.torque(state, slip, by) * slip.speed.signum();
+                let limit = self.breakaway(by);
+                (torque - limit) / (LIMIT_TOLERANCE * limit + NOTHING)
+            }
+            mode => {
+                let direction = if mode == Mode::Forward { 1.0 } else { -1.0 };
+                -direction * slip.speed / SPEED_TOLERANCE
+            }
+        }
+    }
+
+    /// The fraction of a step after which it ends on a switch; `None` if there is no switch or it is near enough.
+    pub fn crossing(&self, state: &FrictionState, start: (&Slip, &Pressure), end: (&Slip, &Pressure)) -> Option<f64> {
+        let after = self.overshoot(state, end.0, end.1);
+        if after <= 1.0 || self.limit(end.1) <= NOTHING {
+            return None;
+        }
+        // aim at the middle of the tolerance
+        let before = self.overshoot(state, start.0, start.1).min(0.0);
+        Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
+    }
+
+    /// The state after the switch that is due, if any.
+    fn switched(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> FrictionState {
+        let mut after = *state;
+        let torque = self.torque(state, slip, by);
+        let due = self.overshoot(state, slip, by) > 0.0;
+        match state.mode {
+            Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
+            Mode::Stuck => {
+                let z = slip.position - state.anchor;
+                let most = self.breakaway(by) / self.stiffness;
+                if z.abs() > most * (1.0 + LIMIT_TOLERANCE) + NOTHING / self.stiffness {
+                    after.anchor = slip.position - most * z.signum();
+                }
+            }
+            _ if due => after.mode = Mode::Stuck,
+            _ => {}
+        }
+        after
+    }
+
+    /// Whether a switch is due.
+    pub fn is_due(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> bool {
+        self.switched(state, slip, by) != *state
+    }
+
+    /// Switches where it is due; what the spring loses is heat of `count` bodies.
+    pub fn settle(&self, state: &mut FrictionState, slip: &Slip, by: &Pressure, count: f64, heat: &mut [f64]) {
+        let before = std::mem::replace(state, self.switched(state, slip, by));
+        if *state != before {
+            let lost = self.energy(&before, slip.position) - self.energy(state, slip.position);
+            self.book(count * lost, by, heat);
+        }
+    }
+
+    /// Anchor of a body that has slid to `slip`: the spring, wound to the limit torque, drags it along. Where the limit
+    /// rises faster than the motion winds the spring, the torque of the spring stays below it.
+    pub fn drag(&self, anchor: f64, slip: &Slip, by: &Pressure) -> f64 {
+        let most = self.limit(by) / self.stiffness;
+        slip.position - (slip.position - anchor).max(-most).min(most)
+    }
+
+    /// Distance from the switch, positive before it: torque left while stuck [N·m], speed while sliding [rad/s].
+    pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+        match state.mode {
+            Mode::Stuck => self.breakaway(by) - self.torque(state, slip, by).abs(),
+            mode => mode.direction() * slip.speed,
+        }
+    }
+
+    /// Takes the state over from friction of another stiffness; on a body without friction before, it starts here.
+    pub fn take_over(&self, state: &mut FrictionState, slip: &Slip, heat: &mut [f64], count: f64) {
+        if state.stiffness == self.stiffness {
+            return;
+        }
+        let wound = slip.position - state.anchor;
+        let before = if state.mode == Mode::Stuck { 0.5 * state.stiffness * wound * wound } else { 0.0 };
+        if self.stiffness > 0.0 {
+            if state.stiffness == 0.0 {
+                state.mode = match slip.speed {
+                    v if v > SPEED_TOLERANCE => Mode::Forward,
+                    v if v < -SPEED_TOLERANCE => Mode::Backward,
+                    _ => Mode::Stuck,
+                };
+            }
+            // a spring that becomes stiffer keeps its torque, one that becomes softer its twist: neither gains energy
+            state.anchor = slip.position - wound * (state.stiffness / self.stiffness).min(1.0);
+        } else {
+            *state = FrictionState::default();
+        }
+        state.stiffness = self.stiffness;
+        let cause = self.parts().first().map_or(self.released, |p| p.heat);
+        heat[cause] += count * (before - self.energy(state, slip.position));
+    }
+}
+
+impl Part {
+    fn at(&self, by: &Pressure) -> f64 {
+        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const STIFFNESS: f64 = 1e3;
+
+    /// A clutch whose limit torque is its load.
+    fn clutch() -> DryFriction {
+        let mut clutch = DryFriction::new(DAMPING_TIME, 0);
+        clutch.push(Part { per_load: 1.0, static_ratio: 1.0, ..Part::default() }, STIFFNESS);
+        clutch
+    }
+
+    fn pressed(load: f64) -> Pressure {
+        Pressure { thrust: 0.0, load }
+    }
+
+    #[test]
+    fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
+        let clutch = clutch();
+        let turn = |position| Slip { position, speed: 1.0 };
+        // slides under 10 N·m: the spring holds as much
+        let anchor = clutch.drag(0.0, &turn(0.5), &pressed(10.0));
+        assert!((STIFFNESS * (0.5 - anchor) - 10.0).abs() < 1e-9);
+        // the load rises a hundredfold while the body slides by 1 mrad, which winds the spring by 1 N·m
+        let anchor = clutch.drag(anchor, &turn(0.501), &pressed(1000.0));
+        assert!((STIFFNESS * (0.501 - anchor) - 11.0).abs() < 1e-9);
+        let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
+        let mut heat = [0.0];
+        let stopped = Slip { position: 0.501, speed: -1e-7 };
+        clutch.settle(&mut hold, &stopped, &pressed(1000.0), 1.0, &mut heat);
+        assert_eq!(hold.mode, Mode::Stuck);
+        assert!((clutch.torque(&hold, &Slip { speed: 0.0, ..stopped }, &pressed(1000.0)) - 11.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
+        let (clutch, by) = (clutch(), pressed(10.0));
+        // wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100 mrad
+        let hold = FrictionState { mode: Mode::Stuck, anchor: -0.01, stiffness: STIFFNESS };
+        let turn = |position| Slip { position, speed: -1.0 };
+        let part = clutch.crossing(&hold, (&turn(0.0), &by), (&turn(-0.1), &by)).unwrap();
+        let shift = DAMPING_TIME;
+        assert!((part * 0.1 - (0.02 - shift)).abs() < 1e-4, "{part}");
+    }
+
+    #[test]
+    fn no_change_of_stiffness_gives_a_spring_energy() {
+        let turn = Slip { position: 0.01, speed: 0.0 };
+        for stiffness in [10.0, 1e3, 1e5] {
+            let mut hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness };
+            let before = 0.5 * stiffness * 1e-4;
+            let mut heat = [0.0];
+            let clutch = clutch();
+            clutch.take_over(&mut hold, &turn, &mut heat, 1.0);
+            let after = clutch.energy(&hold, turn.position);
+            assert!(after <= before * (1.0 + 1e-12), "{stiffness}: {before} J became {after} J");
+            assert!((heat.iter().sum::<f64>() - (before - after)).abs() < 1e-12);
+        }
+    }
+}

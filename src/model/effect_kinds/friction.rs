@@ -1,0 +1,91 @@
+//! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels on the ground.
+
+use super::dry_friction::{DAMPING_TIME, DryFriction, Part, Pressure};
+use super::friction_source::{FrictionSource, PlanetFriction, SideFriction, WheelFriction};
+use crate::model::scene::layout::{HELD_PLANETS, WHEELS};
+use crate::model::scene::{Course, Inputs};
+
+/// Friction on each kind of body.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Friction {
+    /// On each side gear.
+    pub side: DryFriction,
+    /// On each planet.
+    pub planet: DryFriction,
+    /// On left and right wheel.
+    pub wheel: [DryFriction; 2],
+    wheel_limit: Option<fn(&Inputs) -> [f64; 2]>,
+}
+
+impl Friction {
+    /// Friction of `sources` with the lock at `lock`, under `inputs` on their `course`. Brakes that are off are none.
+    pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, course: &Course) -> Self {
+        let mut all = Self::default();
+        let released = |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat);
+        all.side = DryFriction::new(DAMPING_TIME, released(|s| s.by_lock));
+        all.planet = DryFriction::new(DAMPING_TIME, 0);
+        for source in sources {
+            if source.by_lock {
+                if lock > 0.0 {
+                    all.add(&source.scaled(lock));
+                }
+            } else {
+                all.add(source);
+            }
+            if let Some(wheel) = &source.wheel {
+                all.brake(wheel, source, inputs, course);
+            }
+        }
+        all
+    }
+
+    fn add(&mut self, source: &FrictionSource) {
+        let &FrictionSource { heat, static_ratio, .. } = source;
+        let SideFriction { constant, per_thrust, per_torque, stiffness } = source.side;
+        self.side.push(Part { constant, per_thrust, per_load: per_torque, static_ratio, heat }, stiffness);
+        let PlanetFriction { per_pin_force, per_thrust, stiffness } = source.planet;
+        self.planet.push(Part { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat }, stiffness);
+    }
+
+    fn brake(&mut self, wheel: &WheelFriction, source: &FrictionSource, inputs: &Inputs, course: &Course) {
+        let [first, second] = &course.rates;
+        let limits = [inputs, first, second].map(wheel.limit);
+        for s in 0..2 {
+            self.wheel[s] = DryFriction::new(wheel.damping_time[s], source.heat);
+            if limits.iter().any(|limit| limit[s] != 0.0) {
+                let (static_ratio, heat) = (source.static_ratio, source.heat);
+                self.wheel[s].push(Part { per_load: 1.0, static_ratio, heat, ..Part::default() }, wheel.stiffness);
+            }
+        }
+        self.wheel_limit = Some(wheel.limit);
+    }
+
+    /// Friction on body `i` of those that may stick.
+    #[inline(always)]
+    pub fn on(&self, i: usize) -> &DryFriction {
+        match i {
+            0..HELD_PLANETS => &self.side,
+            HELD_PLANETS..WHEELS => &self.planet,
+            _ => &self.wheel[i - WHEELS],
+        }
+    }
+
+    /// Whether anything may stick.
+    pub fn is_any(&self) -> bool {
+        self.side.is_on() || self.planet.is_on() || self.wheel[0].is_on() || self.wheel[1].is_on()
+    }
+
+    /// Whether limit torques depend on the loads of the meshes.
+    pub fn depends_on_load(&self) -> bool {
+        self.side.depends_on_load() || self.planet.depends_on_load()
+    }
+
+    /// Limit torques of the wheels under `inputs`, as loads.
+    #[inline(always)]
+    pub fn wheel_pressures(&self, inputs: &Inputs) -> [Pressure; 2] {
+        match self.wheel_limit {
+            Some(limit) => limit(inputs).map(|load| Pressure { thrust: 0.0, load }),
+            None => [Pressure::default(); 2],
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! What an effect contributes to the dry friction of a body: limit torques, by what presses the surfaces.
+
+use crate::model::scene::Inputs;
+
+/// Dry friction between a side gear and the carrier: a limit torque made of a constant and of the loads of the meshes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SideFriction {
+    /// Constant part [N·m].
+    pub constant: f64,
+    /// Per thrust on the side gear [m].
+    pub per_thrust: f64,
+    /// Per torque of the meshes on the side gear.
+    pub per_torque: f64,
+    /// Stiffness while stuck [N·m/rad].
+    pub stiffness: f64,
+}
+
+/// Dry friction between a planet and its pin and seat.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PlanetFriction {
+    /// Per force across the pin [m].
+    pub per_pin_force: f64,
+    /// Per thrust on the planet [m].
+    pub per_thrust: f64,
+    /// Stiffness while stuck [N·m/rad].
+    pub stiffness: f64,
+}
+
+/// Dry friction between a wheel and the ground.
+#[derive(Clone, Copy, Debug)]
+pub struct WheelFriction {
+    /// Limit torques of left and right wheel [N·m].
+    pub limit: fn(&Inputs) -> [f64; 2],
+    /// Stiffness while stuck [N·m/rad].
+    pub stiffness: f64,
+    /// Damping over stiffness while stuck, left and right [s].
+    pub damping_time: [f64; 2],
+}
+
+/// What one effect contributes to the dry friction of bodies.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionSource {
+    /// Where its heat is booked.
+    pub heat: usize,
+    /// On each side gear.
+    pub side: SideFriction,
+    /// On each planet.
+    pub planet: PlanetFriction,
+    /// On the wheels.
+    pub wheel: Option<WheelFriction>,
+    /// Limit while stuck over limit while sliding.
+    pub static_ratio: f64,
+    /// Whether the command of the lock presses it.
+    pub by_lock: bool,
+}
+
+impl FrictionSource {
+    /// No friction, with its heat booked at `heat`.
+    pub fn new(heat: usize) -> Self {
+        let (side, planet) = (SideFriction::default(), PlanetFriction::default());
+        Self { heat, side, planet, wheel: None, static_ratio: 1.0, by_lock: false }
+    }
+
+    /// Whether the loads of the meshes matter.
+    pub fn depends_on_load(&self) -> bool {
+        let (s, p) = (&self.side, &self.planet);
+        [s.per_thrust, s.per_torque, p.per_pin_force, p.per_thrust].iter().any(|x| *x != 0.0)
+    }
+
+    /// The same on side gears and planets, pressed by a part of the force.
+    pub fn scaled(self, part: f64) -> Self {
+        let side = SideFriction {
+            constant: part * self.side.constant,
+            per_thrust: part * self.side.per_thrust,
+            per_torque: part * self.side.per_torque,
+            stiffness: part * self.side.stiffness,
+        };
+        let planet = PlanetFriction {
+            per_pin_force: part * self.planet.per_pin_force,
+            per_thrust: part * self.planet.per_thrust,
+            stiffness: part * self.planet.stiffness,
+        };
+        Self { side, planet, ..self }
+    }
+}

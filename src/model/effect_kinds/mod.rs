@@ -1,0 +1,9 @@
+//! What effects are made of: what one may declare (`effect`), and the kinds of things one may do: forces on bodies
+//! (`body`), dry friction that sticks (`friction_source`, `dry_friction`, `friction`), changes to single teeth (`teeth`).
+
+pub mod body;
+pub mod dry_friction;
+pub mod effect;
+pub mod friction;
+pub mod friction_source;
+pub mod teeth;

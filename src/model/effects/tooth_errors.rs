@@ -1,0 +1,165 @@
+//! Deviations, modifications and misalignment of the teeth: gaps e_k(s, R) of each pair (`contact::errors`).
+
+use std::sync::Arc;
+
+use crate::contact::errors::{ToothErrorSpec, ToothErrors, pitch};
+use crate::contact::gaps::FlankGaps;
+use crate::declaration::units::{self, DEG, UM};
+use crate::declaration::{Parameter, Row, integer, real, switch};
+use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::scene::GearContact;
+use crate::problem::Problem;
+
+impl Declare for ToothErrorSpec {
+    const DESCRIPTION: &'static str = "Deviations, modifications and misalignment";
+    const NEEDS: Option<Needs> =
+        Some(Needs { contacts: &[GearContact::Tooth, GearContact::Solid], why: "it acts on single tooth pairs" });
+    const EXAMPLE: &'static [(&'static str, f64)] =
+        &[("tooth_errors.accuracy_grade", 7.0), ("tooth_errors.seed", 1.0), ("tooth_errors.planet_tip_relief", 20e-6)];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            integer(
+                "tooth_errors.accuracy_grade",
+                (0, 11),
+                |p| &mut p.accuracy_grade,
+                "Accuracy grade of the pitch by ISO 17485, 2 to 11; 0 = no pitch deviations",
+            ),
+            integer(
+                "tooth_errors.seed",
+                (-2147483648, 2147483647),
+                |p| &mut p.seed,
+                "Seed of individual pitch deviations and of the phases of runout",
+            ),
+            real(
+                "tooth_errors.planet_runout",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.planet_runout,
+                "Radial runout of each planet, peak to peak",
+            ),
+            real(
+                "tooth_errors.side_runout",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.side_runout,
+                "Radial runout of each side gear, peak to peak",
+            ),
+            switch(
+                "tooth_errors.runout_by_grade",
+                |p| &mut p.runout_by_grade,
+                "Runout of all gears is the tolerance of the accuracy grade",
+            ),
+            real(
+                "tooth_errors.planet_tip_relief",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.planet_tip_relief,
+                "Tip relief of the planets along the line of action",
+            ),
+            real(
+                "tooth_errors.side_tip_relief",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.side_tip_relief,
+                "Tip relief of the side gears along the line of action",
+            ),
+            real(
+                "tooth_errors.relief_length",
+                units::ONE,
+                None,
+                (0.01, 2.0),
+                |p| &mut p.relief_length,
+                "Length of both reliefs in base pitches",
+            ),
+            real(
+                "tooth_errors.crowning",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.crowning,
+                "Lengthwise crowning of a pair: gap at both ends of the face relative to its middle",
+            ),
+            real(
+                "tooth_errors.shaft_angle_error",
+                units::RADIAN,
+                Some(DEG),
+                (-0.02, 0.02),
+                |p| &mut p.shaft_angle_error,
+                "Each planet axis leans away from the left side gear, toward the right one",
+            ),
+            real(
+                "tooth_errors.planet_axial_offset",
+                units::METRE,
+                Some(UM),
+                (-1e-3, 1e-3),
+                |p| &mut p.planet_axial_offset,
+                "Displacement of each planet along its axis, outward",
+            ),
+            real(
+                "tooth_errors.side_axial_offset",
+                units::METRE,
+                Some(UM),
+                (-1e-3, 1e-3),
+                |p| &mut p.side_axial_offset,
+                "Displacement of each side gear along its axis, away from the planets' axes",
+            ),
+            real(
+                "tooth_errors.axis_offset",
+                units::METRE,
+                Some(UM),
+                (-1e-3, 1e-3),
+                |p| &mut p.axis_offset,
+                "Displacement of the pins as one body across the side gears' axis, forward at planet 1",
+            ),
+        ]
+    }
+}
+
+impl Effect for ToothErrorSpec {
+    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        found.extend(self.check().err());
+        if setting.scene.gear_contact != GearContact::Solid {
+            return;
+        }
+        let unsupported = [
+            ("tooth_errors.accuracy_grade", self.accuracy_grade != 0),
+            ("tooth_errors.planet_runout", self.planet_runout != 0.0),
+            ("tooth_errors.side_runout", self.side_runout != 0.0),
+            ("tooth_errors.planet_tip_relief", self.planet_tip_relief != 0.0),
+            ("tooth_errors.side_tip_relief", self.side_tip_relief != 0.0),
+        ];
+        let what =
+            "solid teeth take crowning and misalignment alone: it must be 0, or choose scene.gear_contact = tooth";
+        found.extend(unsupported.into_iter().filter(|&(_, given)| given).map(|(name, _)| Problem::new(name, what)));
+    }
+
+    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+        if self.accuracy_grade == 0 || (0..2).all(|i| pitch::Tolerances::are_valid(setting.pair, i)) {
+            return Vec::new();
+        }
+        vec![Problem::new(
+            "tooth_errors.accuracy_grade",
+            "the gears lie outside the ranges for which ISO 17485 gives its tolerances \
+             (mean module 1 to 50 mm, tolerance diameter 5 to 2500 mm, 5 to 400 teeth)",
+        )]
+    }
+
+    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+        let (pair, count) = (setting.pair, setting.geometry.planet_count);
+        let errors = ToothErrors::new(self, pair, usize::try_from(count).unwrap_or(1))?;
+        teeth.individual |= errors.is_individual();
+        teeth.sliced |= !errors.is_uniform_over_face();
+        let mut gaps = FlankGaps::perfect(pair, count, Vec::new());
+        gaps.least = -self.most_excess(pair);
+        gaps.errors = Some(errors);
+        let gaps = Arc::new(gaps);
+        teeth.gaps = [Some(gaps.clone()), Some(gaps)];
+        Ok(())
+    }
+}

@@ -1,0 +1,99 @@
+//! A tooth that loses a piece while running, at a time or by `fault.trigger` (`contact::errors::Chip`).
+
+use std::sync::Arc;
+
+use crate::contact::ContactLaw;
+use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
+use crate::contact::gaps::FlankGaps;
+use crate::declaration::units::{self, MM};
+use crate::declaration::{Parameter, Row, choice, command, integer, real};
+use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::scene::GearContact;
+use crate::problem::Problem;
+
+impl Declare for ToothFaultSpec {
+    const DESCRIPTION: &'static str = "A tooth that breaks at a time or by fault.trigger";
+    const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
+    const EXAMPLE: &'static [(&'static str, f64)] =
+        &[("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];
+
+    fn start() -> Self {
+        Self { gear: FaultyGear::Planet, missing_fraction: 0.6, ..Self::default() }
+    }
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            choice!("tooth_fault.gear", "FaultyGear", ToothFaultSpec, |p| &mut p.gear, "Kind of gear with the broken tooth",
+            FaultyGear::None => "none" "no tooth is broken",
+            FaultyGear::Planet => "planet" "a tooth of a planet",
+            FaultyGear::Side => "side" "a tooth of a side gear"),
+            integer(
+                "tooth_fault.index",
+                (0, 3),
+                |p| &mut p.index,
+                "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)",
+            ),
+            integer("tooth_fault.tooth", (0, 199), |p| &mut p.tooth, "Number of the broken tooth from 0"),
+            real(
+                "tooth_fault.missing_fraction",
+                units::ONE,
+                None,
+                (0.0, 1.0),
+                |p| &mut p.missing_fraction,
+                "Missing part of the face width from the heel inward",
+            ),
+            real(
+                "tooth_fault.depth",
+                units::METRE,
+                Some(MM),
+                (0.0, 1e-2),
+                |p| &mut p.depth,
+                "Depth removed along the line of action",
+            ),
+            real(
+                "tooth_fault.onset",
+                units::SECOND,
+                None,
+                (0.0, 1e9),
+                |p| &mut p.onset,
+                "Time at which the piece breaks off; 0 = by fault.trigger alone",
+            ),
+        ]
+    }
+
+    fn inputs() -> Vec<Row<InputField>> {
+        let at: InputField = |i| &mut i.fault;
+        vec![command("fault.trigger", at, "Breaks the tooth of effects.tooth_fault when it rises above 0.5")]
+    }
+}
+
+impl Effect for ToothFaultSpec {
+    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+        let planets = usize::try_from(setting.geometry.planet_count).unwrap_or(0);
+        found.extend(self.check(setting.pair.gears.map(|g| g.teeth), planets).err());
+        if setting.contact.law == ContactLaw::Impact && self.missing_fraction <= 0.5 {
+            found.push(Problem::new(
+                "tooth_fault.missing_fraction",
+                format!(
+                    "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
+                     0.5 of it; choose line or line_weber, or a larger piece",
+                    self.missing_fraction
+                ),
+            ));
+        }
+    }
+
+    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+        let (pair, count) = (setting.pair, setting.geometry.planet_count);
+        let sound = teeth.gaps[0].clone();
+        let mut broken = match &sound {
+            Some(gaps) => (**gaps).clone(),
+            None => FlankGaps::perfect(pair, count, Vec::new()),
+        };
+        broken.chip = Chip::new(self, pair, usize::try_from(count).unwrap_or(1))?;
+        teeth.gaps = [sound, Some(Arc::new(broken))];
+        (teeth.individual, teeth.sliced) = (true, true);
+        Ok(())
+    }
+}

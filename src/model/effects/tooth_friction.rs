@@ -1,0 +1,100 @@
+//! Friction along the flanks (`friction`), in the meshes slice by slice.
+
+use crate::contact::tooth_friction;
+use crate::declaration::units::{self, MPA_S, UM};
+use crate::declaration::{Parameter, Row, choice, real, tunable};
+use crate::friction::{FrictionLaw, ToothFrictionSpec};
+use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::scene::GearContact;
+use crate::problem::Problem;
+
+impl Declare for ToothFrictionSpec {
+    const DESCRIPTION: &'static str = "Friction along the flanks";
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.tooth_friction",
+        description: "Heat of friction along the flanks since the start",
+        at_wheels: false,
+    });
+    const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            choice!("tooth_friction.law", "FrictionLaw", ToothFrictionSpec, |p| &mut p.law, "Law of the coefficient of friction between flanks",
+            FrictionLaw::CoulombStribeck => "coulomb_stribeck" "given coefficient with a Stribeck peak if wanted",
+            FrictionLaw::BenedictKelley => "benedict_kelley" "local coefficient of Benedict and Kelley (1961)",
+            FrictionLaw::Iso14179 => "iso_14179" "mean coefficient of ISO/TR 14179-2",
+            FrictionLaw::XuKahraman => "xu_kahraman" "Xu and Kahraman (2007)"),
+            tunable(real(
+                "tooth_friction.coefficient",
+                units::ONE,
+                None,
+                (0.0, 0.3),
+                |p| &mut p.coefficient,
+                "Kinetic coefficient of friction of the flanks",
+            )),
+            real(
+                "tooth_friction.static_ratio",
+                units::ONE,
+                None,
+                (1.0, 10.0),
+                |p| &mut p.static_ratio,
+                "Static over kinetic coefficient; 1 = no Stribeck peak",
+            ),
+            real(
+                "tooth_friction.stribeck_speed",
+                units::M_PER_S,
+                None,
+                (1e-6, 100.0),
+                |p| &mut p.stribeck_speed,
+                "Sliding speed at which the Stribeck peak has fallen to 1/e",
+            ),
+            real(
+                "tooth_friction.regularisation_speed",
+                units::M_PER_S,
+                None,
+                (1e-6, 1.0),
+                |p| &mut p.regularisation_speed,
+                "Sliding speed over which friction changes its sign",
+            ),
+            real(
+                "tooth_friction.oil_viscosity",
+                units::PA_S,
+                Some(MPA_S),
+                (1e-5, 100.0),
+                |p| &mut p.oil_viscosity,
+                "Dynamic viscosity of the oil where it enters the mesh",
+            ),
+            real(
+                "tooth_friction.lubricant_factor",
+                units::ONE,
+                None,
+                (0.1, 3.0),
+                |p| &mut p.lubricant_factor,
+                "Lubricant factor X_L of ISO/TR 14179-2",
+            ),
+            real(
+                "tooth_friction.roughness",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-4),
+                |p| &mut p.roughness,
+                "Roughness R_a of the flanks",
+            ),
+        ]
+    }
+}
+
+impl Effect for ToothFrictionSpec {
+    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+        found.extend(self.problem());
+    }
+
+    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+        let material = setting.material;
+        let modulus = material.young_modulus / (2.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
+        teeth.friction = Some(tooth_friction::ToothFriction { spec: *self, modulus });
+        teeth.friction_heat = setting.heat;
+        Ok(())
+    }
+}

@@ -1,0 +1,247 @@
+//! Forces, torques and powers at an instant: what outputs read, computed when asked for.
+
+use super::readings::{Forces, MeshForces, bias};
+use crate::contact::tooth_load::ToothLoad;
+use crate::geometry::Pair;
+use crate::integrate::{Point, SecondOrder, in_pairs};
+use crate::model::assembly::ideal::Ideal;
+use crate::model::assembly::model::Model;
+use crate::model::assembly::teeth::SIGMA;
+use crate::model::dynamics::equations::Equations;
+use crate::model::dynamics::power::Power;
+use crate::model::dynamics::rigid::RigidEquations;
+use crate::model::dynamics::state::State;
+use crate::model::effect_kinds::body::Bodies;
+use crate::model::effects::strength::MeshLoad;
+use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
+use crate::model::scene::{Inputs, Plan};
+use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS, heats_within, places_of};
+use crate::model::setup::scene_effects;
+use crate::numeric::{sin, sqrt};
+
+impl MeshForces {
+    fn add(&mut self, load: &ToothLoad) {
+        let [planet, side, forward] = load.parts;
+        self.normal += load.normal;
+        // a slice counts by its share of the face, so that pairs stay whole numbers where loads do not differ over it
+        self.pairs += if load.normal > 0.0 { load.share } else { 0.0 };
+        self.side_thrust += load.normal * side;
+        self.planet_thrust += load.normal * planet;
+        self.tangential += load.normal * forward;
+    }
+}
+
+/// Sums over meshes and sides that all levels share, from `out.mesh` of all planets.
+fn add_up(out: &mut Forces, planets: usize) {
+    for i in 0..planets {
+        let mesh = out.mesh[i];
+        let (mut across, mut along) = (0.0, 0.0);
+        for s in 0..2 {
+            out.side_normal[s] += mesh[s].normal;
+            out.side_thrust[s] += mesh[s].side_thrust;
+            out.planet_thrust[i] += mesh[s].planet_thrust;
+            across += mesh[s].tangential;
+            along += SIGMA[s] * mesh[s].side_thrust;
+        }
+        out.pin_force[i] = sqrt(across * across + along * along);
+    }
+}
+
+/// Powers from torques and speeds; heat is given. `ends` are the speeds at which torques are handed to the wheels.
+fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
+    let v = &state.v;
+    out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
+    out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
+    out.power_loss = heat;
+    let torque = state.bias.mean().filter(|_| plan.ends).unwrap_or(out.shaft_torque);
+    (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
+}
+
+/// Speeds of the wheel-side ends.
+fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
+    [0, 1].map(|s| if plan.shafts[s] { state.v[plan.layout().end(s)] } else { state.v[s] })
+}
+
+/// Sets the readings of the effects that follow from the motion.
+fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
+    let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
+    let bodies = Bodies { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
+    scene_effects::read(&p.effects, &p.specs, plan, &bodies, &mut out.readings);
+}
+
+/// Power turned into heat within the differential [W].
+fn lost(heat: &[f64; HEATS]) -> f64 {
+    heat.iter().zip(heats_within()).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
+}
+
+/// Forces of the differential with teeth.
+pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+    model: &Model,
+    equations: &Equations<N, G, P, FULL>,
+    inputs: &Inputs,
+    state: &State,
+) -> Forces {
+    let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
+    let plan = &teeth.plan;
+    let Instant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
+    let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
+    (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
+    read_effects(&mut out, model, inputs, state);
+    let brakes = if FULL { equations.brake_torques(point) } else { [0.0; 2] };
+    for s in 0..2 {
+        out.shaft_torque[s] = if plan.shafts[s] {
+            equations.shaft_torque(point, s)
+        } else {
+            inputs.load_torque[s] + brakes[s] + teeth.rigid_end[s] * a[s]
+        };
+        out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
+    }
+    let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
+    let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    for g in 0..plan.groups().len() {
+        for s in 0..2 {
+            let mesh = &mut groups[g][s];
+            mesh.transmission_error =
+                teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
+            equations.tooth_loads(pair, point, g, s, |load| {
+                mesh.add(load);
+                if let Some(strength) = &model.strength {
+                    stress[g][s].add(strength, load);
+                }
+            });
+        }
+    }
+    if let Some(strength) = &model.strength {
+        let meshes = stress[..plan.groups().len()].iter().flatten().copied();
+        strength.read_stresses(meshes, &mut out.readings[places_of("strength")]);
+    }
+    for i in 0..plan.planets {
+        out.mesh[i] = groups[plan.group_of[i]];
+    }
+    add_up(&mut out, plan.planets);
+    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
+    out
+}
+
+/// Accelerations and torques at an instant, of one evaluation.
+struct Instant<const N: usize> {
+    acceleration: [f64; N],
+    /// Torques of the meshes on the side gears, alone [N·m].
+    gears: [f64; 2],
+    /// Torque of the carrier's drive [N·m].
+    carrier_torque: f64,
+    /// Torque of what imposes the spin, all planets together [N·m].
+    spin_torque: f64,
+    power: Power,
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    fn instant(&self, at: &Point<N>) -> Instant<N> {
+        let plan = &self.teeth.plan;
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+        let gears;
+        if FULL {
+            self.act(at, &mut sum, &mut imposed, &mut power, None);
+            gears = self.gear_torques(at);
+        } else {
+            (sum, power.heat[CONTACT_HEAT]) = self.tooth_torques(at);
+            gears = [sum[0], sum[1]];
+        }
+        let carrier_torque = if plan.carrier_imposed {
+            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        } else {
+            self.inputs.carrier_torque + power.drive
+        };
+        let inertial = self.teeth.inertia[Self::PLANET] * self.course.rates[0].planet_spin;
+        let spin_torque =
+            if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
+        self.finish(at, &mut sum, &imposed, &mut power);
+        Instant { acceleration: sum, gears, carrier_torque, spin_torque, power }
+    }
+
+    /// Torques of the meshes on side gears, where other torques act on them too.
+    fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
+        let side = self.teeth.lever[1];
+        if self.teeth.additions.in_detail {
+            let torque =
+                |s: usize| in_pairs(G, |g| self.members(g) * side * self.detail::<f64>(at, g, s, |_| {}).force[0]);
+            return [torque(0), torque(1)];
+        }
+        let sum = self.tooth_torques(at).0;
+        [sum[0], sum[1]]
+    }
+}
+
+/// Meshes of gears without teeth: a side gear's torque shared equally, acting at the pitch point.
+fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f64; 2]) {
+    let mut mesh = [MeshForces::default(); 2];
+    for s in 0..2 {
+        out.side_tangential[s] = torque[s] / (0.5 * pair.outer_pitch_diameter(1));
+        let normal = torque[s] / (planets as f64 * pair.mean_cone * pair.lever()[1]);
+        let (alpha, pitch) = (pair.pressure_angle, [pair.gears[0].pitch, pair.gears[1].pitch]);
+        mesh[s] = MeshForces {
+            normal: normal.abs(),
+            pairs: if normal == 0.0 { 0.0 } else { 1.0 },
+            side_thrust: normal.abs() * sin(alpha) * sin(pitch[1]),
+            planet_thrust: normal.abs() * sin(alpha) * sin(pitch[0]),
+            tangential: normal * crate::numeric::cos(alpha),
+            transmission_error: 0.0,
+        };
+    }
+    out.mesh[..planets].fill(mesh);
+    add_up(out, planets);
+}
+
+/// Forces of the ideal differential.
+pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
+    let (pair, ideal): (&Pair, &Ideal) = (&model.pair, &model.ideal);
+    let motion = ideal.motion(inputs);
+    let side_acceleration = ideal.side_accelerations(&motion);
+    let inertia = &ideal.inertia;
+    let mut out = Forces {
+        carrier_acceleration: motion.carrier,
+        side_acceleration,
+        carrier_torque: motion.carrier_torque,
+        spin_torque: motion.spin_torque,
+        ..Forces::default()
+    };
+    read_effects(&mut out, model, inputs, state);
+    for s in 0..2 {
+        out.shaft_torque[s] = inputs.load_torque[s] + inertia.end[s] * side_acceleration[s];
+    }
+    let torque = [0, 1].map(|s| inputs.load_torque[s] + inertia.side[s] * side_acceleration[s]);
+    pitch_point_meshes(&mut out, pair, ideal.plan.planets, torque);
+    add_powers(&mut out, &ideal.plan, state, [state.v[0], state.v[1]], 0.0);
+    out
+}
+
+/// Forces of the ideal differential with effects on bodies.
+pub fn rigid_forces<const N: usize>(
+    model: &Model,
+    equations: &RigidEquations<N>,
+    inputs: &Inputs,
+    state: &State,
+) -> Forces {
+    let (plan, point) = (&model.ideal.plan, &state.point::<N>());
+    let (a, power) = equations.evaluate(point);
+    let torques = equations.torques(point);
+    let mut out = Forces {
+        carrier_acceleration: a[CARRIER],
+        side_acceleration: [a[0], a[1]],
+        carrier_torque: torques.carrier,
+        spin_torque: torques.spin,
+        ..Forces::default()
+    };
+    read_effects(&mut out, model, inputs, state);
+    let brakes = equations.brake_torques(point);
+    for s in 0..2 {
+        out.shaft_torque[s] = if plan.shafts[s] {
+            power.shaft[s]
+        } else {
+            inputs.load_torque[s] + brakes[s] + equations.rigid.rigid_end[s] * a[s]
+        };
+    }
+    pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
+    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
+    out
+}

@@ -1,0 +1,67 @@
+//! What changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
+
+use super::imposed;
+use crate::integrate::SecondOrder;
+use crate::model::assembly::model::{Gears, Model};
+use crate::model::dynamics::sizes::{by_rigid_size, by_size, with_equations};
+use crate::model::dynamics::state::State;
+use crate::model::scene::Inputs;
+use crate::model::scene::layout::{HOLDS, WHEELS};
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+
+/// Longest stretch integrated before positions are wrapped [s].
+const STRETCH: f64 = 1.0;
+
+/// Where to stop for wrapping positions, or for a tooth that breaks at a time [s].
+pub fn end_of_stretch(model: &Model, state: &State, until: f64) -> f64 {
+    let time = state.time;
+    let end = if until - time > 1.5 * STRETCH { time + STRETCH } else { until };
+    let p = &model.parameters;
+    let onset = p.specs.tooth_fault.onset;
+    let breaks = p.effects.tooth_fault && !state.fault && onset > time && onset < end;
+    if breaks { onset } else { end }
+}
+
+/// Whether a tooth breaks now, by its time or by the trigger.
+pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let p = &model.parameters;
+    let onset = p.specs.tooth_fault.onset;
+    p.effects.tooth_fault && !state.fault && (inputs.fault > 0.5 || onset > 0.0 && state.time >= onset)
+}
+
+/// Kinetic and stored energy [J].
+pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
+    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
+}
+
+/// Breaks the tooth when its time has come or when it is triggered; the energy stored in it is heat.
+pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
+    if breaks_tooth(model, inputs, state) {
+        let before = energy(model, inputs, state);
+        state.fault = true;
+        state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
+    }
+}
+
+/// Lets the lock and the brakes follow their commands: friction starts on bodies it takes hold of, and ends on others.
+pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
+    break_tooth(model, inputs, state);
+    state.lock = inputs.lock;
+    if !imposed::body_effects(model).act_in(state) {
+        return;
+    }
+    match &model.gears {
+        Gears::Rigid(rigid) => by_rigid_size!(model, {
+            let mut equations = E::new(rigid, inputs, state);
+            equations.take_friction_over(&state.point(), &mut state.heat);
+            equations.settle_friction(&state.point(), 0.0, WHEELS..HOLDS, &mut state.heat);
+            state.friction = equations.friction_state;
+        }),
+        Gears::Teeth(teeth) => by_size!(teeth, true, {
+            let mut equations = E::new(teeth, inputs, state);
+            equations.take_friction_over(&state.point(), &mut state.heat);
+            equations.settle_friction(&state.point(), 0.0, WHEELS..HOLDS, &mut state.heat);
+            state.friction = equations.friction_state;
+        }),
+    }
+}

@@ -1,0 +1,282 @@
+//! The model under a solver of the host's, which moves the state itself: as many states in every scene, each of one body.
+//!
+//! Positions that grow with time are handed out unwrapped. Motions that are imposed follow their commands at once; their
+//! states take no part. Whatever the host's solver tries leaves no trace: ledger, friction and teeth take note of steps
+//! that are completed, and change at events.
+
+use super::events::{break_tooth, breaks_tooth, energy, update_friction};
+use super::failure::StepFailure;
+use super::imposed;
+use super::ledger::{Recorded, Records};
+use super::simulation::Simulation;
+use crate::integrate::{Erased, Point, SecondOrder, Step};
+use crate::model::assembly::model::Gears;
+use crate::model::dynamics::sizes::{by_size, with_equations};
+use crate::model::dynamics::state::{Accepted, State};
+use crate::model::scene::layout::{CARRIER, HELD_PLANETS, MAX_DOF, MAX_PLANETS, WHEELS};
+use crate::model::scene::{Course, Inputs, Plan};
+
+/// A body with a state of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// Side gear; its angle is counted from the carrier.
+    Side(usize),
+    /// Carrier.
+    Carrier,
+    /// Axial seat of a side gear.
+    Seat(usize),
+    /// Planet on its pin.
+    Planet(usize),
+    /// Pin; its angle is counted from the carrier, its speed is not.
+    Pin(usize),
+    /// Wheel-side end of a half-shaft; its position is the twist, its speed its own.
+    End(usize),
+}
+
+/// The bodies, in the order of the states.
+pub const BODIES: [Body; MAX_DOF] = {
+    use Body::*;
+    [
+        Side(0),
+        Side(1),
+        Carrier,
+        Seat(0),
+        Seat(1),
+        Planet(0),
+        Planet(1),
+        Planet(2),
+        Planet(3),
+        Pin(0),
+        Pin(1),
+        Pin(2),
+        Pin(3),
+        End(0),
+        End(1),
+    ]
+};
+
+/// States: positions of all bodies, then their velocities.
+pub const STATES: usize = 2 * MAX_DOF;
+/// Event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets and wheels.
+pub const INDICATORS: usize = 4 * MAX_PLANETS + HELD_PLANETS + MAX_PLANETS + 2;
+/// Indicator of an event that cannot come.
+const NEVER: f64 = 1.0;
+
+impl Body {
+    /// Its degree of freedom in a scene; none where it does not move by itself.
+    fn freedom(self, plan: &Plan) -> Option<usize> {
+        let layout = plan.layout();
+        match self {
+            Self::Side(s) => Some(s),
+            Self::Carrier => Some(CARRIER),
+            Self::Seat(s) => plan.pins.then(|| layout.seat(s)),
+            Self::Planet(i) => (i < plan.planets).then(|| layout.planet(plan.group_of[i])),
+            Self::Pin(i) => (plan.pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
+            Self::End(s) => plan.shafts[s].then(|| layout.end(s)),
+        }
+    }
+}
+
+/// What an event came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Update {
+    /// States are not what they were.
+    pub states_changed: bool,
+    /// Time of the next event that is known already [s].
+    pub next: Option<f64>,
+}
+
+impl Simulation {
+    /// From now on the host moves the state.
+    pub fn hand_over(&mut self) {
+        self.accept(self.inputs);
+    }
+
+    /// Whether the host moves the state.
+    pub fn is_handed_over(&self) -> bool {
+        self.accepted.is_some()
+    }
+
+    /// Takes note of where the state is; free speeds have followed the jumps of imposed ones up to `followed`.
+    fn accept(&mut self, followed: Inputs) {
+        let State { time, q, v, .. } = self.state;
+        self.accepted = Some(Accepted { time, q, v, inputs: self.inputs, followed });
+        self.forces = None;
+    }
+
+    /// All states; 0 of bodies that do not move by themselves.
+    pub fn states(&self) -> [f64; STATES] {
+        let present = self.present();
+        let state = &present.as_ref().unwrap_or(self).state;
+        self.gather(|i| state.position(i, &self.model.periods), &state.v)
+    }
+
+    /// Their rates.
+    pub fn state_rates(&self) -> [f64; STATES] {
+        let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
+        let present = self.present();
+        let simulation = present.as_ref().unwrap_or(self);
+        simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
+        self.gather(|i| dq[i], &dv)
+    }
+
+    /// By state from what is given by degree of freedom.
+    pub fn gather(&self, position: impl Fn(usize) -> f64, v: &[f64; MAX_DOF]) -> [f64; STATES] {
+        let mut states = [0.0; STATES];
+        for (k, body) in BODIES.iter().enumerate() {
+            if let Some(i) = body.freedom(&self.model.ideal.plan) {
+                (states[k], states[MAX_DOF + k]) = (position(i), v[i]);
+            }
+        }
+        states
+    }
+
+    /// By degree of freedom from what is given by state. Where planets move as one, the first of them counts.
+    pub(super) fn scatter(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
+        let plan = &self.model.ideal.plan;
+        for (k, body) in BODIES.iter().enumerate().rev() {
+            if let Some(i) = body.freedom(plan) {
+                (q[i], v[i]) = (states[k], states[MAX_DOF + k]);
+            }
+        }
+        // a group without members moves like the first
+        let layout = plan.layout();
+        for g in plan.groups().len()..layout.groups {
+            (q[layout.planet(g)], v[layout.planet(g)]) = (q[layout.planet(0)], v[layout.planet(0)]);
+            if plan.pins {
+                (q[layout.pin(g)], v[layout.pin(g)]) = (q[layout.pin(0)], v[layout.pin(0)]);
+            }
+        }
+    }
+
+    /// Sets the time [s].
+    pub fn set_time(&mut self, time: f64) {
+        self.state.time = time;
+    }
+
+    /// Moves to `states`; imposed motions follow their commands.
+    pub fn set_states(&mut self, states: &[f64; STATES]) {
+        let (mut q, mut v) = (self.state.q, self.state.v);
+        self.scatter(states, &mut q, &mut v);
+        for i in 0..MAX_DOF {
+            // periods without end are never counted
+            let turns = self.state.turns[i];
+            self.state.q[i] = if turns == 0 { q[i] } else { q[i] - turns as f64 * self.model.periods[i] };
+        }
+        self.state.v = v;
+        self.follow_commands();
+    }
+
+    /// Lets imposed motions follow their commands.
+    pub fn follow_commands(&mut self) {
+        imposed::set(&self.model, &self.inputs, &mut self.state);
+        self.forces = None;
+    }
+
+    /// Takes note of the step from the last completed one to here. Whether an event is due.
+    pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
+        let Some(from) = self.accepted else { return Ok(false) };
+        let model = &*self.model;
+        let (inputs, state) = (&self.inputs, &mut self.state);
+        let mut is_due = false;
+        let h = state.time - from.time;
+        if h > 0.0 {
+            let mut begin = from.of(state);
+            let before = energy(model, inputs, &begin);
+            imposed::set(model, inputs, &mut begin);
+            // the energy of a jump of imposed speeds is impulsive work of the input
+            state.work += energy(model, inputs, &begin) - before;
+            let outcome = with_equations!(model, state, inputs, |equations| {
+                let mut equations = equations;
+                let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
+                let (_, first) = Erased(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
+                let (_, last) = Erased(&equations).evaluate(&end);
+                // what lies between is the host's: for stiff teeth no curve through both ends would tell it
+                let power = [first, first.mean(&last), last];
+                let step = Step { h, time: state.time, start: &start, end: &end, power };
+                let State { work, heat, bias, fatigue, .. } = state;
+                let outcome = equations.record(model, &step, &mut Records { work, heat, bias, fatigue });
+                let mut anchors = equations.friction().map(|state| state.anchor);
+                equations.drag(&end, 0.0, &mut anchors);
+                equations.anchor(&anchors);
+                is_due = equations.is_due(&end, 0.0);
+                state.friction = *equations.friction();
+                outcome
+            });
+            outcome.map_err(|jump| StepFailure { time: state.time, message: jump.to_string() })?;
+            state.statistics.accepted += 1;
+            state.statistics.evaluations += 2;
+            state.control.last = h;
+            state.wrap(&model.periods, &model.layout);
+        }
+        let jumps = imposed::is_impulse(model, &from.followed, inputs);
+        let due = is_due || jumps || inputs.lock != state.lock || breaks_tooth(model, inputs, state);
+        self.accept(from.followed);
+        Ok(due)
+    }
+
+    /// An event: commands, friction and teeth change to what is due.
+    pub fn update(&mut self) -> Result<Update, StepFailure> {
+        // events whose time is known come without a step that is completed
+        if self.accepted.is_some_and(|from| from.time < self.state.time) {
+            self.complete_step()?;
+        }
+        let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
+        let (before, followed) = match &self.accepted {
+            Some(from) => (from.of(state), from.followed),
+            None => (*state, *inputs),
+        };
+        imposed::follow_impulse(model, &followed, inputs, state);
+        imposed::set(model, inputs, state);
+        // the energy of a jump of imposed speeds is impulsive work of the input
+        state.work += energy(model, inputs, state) - energy(model, inputs, &before);
+        update_friction(model, inputs, state);
+        with_equations!(model, state, inputs, |equations| {
+            let mut equations = equations;
+            if equations.is_due(&state.point(), 0.0) {
+                equations.settle(&state.point(), 0.0, &mut state.heat);
+                state.friction = *equations.friction();
+            }
+        });
+        break_tooth(model, inputs, state);
+        let onset = model.parameters.specs.tooth_fault.onset;
+        let waits = model.parameters.effects.tooth_fault && !state.fault && onset > state.time;
+        let states_changed = before.q != state.q || before.v != state.v;
+        self.accept(self.inputs);
+        Ok(Update { states_changed, next: waits.then_some(onset) })
+    }
+
+    /// Event indicators: approach of flanks [m], positive where they press; distance of dry friction from its
+    /// switch [N·m while stuck, rad/s while sliding].
+    pub fn indicators(&self) -> [f64; INDICATORS] {
+        let mut indicators = [NEVER; INDICATORS];
+        let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);
+        let plan = &model.ideal.plan;
+        if let Gears::Teeth(teeth) = &model.gears {
+            by_size!(teeth, teeth.additions.bodies.act_in(state), {
+                let (equations, point) = (E::new(teeth, inputs, state), state.point());
+                for i in 0..plan.planets {
+                    for s in 0..2 {
+                        let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
+                        let drive = teeth.mesh.drive_approach(position);
+                        let coast = -2.0 * teeth.mesh.half_backlash() - drive;
+                        indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
+                        indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
+                    }
+                }
+            });
+        }
+        with_equations!(model, state, inputs, |equations| {
+            let margins = equations.friction_margins(&state.point());
+            let friction = &mut indicators[4 * MAX_PLANETS..];
+            for s in 0..2 {
+                friction[s] = margins[s].unwrap_or(NEVER);
+                friction[HELD_PLANETS + MAX_PLANETS + s] = margins[WHEELS + s].unwrap_or(NEVER);
+            }
+            for i in 0..plan.planets {
+                friction[HELD_PLANETS + i] = margins[HELD_PLANETS + plan.group_of[i]].unwrap_or(NEVER);
+            }
+        });
+        indicators
+    }
+}

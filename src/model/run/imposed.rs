@@ -1,0 +1,122 @@
+//! Imposed speeds: which there are, and how they jump to their commands.
+
+use crate::model::assembly::additions::BodyEffects;
+use crate::model::assembly::model::{Gears, Model};
+use crate::model::dynamics::state::State;
+use crate::model::scene::Inputs;
+use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
+
+/// An imposed speed.
+pub struct ImposedSpeed {
+    /// Its degree of freedom.
+    pub freedom: usize,
+    /// Its value under the commands [rad/s].
+    pub value: f64,
+    /// Inertia of all bodies that have it [kg·m²].
+    inertia: f64,
+}
+
+/// Effects of `model` that act on bodies.
+pub fn body_effects(model: &Model) -> &BodyEffects {
+    match &model.gears {
+        Gears::Rigid(rigid) => &rigid.bodies,
+        Gears::Teeth(teeth) => &teeth.additions.bodies,
+    }
+}
+
+/// Imposed speeds under `inputs` at the positions `q`.
+pub fn imposed_speeds<'a>(
+    model: &'a Model,
+    inputs: &'a Inputs,
+    q: &'a [f64; MAX_DOF],
+) -> impl Iterator<Item = ImposedSpeed> + 'a {
+    let (plan, layout, inertias) = (&model.ideal.plan, &model.layout, &model.ideal.inertia);
+    let inertia = move |i: usize| match &model.gears {
+        Gears::Rigid(rigid) => rigid.inertia[i],
+        Gears::Teeth(teeth) => teeth.inertia[i],
+    };
+    let ends = (0..2).filter(|&s| plan.side_imposed[s]).map(move |s| ImposedSpeed {
+        freedom: layout.end(s),
+        value: inputs.side_speed[s],
+        inertia: inertias.end[s],
+    });
+    let carrier = plan.carrier_imposed.then(|| ImposedSpeed {
+        freedom: CARRIER,
+        value: body_effects(model).carrier_speed(q, inputs.carrier_speed),
+        inertia: inertia(CARRIER),
+    });
+    let planets = (0..layout.groups).filter(|_| plan.spin_imposed).map(move |g| ImposedSpeed {
+        freedom: layout.planet(g),
+        value: inputs.planet_spin,
+        inertia: layout.members[g] * inertia(layout.planet(g)),
+    });
+    ends.chain(carrier).chain(planets)
+}
+
+/// Whether imposed speeds are what they are commanded to be.
+pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let (plan, layout) = (&model.ideal.plan, &model.layout);
+    (!plan.carrier_imposed || state.carrier_command == inputs.carrier_speed)
+        && (!plan.spin_imposed || state.v[layout.planet(0)] == inputs.planet_spin)
+        && (0..2).all(|s| !plan.side_imposed[s] || state.v[layout.end(s)] == inputs.side_speed[s])
+}
+
+/// Sets imposed speeds to their commands. Gears without teeth are constrained by Willis' equation; nothing else changes.
+pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
+    state.carrier_command = inputs.carrier_speed;
+    let q = state.q;
+    for speed in imposed_speeds(model, inputs, &q) {
+        state.v[speed.freedom] = speed.value;
+    }
+    if let Gears::Rigid(_) = &model.gears {
+        model.ideal.constrain(&mut state.v);
+    }
+}
+
+/// Whether free speeds of gears without teeth must follow a jump of imposed ones from `before` to `inputs`.
+pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
+    let [by_carrier, by_spin] = model.ideal.impulse();
+    matches!(&model.gears, Gears::Rigid(_))
+        && (by_carrier != 0.0 && before.carrier_speed != inputs.carrier_speed
+            || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
+}
+
+/// Lets free speeds of gears without teeth follow such a jump.
+pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
+    if is_impulse(model, before, inputs) {
+        let carrier = |command: f64| body_effects(model).carrier_speed(&state.q, command);
+        let jump =
+            [carrier(inputs.carrier_speed) - carrier(before.carrier_speed), inputs.planet_spin - before.planet_spin];
+        add_impulse(model, jump, &mut state.v);
+        model.ideal.constrain(&mut state.v);
+    }
+}
+
+/// Adds to free speeds of gears without teeth what follows from a jump of carrier speed and spin.
+pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_DOF]) {
+    let [by_carrier, by_spin] = model.ideal.impulse();
+    v[PLANET] += by_carrier * carrier;
+    v[CARRIER] += by_spin * spin;
+}
+
+/// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
+pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
+    state.carrier_command = inputs.carrier_speed;
+    let (q, before) = (state.q, state.v);
+    let rigid = matches!(&model.gears, Gears::Rigid(_));
+    let mut work = 0.0;
+    for ImposedSpeed { freedom, value, inertia } in imposed_speeds(model, inputs, &q) {
+        // gears without teeth move as one: the energy of their jump is counted below
+        if value != before[freedom] && (!rigid || freedom > PLANET) {
+            work += 0.5 * inertia * (value * value - before[freedom] * before[freedom]);
+        }
+        state.v[freedom] = value;
+    }
+    let changes = [CARRIER, PLANET].map(|i| state.v[i] - before[i]);
+    if rigid && changes != [0.0; 2] {
+        add_impulse(model, changes, &mut state.v);
+        model.ideal.constrain(&mut state.v);
+        work += model.ideal.kinetic_energy(&state.v) - model.ideal.kinetic_energy(&before);
+    }
+    state.work += work;
+}

@@ -1,0 +1,195 @@
+//! The ledger of accepted steps: work, heat, mesh cycles, fatigue; and the error where teeth would jump.
+
+use std::fmt;
+
+use crate::integrate::{Point, SecondOrder, Step};
+use crate::model::assembly::model::Model;
+use crate::model::dynamics::cycle::Cycle;
+use crate::model::dynamics::equations::Equations;
+use crate::model::dynamics::power::{Power, book, simpson};
+use crate::model::dynamics::rigid::RigidEquations;
+use crate::model::dynamics::state::Bias;
+use crate::model::effect_kinds::dry_friction::FrictionState;
+use crate::model::effects::strength::{Fatigue, MeshLoad, Strength};
+use crate::model::scene::layout::HOLDS;
+use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
+
+/// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
+pub struct Jump {
+    deflection: f64,
+    limit: f64,
+    planet: usize,
+    side: usize,
+}
+
+impl fmt::Display for Jump {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            out,
+            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action \
+             exceeds the limit {:.3} mm; reduce the load or raise contact.stiffness",
+            self.planet + 1,
+            ["left", "right"][self.side],
+            self.deflection * 1e3,
+            self.limit * 1e3
+        )
+    }
+}
+
+/// What is kept beside the motion.
+pub struct Records<'a> {
+    /// Work of all inputs [J].
+    pub work: &'a mut f64,
+    /// Heat by cause [J].
+    pub heat: &'a mut [f64; HEATS],
+    /// Shaft torques by mesh cycles.
+    pub bias: &'a mut Bias,
+    /// Damage of the teeth.
+    pub fatigue: &'a mut Fatigue,
+}
+
+/// Equations whose accepted steps can be recorded in the ledger.
+pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
+    /// State of the dry friction.
+    fn friction(&self) -> &[FrictionState; HOLDS];
+    /// Whether friction is due to switch, `time` [s] after the inputs were set.
+    fn is_due(&self, at: &Point<N>, time: f64) -> bool;
+    /// Drags the anchors of bodies that slide.
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]);
+    /// Takes dragged anchors over.
+    fn anchor(&mut self, anchors: &[f64; HOLDS]);
+    /// Switches friction where it is due and books what its springs lose.
+    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
+    /// Refuses an accepted step that teeth cannot follow, and records it otherwise.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump>;
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<N> for Equations<'_, N, G, P, FULL> {
+    fn friction(&self) -> &[FrictionState; HOLDS] {
+        &self.friction_state
+    }
+
+    #[inline(always)]
+    fn is_due(&self, at: &Point<N>, time: f64) -> bool {
+        FULL && self.is_friction_due(at, time)
+    }
+
+    #[inline(always)]
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+        if FULL {
+            self.drag_anchors(at, time, anchors);
+        }
+    }
+
+    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+        self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
+    }
+
+    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
+        self.settle_friction(at, time, 0..HOLDS, heat);
+    }
+
+    #[inline(always)]
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+        let teeth = self.teeth;
+        let (approach, g, side) = self.deepest(step.end);
+        if approach > teeth.jump {
+            let planet = teeth.plan.group(g).planet;
+            let [deflection, limit] = [approach, teeth.jump].map(|arc| arc * teeth.mesh.cone);
+            return Err(Jump { deflection, limit, planet, side });
+        }
+        book(step, records.work, records.heat, FULL);
+        if !teeth.mesh.engagement.corner_contact() {
+            records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
+        }
+        if FULL && Self::ENDS {
+            let i = Self::PLANET;
+            let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
+            let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
+            cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
+        }
+        if let (true, Some(strength)) = (FULL, &model.strength) {
+            count_fatigue(self, model, strength, step, records.fatigue);
+        }
+        Ok(())
+    }
+}
+
+impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
+    fn friction(&self) -> &[FrictionState; HOLDS] {
+        &self.friction_state
+    }
+
+    fn is_due(&self, at: &Point<N>, time: f64) -> bool {
+        self.is_friction_due(at, time)
+    }
+
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+        self.drag_anchors(at, time, anchors);
+    }
+
+    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+        self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
+    }
+
+    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
+        self.settle_friction(at, time, 0..HOLDS, heat);
+    }
+
+    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+        book(step, records.work, records.heat, true);
+        Ok(())
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+    /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
+    #[inline(never)]
+    fn energy_of_jumps(&self, step: &Step<N, Power>) -> f64 {
+        let between = |t: f64| Point {
+            q: std::array::from_fn(|i| step.start.q[i] + t * (step.end.q[i] - step.start.q[i])),
+            v: std::array::from_fn(|i| step.start.v[i] + t * (step.end.v[i] - step.start.v[i])),
+        };
+        let mut energy = 0.0;
+        for g in 0..G {
+            for s in 0..2 {
+                let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
+                let change = [end[0] - start[0], end[1] - start[1]];
+                // steps may be so short there that a part of one is lost in rounding
+                let at_once = AT_ONCE.max(RESOLVED / change[1].abs());
+                self.teeth.mesh.engagement.jumps(start, change, |t| {
+                    let [before, after] = [t - at_once, t + at_once].map(|t| self.mesh_energy(&between(t), g, s));
+                    energy += self.members(g) * (after - before);
+                });
+            }
+        }
+        energy
+    }
+}
+
+/// Part of a step within which a pair that comes or goes has come or gone.
+const AT_ONCE: f64 = 1e-9;
+/// Arc along the line of action that rounding leaves intact [rad].
+const RESOLVED: f64 = 1e-13;
+
+/// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
+#[inline(never)]
+fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+    equations: &Equations<N, G, P, FULL>,
+    model: &Model,
+    strength: &Strength,
+    step: &Step<N, Power>,
+    fatigue: &mut Fatigue,
+) {
+    let mut loads = [[MeshLoad::default(); 2]; G];
+    let first = Equations::<N, G, P, FULL>::PLANET;
+    let spin: [f64; G] = std::array::from_fn(|g| step.end.q[first + g] - step.start.q[first + g]);
+    let roll = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
+    let members: [f64; G] = std::array::from_fn(|g| equations.teeth.layout.members[g]);
+    for g in 0..G {
+        for s in 0..2 {
+            equations.tooth_loads(&model.pair, step.end, g, s, |load| loads[g][s].add(strength, load));
+        }
+    }
+    strength.count(fatigue, &spin, roll, &loads, &members);
+}

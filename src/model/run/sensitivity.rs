@@ -1,0 +1,241 @@
+//! How the model answers to small changes: rates of the state by the exact Jacobian, and what is read along a direction.
+//!
+//! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds follow
+//! the direction themselves. Forces are read at four places along it, from which central differences of order 4 follow:
+//! with places 3e-4 of the natural magnitudes apart, what they neglect is of the size of rounding.
+
+use super::exchange::STATES;
+use super::imposed::{add_impulse, body_effects, imposed_speeds};
+use super::simulation::Simulation;
+use crate::integrate::{Erased, Point, SecondOrder};
+use crate::model::assembly::model::Gears;
+use crate::model::dynamics::sizes::with_equations;
+use crate::model::outputs::readings::{Books, Forces, Motion};
+use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
+use crate::model::scene::{Course, Inputs};
+
+/// Distance of neighbouring places along a direction, in natural magnitudes.
+const APART: f64 = 3e-4;
+/// Central differences of order 4: places, in the distance of neighbours, and the weights of what is read there.
+pub const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+
+/// A change of everything that motion and forces depend on.
+#[derive(Clone, Copy, Debug)]
+pub struct Direction {
+    /// Of the positions.
+    pub q: [f64; MAX_DOF],
+    /// Of the velocities.
+    pub v: [f64; MAX_DOF],
+    /// Of the inputs.
+    pub inputs: Inputs,
+    /// Of the rates of the inputs.
+    pub rates: Inputs,
+    /// Of the command that the carrier follows [rad/s].
+    pub carrier_command: f64,
+}
+
+impl Direction {
+    /// No change.
+    pub const NONE: Self =
+        Self { q: [0.0; MAX_DOF], v: [0.0; MAX_DOF], inputs: Inputs::ZERO, rates: Inputs::ZERO, carrier_command: 0.0 };
+}
+
+/// Forces at the places along a direction.
+pub struct Along {
+    forces: [Forces; PLACES.len()],
+    apart: f64,
+}
+
+impl Along {
+    /// Derivative of what `of` reads.
+    pub fn slope(&self, of: impl Fn(&Forces) -> f64) -> f64 {
+        // what does not change has no slope, to the last bit
+        let first = of(&self.forces[0]);
+        let sum: f64 = PLACES.iter().zip(&self.forces).map(|((_, weight), forces)| weight * (of(forces) - first)).sum();
+        sum / self.apart
+    }
+}
+
+impl Simulation {
+    /// Number n of degrees of freedom.
+    pub fn freedoms(&self) -> usize {
+        self.model.ideal.plan.layout().count()
+    }
+
+    /// The equations of motion by themselves, for solvers of others: rates of positions and accelerations [rad/s,
+    /// rad/s², m/s²] at the first n of positions `q` and velocities `v`, under the present inputs.
+    pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
+        let (inputs, state) = (&self.inputs, &self.state);
+        with_equations!(self.model, state, inputs, |equations| {
+            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
+            let (acceleration, _) = Erased(&equations).evaluate(&at);
+            dq[..N].copy_from_slice(&equations.rates(&at.v));
+            dv[..N].copy_from_slice(&acceleration);
+        });
+    }
+
+    /// Derivatives of what [`Self::rates`] gives by positions and velocities: 2n rows of 2n columns, row by row, ordered
+    /// (positions, velocities).
+    pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
+        let (inputs, state) = (&self.inputs, &self.state);
+        with_equations!(self.model, state, inputs, |equations| {
+            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
+            let linearisation = Erased(&equations).linearise(&at);
+            let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
+            equations.times_rates(&mut rates);
+            for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
+                let (by_position, by_velocity) = row.split_at_mut(N);
+                if i < N {
+                    by_position.fill(0.0);
+                    by_velocity.copy_from_slice(&rates[i]);
+                } else {
+                    by_position.copy_from_slice(&linearisation.by_position[i - N]);
+                    by_velocity.copy_from_slice(&linearisation.by_velocity[i - N]);
+                }
+            }
+        });
+    }
+
+    /// The same simulation moved to positions `q` and velocities `v`, for its outputs there; the ledger stays behind.
+    pub fn moved(&self, q: &[f64], v: &[f64]) -> Self {
+        let mut moved = self.clone();
+        let n = self.freedoms();
+        moved.state.q[..n].copy_from_slice(&q[..n]);
+        moved.state.v[..n].copy_from_slice(&v[..n]);
+        moved.forces = None;
+        moved
+    }
+
+    /// Derivatives of the rates of positions and velocities along `direction`.
+    pub fn rate_slopes(&self, direction: &Direction) -> [[f64; MAX_DOF]; 2] {
+        let (n, state) = (self.freedoms(), &self.state);
+        let mut rows = [0.0; 4 * MAX_DOF * MAX_DOF];
+        self.slopes(&state.q, &state.v, &mut rows);
+        let mut slopes = [[0.0; MAX_DOF]; 2];
+        for (i, row) in rows.chunks_exact(2 * n).enumerate().take(2 * n) {
+            let by = |columns: &[f64], change: &[f64]| columns.iter().zip(change).map(|(a, b)| a * b).sum::<f64>();
+            slopes[i / n][i % n] = by(&row[..n], &direction.q[..n]) + by(&row[n..], &direction.v[..n]);
+        }
+        let forced = self.forced(direction);
+        for i in 0..n {
+            slopes[1][i] += forced[i];
+        }
+        slopes
+    }
+
+    /// Derivatives of the accelerations by the inputs alone.
+    fn forced(&self, direction: &Direction) -> [f64; MAX_DOF] {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let mut forced = [0.0; MAX_DOF];
+        let course = Course { rates: [direction.rates, Inputs::ZERO] };
+        let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
+        with_equations!(self.model, state, inputs, |equations| {
+            forced[..N].copy_from_slice(&equations.forced(&state.point::<N>(), &change, &course));
+        });
+        forced
+    }
+
+    /// The direction in which time leads.
+    pub fn time_direction(&self) -> Direction {
+        let mut direction = Direction::NONE;
+        let Direction { q, v, .. } = &mut direction;
+        self.rates(&self.state.q, &self.state.v, [q, v]);
+        if let Some(course) = self.course() {
+            [direction.inputs, direction.rates] = course.rates;
+            direction.carrier_command = direction.inputs.carrier_speed;
+        }
+        direction
+    }
+
+    /// Derivatives of angles and speeds along `direction`.
+    pub fn motion_slopes(&self, direction: &Direction) -> Motion {
+        let mut along = self.moved(&direction.q, &direction.v);
+        along.state.turns = [0; MAX_DOF];
+        let slopes = along.motion_of_state();
+        let spin = self.model.ideal.plan.layout().planet(0);
+        let sense = if self.state.v[spin] == 0.0 { 0.0 } else { (self.state.v[spin] * direction.v[spin]).signum() };
+        Motion { mesh_frequency: sense * slopes.mesh_frequency, ..slopes }
+    }
+
+    /// Forces along `direction`.
+    pub fn forces_along(&self, direction: &Direction) -> Along {
+        let size = self.size(direction);
+        let apart = if size > 0.0 { APART / size } else { 1.0 };
+        let forces = PLACES.map(|(place, _)| self.displaced(direction, place * apart).forces_of_state());
+        Along { forces, apart }
+    }
+
+    /// Rates of the ledger.
+    pub fn book_rates(&self) -> Books {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let heat = with_equations!(self.model, state, inputs, |equations| Erased(&equations)
+            .evaluate(&state.point::<N>())
+            .1
+            .heat);
+        Books { heat, ..Books::default() }
+    }
+
+    fn displaced(&self, direction: &Direction, factor: f64) -> Self {
+        let mut displaced = self.clone();
+        let state = &mut displaced.state;
+        for i in 0..MAX_DOF {
+            state.q[i] += factor * direction.q[i];
+            state.v[i] += factor * direction.v[i];
+        }
+        state.carrier_command += factor * direction.carrier_command;
+        if let Some(course) = &mut state.course {
+            course.rates[0] = course.rates[0].plus(factor, &direction.rates);
+        }
+        displaced.inputs = self.inputs.plus(factor, &direction.inputs);
+        displaced.forces = None;
+        displaced
+    }
+
+    /// The largest change in `direction`, in natural magnitudes.
+    fn size(&self, direction: &Direction) -> f64 {
+        let (inputs, state) = (&self.inputs, &self.state);
+        let mut largest = 0.0f64;
+        with_equations!(self.model, state, inputs, |equations| {
+            let weights = Erased(&equations).weights(&state.point::<N>());
+            for i in 0..N {
+                largest = largest.max((weights.q[i] * direction.q[i]).abs());
+                largest = largest.max((weights.v[i] * direction.v[i]).abs());
+            }
+        });
+        self.inputs.visit(&direction.inputs, |now, change| largest = largest.max(change.abs() / (1.0 + now.abs())));
+        largest
+    }
+
+    /// The direction in which states and inputs change by `states` and `inputs`; imposed motions follow their commands.
+    pub fn direction(&self, states: &[f64; STATES], inputs: &Inputs) -> Direction {
+        let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
+        self.scatter(states, &mut direction.q, &mut direction.v);
+        direction.carrier_command = inputs.carrier_speed;
+        let Direction { q, v, .. } = &mut direction;
+        for speed in imposed_speeds(&self.model, inputs, q) {
+            v[speed.freedom] = match speed.freedom {
+                CARRIER => self.carrier_speed_slope(q[CARRIER], inputs.carrier_speed),
+                _ => speed.value,
+            };
+        }
+        if let Gears::Rigid(_) = &self.model.gears {
+            if !self.is_handed_over() {
+                add_impulse(&self.model, [v[CARRIER], v[PLANET]], v);
+            }
+            self.model.ideal.constrain(v);
+        }
+        direction
+    }
+
+    /// Derivative of the speed that an imposed carrier has, by its angle and its command.
+    fn carrier_speed_slope(&self, angle: f64, command: f64) -> f64 {
+        let at = |place: f64| {
+            let mut state = self.state;
+            state.q[CARRIER] += place * APART * angle;
+            let command = self.inputs.carrier_speed + place * APART * command;
+            body_effects(&self.model).carrier_speed(&state.q, command)
+        };
+        let here = at(0.0);
+        PLACES.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
+    }
+}

@@ -1,0 +1,98 @@
+//! Inputs: what the host sets at communication points. Each is declared once, with its start value and its limits.
+
+use serde::{Deserialize, Serialize};
+
+/// Limits of an input that may have either sign.
+const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+/// Limits of a command: 0 none, 1 full.
+const COMMAND: [f64; 2] = [0.0, 1.0];
+
+/// One value, or one for the left and one for the right side.
+trait Value: Copy {
+    const ZERO: Self;
+    fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self;
+    fn visit(self, other: Self, see: &mut impl FnMut(f64, f64));
+}
+
+impl Value for f64 {
+    const ZERO: Self = 0.0;
+    fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        of(self, other)
+    }
+    fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
+        see(self, other);
+    }
+}
+
+impl Value for [f64; 2] {
+    const ZERO: Self = [0.0; 2];
+    fn combine(self, other: Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        [of(self[0], other[0]), of(self[1], other[1])]
+    }
+    fn visit(self, other: Self, see: &mut impl FnMut(f64, f64)) {
+        see(self[0], other[0]);
+        see(self[1], other[1]);
+    }
+}
+
+macro_rules! inputs {
+    ($($(#[$doc:meta])+ $name:ident: $type:ty = $start:expr, $limits:ident;)+) => {
+        /// What the host sets at communication points.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        pub struct Inputs {
+            $($(#[$doc])+ pub $name: $type,)+
+        }
+
+        impl Default for Inputs {
+            fn default() -> Self {
+                Self { $($name: $start),+ }
+            }
+        }
+
+        impl Inputs {
+            /// All inputs 0.
+            pub const ZERO: Self = Self { $($name: Value::ZERO),+ };
+
+            /// self + factor · other.
+            pub fn plus(&self, factor: f64, other: &Self) -> Self {
+                Self { $($name: self.$name.combine(other.$name, |a, b| a + factor * b)),+ }
+            }
+
+            /// The same with each input within its limits.
+            pub fn limited(&self) -> Self {
+                Self { $($name: self.$name.combine(Value::ZERO, |a, _| a.clamp($limits[0], $limits[1]))),+ }
+            }
+
+            /// Calls `see` with each value and that of `other`.
+            pub fn visit(&self, other: &Self, mut see: impl FnMut(f64, f64)) {
+                $(self.$name.visit(other.$name, &mut see);)+
+            }
+        }
+    };
+}
+
+inputs! {
+    /// Imposed carrier speed, or its initial speed when torque-driven [rad/s].
+    carrier_speed: f64 = 2861f64.to_radians(), FREE;
+    /// Carrier torque when torque-driven [N·m].
+    carrier_torque: f64 = 1670.0, FREE;
+    /// Load on left and right half-shaft, positive resists positive rotation [N·m].
+    load_torque: [f64; 2] = [835.0; 2], FREE;
+    /// Imposed speeds of the wheel-side ends of the half-shafts [rad/s].
+    side_speed: [f64; 2] = [2861f64.to_radians(); 2], FREE;
+    /// Imposed planet spin relative to the carrier, positive speeds the left side up [rad/s].
+    planet_spin: f64 = 0.0, FREE;
+    /// Command of the lock, 0 open to 1 locked.
+    lock: f64 = 0.0, COMMAND;
+    /// Triggers the tooth fault when it rises above one half.
+    fault: f64 = 0.0, COMMAND;
+}
+
+impl Inputs {
+    /// Whether all inputs are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        let mut finite = true;
+        self.visit(self, |value, _| finite &= value.is_finite());
+        finite
+    }
+}

@@ -1,0 +1,62 @@
+//! Degrees of freedom: how many there can be, and where each stands.
+
+/// Largest number of planets.
+pub const MAX_PLANETS: usize = 4;
+/// Largest number of groups of planets: every planet on its own.
+pub const MAX_GROUPS: usize = MAX_PLANETS;
+/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, ends.
+pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + 2;
+/// Bodies that dry friction can hold: side gears, groups of planets, wheels.
+pub const HOLDS: usize = WHEELS + 2;
+/// The first of them that is a group of planets.
+pub const HELD_PLANETS: usize = 2;
+/// The first of them that is a wheel.
+pub const WHEELS: usize = HELD_PLANETS + MAX_GROUPS;
+
+/// Index of the left side gear; its position is the angle α_L relative to the carrier.
+pub const LEFT: usize = 0;
+/// Index of the carrier; its position is θ_c.
+pub const CARRIER: usize = 2;
+/// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
+pub const PLANET: usize = 3;
+
+/// Where each degree of freedom stands: side gears, carrier, [axial seats of the side gears], planets, [their pins],
+/// [ends of the half-shafts].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layout {
+    /// Groups of planets (1, 2 or 4; the last of four may have no members).
+    pub groups: usize,
+    /// Members of each group.
+    pub members: [f64; MAX_GROUPS],
+    /// Whether pins and seats move.
+    pub pins: bool,
+    /// Whether half-shafts have ends.
+    pub ends: bool,
+}
+
+impl Layout {
+    /// Index of the carrier.
+    pub fn carrier(&self) -> usize {
+        CARRIER
+    }
+    /// Index of the axial seat of side gear `s`.
+    pub fn seat(&self, s: usize) -> usize {
+        CARRIER + 1 + s
+    }
+    /// Index of the planets of group `g`.
+    pub fn planet(&self, g: usize) -> usize {
+        CARRIER + 1 + if self.pins { 2 } else { 0 } + g
+    }
+    /// Index of the pin of group `g`.
+    pub fn pin(&self, g: usize) -> usize {
+        self.planet(self.groups + g)
+    }
+    /// Index of the end of the half-shaft of side `s`.
+    pub fn end(&self, s: usize) -> usize {
+        self.planet(self.groups * if self.pins { 2 } else { 1 } + s)
+    }
+    /// Degrees of freedom.
+    pub fn count(&self) -> usize {
+        self.end(if self.ends { 2 } else { 0 })
+    }
+}

@@ -1,0 +1,17 @@
+//! What a scene is made of before any effect: drives, inputs, material, integration, and the plan of its bodies.
+
+mod course;
+mod drives;
+mod inputs;
+pub mod layout;
+mod material;
+mod plan;
+mod solver;
+
+pub use course::{Course, ORDERS};
+pub use drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
+pub use inputs::Inputs;
+pub use layout::Layout;
+pub use material::{InertiaSpec, Material};
+pub use plan::{Group, Plan, Requests};
+pub use solver::{Method, SolidTeeth, SolverSpec};

@@ -1,0 +1,191 @@
+//! The scene plan: which bodies move, which are imposed, and which planets move alike.
+//!
+//! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
+//! as there are.
+
+use super::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive};
+use super::layout::{CARRIER, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS};
+use crate::geometry::{GearSpec, Pair, assembly};
+use crate::problem::Problem;
+
+/// Planets that move alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Phase of the left and right mesh as arcs on the unit sphere [rad].
+    pub phase: [f64; 2],
+    /// How many planets there are of this kind.
+    pub members: f64,
+    /// The first of them.
+    pub planet: usize,
+}
+
+/// What a scene needs to simulate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    groups: [Group; MAX_GROUPS],
+    group_count: usize,
+    /// Group of each planet.
+    pub group_of: [usize; MAX_PLANETS],
+    /// Number of planets.
+    pub planets: usize,
+    /// Carrier speed is imposed.
+    pub carrier_imposed: bool,
+    /// Planet spin is imposed.
+    pub spin_imposed: bool,
+    /// Speeds of the wheel-side ends that are imposed, left and right.
+    pub side_imposed: [bool; 2],
+    /// Half-shafts that twist, left and right.
+    pub shafts: [bool; 2],
+    /// Whether half-shafts have ends of their own.
+    pub ends: bool,
+    /// Pins and seats give way.
+    pub pins: bool,
+    /// Representation of tooth contact.
+    pub contact: GearContact,
+}
+
+/// What effects and solver require of the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Requests {
+    /// Planets differ, or each is to be simulated.
+    pub individual: bool,
+    /// Pins and seats move.
+    pub pins: bool,
+    /// Half-shafts that twist even if they are driven by torque, left and right.
+    pub shafts: [bool; 2],
+}
+
+impl Plan {
+    /// Plan of `scene` with the gears `pair` of `spec`, or why its planets do not assemble.
+    pub fn new(scene: &Scene, spec: &GearSpec, pair: &Pair, requests: &Requests) -> Result<Self, Problem> {
+        let phases = assembly::phases(spec)?;
+        let side_imposed = [scene.left_drive == SideDrive::Speed, scene.right_drive == SideDrive::Speed];
+        let shafts = [0, 1].map(|s| side_imposed[s] || requests.shafts[s]);
+        let mut plan = Self {
+            groups: [Group::default(); MAX_GROUPS],
+            group_count: 0,
+            group_of: [0; MAX_PLANETS],
+            planets: phases.len(),
+            carrier_imposed: scene.carrier_drive == CarrierDrive::Speed,
+            spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
+            side_imposed,
+            shafts,
+            ends: shafts[0] || shafts[1],
+            pins: requests.pins,
+            contact: scene.gear_contact,
+        };
+        if plan.contact == GearContact::Ideal {
+            // no phases where there are no teeth
+            plan.add_group([0.0; 2], 0);
+            plan.groups[0].members = phases.len() as f64;
+        } else if requests.individual {
+            // opposite planets side by side: those are the ones that are alike
+            let order: &[usize] = if phases.len() == 4 { &[0, 2, 1, 3] } else { &[0, 1, 2][..phases.len()] };
+            for &i in order {
+                plan.add_group(phases[i].map(|f| f * pair.base_pitch), i);
+            }
+        } else {
+            for (i, fraction) in phases.iter().enumerate() {
+                let phase = fraction.map(|f| f * pair.base_pitch);
+                match plan.groups().iter().position(|g| g.phase == phase) {
+                    Some(g) => {
+                        plan.groups[g].members += 1.0;
+                        plan.group_of[i] = g;
+                    }
+                    None => plan.add_group(phase, i),
+                }
+            }
+        }
+        Ok(plan)
+    }
+
+    fn add_group(&mut self, phase: [f64; 2], planet: usize) {
+        self.groups[self.group_count] = Group { phase, members: 1.0, planet };
+        self.group_of[planet] = self.group_count;
+        self.group_count += 1;
+    }
+
+    /// The same plan with planets that do not spin freely.
+    pub fn with_spin_held(self) -> Self {
+        Self { spin_imposed: true, ..self }
+    }
+
+    /// Group `g` of planets.
+    #[inline(always)]
+    pub fn group(&self, g: usize) -> &Group {
+        &self.groups[g]
+    }
+
+    /// The groups of planets.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups[..self.group_count]
+    }
+
+    /// Index of each degree of freedom.
+    pub fn layout(&self) -> Layout {
+        Layout {
+            groups: match self.group_count {
+                3 => 4,
+                n => n,
+            },
+            members: self.groups.map(|g| g.members),
+            pins: self.pins,
+            ends: self.ends,
+        }
+    }
+
+    /// Periods by which positions are wrapped; infinite where they are not [rad].
+    pub fn periods(&self, pair: &Pair) -> [f64; MAX_DOF] {
+        let layout = self.layout();
+        let mut periods = [f64::INFINITY; MAX_DOF];
+        periods[..CARRIER].fill(pair.gears[1].tooth_pitch());
+        periods[CARRIER] = crate::numeric::TAU;
+        for g in 0..layout.groups {
+            periods[layout.planet(g)] = pair.gears[0].tooth_pitch();
+        }
+        periods
+    }
+
+    /// Degrees of freedom, the imposed ones among them; there are twice as many states.
+    pub fn freedoms(&self) -> usize {
+        match self.contact {
+            GearContact::Ideal => 2 + if self.ends { 2 } else { 0 },
+            _ => self.layout().count(),
+        }
+    }
+
+    /// How many of them are imposed.
+    pub fn imposed(&self) -> usize {
+        let spins = if self.contact == GearContact::Ideal { 1 } else { self.layout().groups };
+        usize::from(self.carrier_imposed)
+            + if self.spin_imposed { spins } else { 0 }
+            + self.side_imposed.iter().filter(|&&imposed| imposed).count()
+    }
+
+    /// One line that says what is simulated: representation, drives, planets, states.
+    pub fn describe(&self) -> String {
+        let level = match self.contact {
+            GearContact::Ideal => "ideal gears",
+            GearContact::Lumped => "lumped mesh stiffness",
+            GearContact::Tooth => "tooth contact",
+            GearContact::Solid => "solid teeth",
+        };
+        let drive = |imposed| if imposed { "imposed" } else { "free" };
+        let side = |s: usize| match (self.side_imposed[s], self.shafts[s]) {
+            (true, _) => "speed through its half-shaft",
+            (false, true) => "torque through its half-shaft",
+            (false, false) => "torque",
+        };
+        format!(
+            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated as {}; \
+             {} states",
+            drive(self.carrier_imposed),
+            drive(self.spin_imposed),
+            side(0),
+            side(1),
+            self.planets,
+            self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
+            2 * self.freedoms(),
+        )
+    }
+}

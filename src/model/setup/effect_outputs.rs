@@ -1,0 +1,83 @@
+//! Which heat and which readings the effects have, and their places in the ledger.
+
+use crate::model::effect_kinds::effect::{Heat, Reading};
+use crate::model::effects::EFFECTS;
+
+/// Heat of contact damping, which no effect brings.
+pub const CONTACT_HEAT: usize = 0;
+
+/// Number of heats in the ledger: contact, then one for each output of heat that effects name.
+pub const HEATS: usize = {
+    let (mut count, mut i) = (CONTACT_HEAT + 1, 0);
+    while i < EFFECTS.len() {
+        count += is_first(i) as usize;
+        i += 1;
+    }
+    count
+};
+
+/// Number of readings of all effects.
+pub const READINGS: usize = {
+    let (mut count, mut i) = (0, 0);
+    while i < EFFECTS.len() {
+        count += EFFECTS[i].readings.len();
+        i += 1;
+    }
+    count
+};
+
+/// Whether effect `i` is the first that names its heat.
+const fn is_first(i: usize) -> bool {
+    let Some(heat) = EFFECTS[i].heat else { return false };
+    let mut j = 0;
+    while j < i {
+        if let Some(before) = EFFECTS[j].heat
+            && is_same(before.output, heat.output)
+        {
+            return false;
+        }
+        j += 1;
+    }
+    true
+}
+
+const fn is_same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let mut i = 0;
+    while i < a.len() && i < b.len() && a[i] == b[i] {
+        i += 1;
+    }
+    i == a.len() && i == b.len()
+}
+
+/// The heats of effects, in the order of the ledger.
+pub fn heats() -> impl Iterator<Item = Heat> {
+    (0..EFFECTS.len()).filter(|&i| is_first(i)).filter_map(|i| EFFECTS[i].heat)
+}
+
+/// Place of a heat in the ledger.
+pub fn heat_index(heat: Option<Heat>) -> usize {
+    let place = heat.and_then(|heat| heats().position(|other| other.output == heat.output));
+    place.map_or(CONTACT_HEAT, |place| CONTACT_HEAT + 1 + place)
+}
+
+/// Whether the heat at each place of the ledger arises within the differential, not at the wheels.
+pub fn heats_within() -> [bool; HEATS] {
+    let mut within = [true; HEATS];
+    for (place, heat) in heats().enumerate() {
+        within[CONTACT_HEAT + 1 + place] = !heat.at_wheels;
+    }
+    within
+}
+
+/// The readings of all effects, in their order.
+pub fn readings() -> impl Iterator<Item = &'static Reading> {
+    EFFECTS.iter().flat_map(|effect| effect.readings)
+}
+
+/// Places of the readings of the effect `name`.
+pub fn places_of(name: &str) -> std::ops::Range<usize> {
+    let before = EFFECTS.iter().take_while(|effect| effect.name != name).map(|effect| effect.readings.len()).sum();
+    let count = EFFECTS.iter().find(|effect| effect.name == name).map_or(0, |effect| effect.readings.len());
+    before..before + count
+}

@@ -1,0 +1,9 @@
+//! What a user sets before the first step: all parameters, the effects that follow from them, and what contradicts itself.
+
+pub mod effect_outputs;
+mod parameters;
+pub mod scene_effects;
+pub mod validation;
+
+pub use parameters::Parameters;
+pub use scene_effects::SceneEffects;

@@ -1,0 +1,118 @@
+//! The effects of a scene: what they check, require and bring, gathered from all that are on.
+
+use super::effect_outputs::{heat_index, places_of};
+use crate::model::effect_kinds::body::{Bodies, BodyEffect};
+use crate::model::effect_kinds::effect::{BUILT, Effect, Setting};
+use crate::model::effect_kinds::friction_source::FrictionSource;
+use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effects::{Declared, EffectParameters, Effects, configured};
+use crate::model::scene::{GearContact, Plan, Requests};
+use crate::problem::Problem;
+
+/// The effects of a scene.
+#[derive(Clone, Copy)]
+pub struct SceneEffects<'a> {
+    /// Switches.
+    pub effects: &'a Effects,
+    /// Parameters.
+    pub parameters: &'a EffectParameters,
+    /// The scene.
+    pub setting: Setting<'a>,
+}
+
+impl<'a> SceneEffects<'a> {
+    /// Effects that may act, each with its own setting.
+    fn acting(&self) -> impl Iterator<Item = (&'static Declared, Setting<'a>, &'a dyn Effect)> + use<'a> {
+        let setting = self.setting;
+        configured(self.effects, self.parameters)
+            .into_iter()
+            .filter(|(declared, on, _)| BUILT && (*on || declared.may_act_unswitched))
+            .map(move |(declared, on, effect)| {
+                (declared, Setting { on, heat: heat_index(declared.heat), ..setting }, effect)
+            })
+    }
+
+    /// What is wrong with them in this scene.
+    pub fn problems(&self) -> Vec<Problem> {
+        let mut found = Vec::new();
+        for (declared, on, _) in configured(self.effects, self.parameters) {
+            if let (false, true, Some(switch)) = (BUILT, on, declared.switch) {
+                found
+                    .push(Problem::new(switch, "this build leaves all effects out; switch it off or use a full build"));
+            }
+        }
+        let contact = self.setting.scene.gear_contact;
+        for (declared, setting, effect) in self.acting() {
+            if let (Some(needs), Some(switch)) = (declared.needs, declared.switch)
+                && !needs.contacts.contains(&contact)
+            {
+                let contacts: Vec<&str> = needs.contacts.iter().map(|&contact| name(contact)).collect();
+                found.push(Problem::new(
+                    switch,
+                    format!(
+                        "does not work with scene.gear_contact = {}: {}; it needs scene.gear_contact = {}",
+                        name(contact),
+                        needs.why,
+                        contacts.join(" or ")
+                    ),
+                ));
+            }
+            effect.check(&setting, &mut found);
+        }
+        found
+    }
+
+    /// What is unusual about them in this scene.
+    pub fn warnings(&self) -> Vec<Problem> {
+        self.acting().flat_map(|(_, setting, effect)| effect.warnings(&setting)).collect()
+    }
+
+    /// What they do to single teeth.
+    pub fn on_teeth(&self) -> Result<ToothEffects, Problem> {
+        let mut teeth = ToothEffects::default();
+        for (_, setting, effect) in self.acting() {
+            effect.on_teeth(&setting, &mut teeth)?;
+        }
+        Ok(teeth)
+    }
+
+    /// What they require of the plan.
+    pub fn requests(&self) -> Requests {
+        self.acting().fold(Requests::default(), |all, (_, setting, effect)| {
+            let one = effect.requests(&setting);
+            Requests {
+                individual: all.individual || one.individual,
+                pins: all.pins || one.pins,
+                shafts: [0, 1].map(|s| all.shafts[s] || one.shafts[s]),
+            }
+        })
+    }
+
+    /// Forces and torques on bodies, other than dry friction.
+    pub fn on_bodies(&self, plan: &Plan) -> Vec<Box<dyn BodyEffect>> {
+        self.acting().filter_map(|(_, setting, effect)| effect.on_bodies(&setting, plan)).collect()
+    }
+
+    /// Dry friction.
+    pub fn friction(&self) -> Vec<FrictionSource> {
+        self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting)).collect()
+    }
+}
+
+/// Sets the readings of all effects that change at any instant.
+pub fn read(effects: &Effects, parameters: &EffectParameters, plan: &Plan, at: &Bodies, out: &mut [f64]) {
+    for (declared, on, effect) in configured(effects, parameters) {
+        if !declared.readings.is_empty() {
+            effect.read(on, plan, at, &mut out[places_of(declared.name)]);
+        }
+    }
+}
+
+fn name(contact: GearContact) -> &'static str {
+    match contact {
+        GearContact::Ideal => "ideal",
+        GearContact::Lumped => "lumped",
+        GearContact::Tooth => "tooth",
+        GearContact::Solid => "solid",
+    }
+}

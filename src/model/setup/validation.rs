@@ -1,0 +1,73 @@
+//! Scenes that contradict themselves, refused by name.
+
+use super::parameters::Parameters;
+use crate::contact::{ContactLaw, DampingModel};
+use crate::geometry::Pair;
+use crate::model::effect_kinds::effect::BUILT;
+use crate::model::scene::{CarrierDrive, GearContact, PlanetSpin, SideDrive};
+use crate::problem::Problem;
+
+/// Everything in `p` that does not go together.
+pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
+    let mut found = Vec::new();
+    let mut refuse = |name: &'static str, message: String| found.push(Problem::new(name, message));
+    let scene = &p.scene;
+    let imposed: Vec<&str> = [
+        (scene.carrier_drive == CarrierDrive::Speed, "scene.carrier_drive"),
+        (scene.left_drive == SideDrive::Speed, "scene.left_drive"),
+        (scene.right_drive == SideDrive::Speed, "scene.right_drive"),
+        (scene.planet_spin == PlanetSpin::Imposed, "scene.planet_spin"),
+    ]
+    .into_iter()
+    .filter_map(|(on, name)| on.then_some(name))
+    .collect();
+    if imposed.len() > 2 {
+        let name = if scene.planet_spin == PlanetSpin::Imposed { "scene.planet_spin" } else { "scene.carrier_drive" };
+        refuse(
+            name,
+            format!(
+                "speeds are imposed by {}: a differential has two independent speeds, so that at most two can be; \
+                 drive the others by torque or leave the spin free",
+                imposed.join(", ")
+            ),
+        );
+    }
+    let speed_driven = [scene.left_drive, scene.right_drive].map(|drive| drive == SideDrive::Speed);
+    if !BUILT && (speed_driven[0] || speed_driven[1]) {
+        let name = if speed_driven[0] { "scene.left_drive" } else { "scene.right_drive" };
+        refuse(name, "a speed-driven side needs its half-shaft, and this build leaves all effects out".into());
+    }
+    let contact = &p.contact;
+    if contact.stiffness_from_hertz && contact.exponent != crate::contact::hertz::EXPONENT {
+        refuse(
+            "contact.exponent",
+            format!(
+                "{} does not go with contact.stiffness_from_hertz, whose law has the exponent {}",
+                contact.exponent,
+                crate::contact::hertz::EXPONENT
+            ),
+        );
+    }
+    if contact.damping_model == DampingModel::Restitution
+        && let Err(problem) = crate::contact::damping::dimensionless_damping(contact.restitution)
+    {
+        found.push(problem);
+    }
+    if scene.gear_contact == GearContact::Solid {
+        if contact.law != ContactLaw::Impact {
+            found.push(Problem::new(
+                "contact.law",
+                "solid teeth are pressed together by Adams' IMPACT as in the study: with scene.gear_contact = solid choose \
+                 impact",
+            ));
+        }
+        if !p.effects.corner_contact {
+            found.push(Problem::new(
+                "effects.corner_contact",
+                "solid teeth have corners: with scene.gear_contact = solid corner contact cannot be switched off",
+            ));
+        }
+    }
+    found.extend(p.scene_effects(pair).problems());
+    found
+}

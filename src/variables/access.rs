@@ -1,0 +1,56 @@
+//! The way from a row of the table to the value of its variable.
+
+use crate::declaration::{EnumType, Field, GetChoice, Parameter, Row, SetChoice};
+use crate::model::{Books, Forces, InputField, Motion, Parameters};
+
+/// Where the value of an output is read.
+#[derive(Clone, Copy)]
+pub enum OutputSource {
+    /// From angles and speeds.
+    Motion(fn(&Motion) -> f64),
+    /// From forces, which take one evaluation of the teeth.
+    Forces(fn(&Forces) -> f64),
+    /// From the ledger and the solver's statistics.
+    Books(fn(&Books) -> f64),
+    /// A reading of an effect that changes at any instant, by its place.
+    Reading(usize),
+    /// A reading of an effect that changes with accepted steps, by its place.
+    LedgerReading(usize),
+    /// Heat, by its place in the ledger.
+    Heat(usize),
+    /// A continuous state, by its number.
+    State(usize),
+    /// The rate of one.
+    Rate(usize),
+}
+
+/// Type of a variable and the way to its value.
+#[derive(Clone, Copy)]
+pub enum Access {
+    /// A real parameter.
+    Real(Field<Parameters, f64>),
+    /// An integer parameter.
+    Integer(Field<Parameters, i32>),
+    /// A Boolean parameter.
+    Boolean(Field<Parameters, bool>),
+    /// An enumeration parameter: type, reading, and assignment of a value that is one of its choices.
+    Enumeration(&'static EnumType, GetChoice<Parameters>, SetChoice<Parameters>),
+    /// A real input.
+    Input(InputField),
+    /// A real output, or a local variable.
+    Output(OutputSource),
+}
+
+/// A row of the table.
+pub type Variable = Row<Access>;
+
+impl From<Parameter<Parameters>> for Access {
+    fn from(parameter: Parameter<Parameters>) -> Self {
+        match parameter {
+            Parameter::Real(field) => Self::Real(field),
+            Parameter::Integer(field) => Self::Integer(field),
+            Parameter::Boolean(field) => Self::Boolean(field),
+            Parameter::Enumeration(kind, get, set) => Self::Enumeration(kind, get, set),
+        }
+    }
+}
