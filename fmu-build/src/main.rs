@@ -5,20 +5,21 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Result, bail};
-use fmu_build::cost::Cost;
-use fmu_build::effects::job::Effects;
-use fmu_build::fuzz::Fuzz;
-use fmu_build::geometry::command::Geometry;
-use fmu_build::hosts::Hosts;
-use fmu_build::pattern::Pattern;
-use fmu_build::progress::Progress;
-use fmu_build::python::Environment;
-use fmu_build::scene::job as scene_job;
-use fmu_build::solids::Solids;
-use fmu_build::{
-    describe, drivetrain, foreign, memory, off, package, peers, places, plain_types, platforms, real_time, study,
-    toolchains,
-};
+use fmu_build::check::fuzz::Fuzz;
+use fmu_build::check::hosts::Hosts;
+use fmu_build::check::{memcheck, platforms, real_time, zero_cost};
+use fmu_build::fmu::{describe, package, plain_types, toolchains};
+use fmu_build::gears::effects::job::Effects;
+use fmu_build::gears::geometry::command::Geometry;
+use fmu_build::gears::pattern::Pattern;
+use fmu_build::gears::scene::job as scene_job;
+use fmu_build::gears::study;
+use fmu_build::measure::cost::Cost;
+use fmu_build::measure::solids::Solids;
+use fmu_build::measure::{compare_simulators, compare_solvers, drivetrain};
+use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::python::Environment;
 use lexopt::prelude::*;
 
 const USAGE: &str = "\
@@ -233,13 +234,13 @@ fn command(name: &str, arguments: &mut lexopt::Parser) -> Result<Job> {
 fn run(job: Job) -> Result<()> {
     match job {
         Job::Help => println!("{USAGE}"),
-        Job::Off { quick, write } => off::run(quick, write)?,
-        Job::Peers { quick, write } => peers::run(quick, write)?,
-        Job::Foreign { quick, write } => foreign::run(quick, write)?,
+        Job::Off { quick, write } => zero_cost::run(quick, write)?,
+        Job::Peers { quick, write } => compare_simulators::run(quick, write)?,
+        Job::Foreign { quick, write } => compare_solvers::run(quick, write)?,
         Job::Hosts(hosts) => hosts.run()?,
         Job::Drivetrain { quick, write } => drivetrain::run(quick, write)?,
         Job::Fuzz(fuzz) => fuzz.run()?,
-        Job::Memory => memory::run()?,
+        Job::Memory => memcheck::run()?,
         Job::RealTime { write } => real_time::run(write)?,
         Job::Study { readme } => study::run(readme)?,
         Job::Package { integers } => {
@@ -248,7 +249,7 @@ fn run(job: Job) -> Result<()> {
             let plain = if integers { Some(plain_types::package(&packed.fmu)?) } else { None };
             progress.finish();
             for file in std::iter::once(&packed.fmu).chain(&plain) {
-                println!("{}", places::shown(file));
+                println!("{}", paths::shown(file));
             }
             if !packed.left_out.is_empty() {
                 println!("{}", packed.left_out.join("; "));
@@ -257,13 +258,13 @@ fn run(job: Job) -> Result<()> {
         Job::Toolchains { platform } => toolchains::run(platform.as_deref())?,
         Job::Platforms { write } => platforms::run(write)?,
         Job::Describe { check } => {
-            let file = places::model_description();
+            let file = paths::model_description();
             if check && describe::is_stale(&file)? {
-                bail!("{} is stale; renew it: cargo run --release -- describe", places::shown(&file));
+                bail!("{} is stale; renew it: cargo run --release -- describe", paths::shown(&file));
             } else if !check {
                 describe::write(&file)?;
             }
-            println!("{} is up to date", places::shown(&file));
+            println!("{} is up to date", paths::shown(&file));
         }
         Job::Scene(scene) => scene.run()?,
         Job::Loads(loads) => loads.run()?,

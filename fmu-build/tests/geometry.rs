@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use fmu_build::geometry::command::{Geometry, files};
-use fmu_build::geometry::design::{Design, parameters};
-use fmu_build::geometry::dimensions::{Group, of_gears, of_pair};
-use fmu_build::geometry::interference::Check;
-use fmu_build::geometry::{json, text, tredgold};
+use fmu_build::gears::geometry::command::{Geometry, files};
+use fmu_build::gears::geometry::design::{Design, parameters};
+use fmu_build::gears::geometry::dimensions::{Group, of_gears, of_pair};
+use fmu_build::gears::geometry::interference::Check;
+use fmu_build::gears::geometry::{json, text, tredgold};
 use serde_json::Value;
 
 fn workspace() -> PathBuf {

@@ -2,11 +2,11 @@
 
 use bevel_differential::contact::errors::ToothErrorSpec;
 use bevel_differential::model::GearContact;
-use fmu_build::cost::csv;
-use fmu_build::pattern::cases::{Case, turn};
-use fmu_build::pattern::envelope::Envelope;
-use fmu_build::pattern::findings::{Findings, centroid, markdown};
-use fmu_build::pattern::sample::{Contact, Record};
+use fmu_build::gears::pattern::cases::{Case, turn};
+use fmu_build::gears::pattern::envelope::Envelope;
+use fmu_build::gears::pattern::findings::{Findings, centroid, markdown};
+use fmu_build::gears::pattern::sample::{Contact, Record};
+use fmu_build::measure::cost::csv;
 
 fn record(errors: &ToothErrorSpec) -> Record {
     Record::new(&turn(errors).expect("a scene")).expect("an engagement")
@@ -67,7 +67,7 @@ fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
     Envelope::new(record).rows("case", &mut envelope);
     csv::ensure_whole("contacts.csv", &contacts).expect("whole");
     csv::ensure_whole("pattern.csv", &envelope).expect("whole");
-    csv::ensure_whole("summary.csv", &fmu_build::pattern::findings::csv(&[found])).expect("whole");
+    csv::ensure_whole("summary.csv", &fmu_build::gears::pattern::findings::csv(&[found])).expect("whole");
 }
 
 #[test]

@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::scene::run::{Outcome, Run, run};
-use fmu_build::scene::{Scene, Track, files, find, load, loads, plan};
+use fmu_build::gears::scene::run::{Outcome, Run, run};
+use fmu_build::gears::scene::{Scene, Track, files, find, load, loads, plan};
 
 /// Communication steps that every scene has to take here.
 const STEPS: u64 = 20;
 /// Energy residual over the energy that goes through; solvers run at their start tolerance.
 const BALANCE: f64 = 1e-6;
 
-fn named(outcome: &Outcome, name: &str) -> fmu_build::scene::run::Summary {
+fn named(outcome: &Outcome, name: &str) -> fmu_build::gears::scene::run::Summary {
     *outcome.outputs.iter().find(|output| output.row.name == name).expect(name)
 }
 
@@ -116,8 +116,8 @@ fn scenes_without_teeth_have_no_loads() -> Result<()> {
 
 #[test]
 fn the_documentation_lists_the_scenes_as_the_command_does() -> Result<()> {
-    let page = std::fs::read_to_string(fmu_build::places::workspace().join("docs").join("scenes.md"))?;
-    assert!(page.contains(&fmu_build::scene::list()?), "docs/scenes.md: renew the list by `fmu-build scene`");
+    let page = std::fs::read_to_string(fmu_build::tools::paths::workspace().join("docs").join("scenes.md"))?;
+    assert!(page.contains(&fmu_build::gears::scene::list()?), "docs/scenes.md: renew the list by `fmu-build scene`");
     Ok(())
 }
 

@@ -1,0 +1,180 @@
+//! One host on one scene, in a process of its own.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+use serde::Deserialize;
+
+use super::list::{Host, Start};
+use crate::tools::paths;
+use crate::tools::python::Environment;
+
+/// Status of a script whose host cannot be loaded; common.py has the same.
+const CANNOT_LOAD: i32 = 3;
+/// The crate fmi-sim, which is a program of its own.
+const FMI_SIM: [&str; 2] = ["fmi-sim", "0.7.0"];
+
+/// A scene of tests/hosts/scenes.
+pub struct Scene {
+    /// Name of its file.
+    pub name: String,
+    /// Its file.
+    pub file: PathBuf,
+    /// What it tells that matters here.
+    pub told: Told,
+}
+
+/// Parts of a scene's file.
+#[derive(Deserialize)]
+pub struct Told {
+    /// What is simulated.
+    pub description: String,
+    /// Communication step [s].
+    pub step: f64,
+    /// Natural scale of each output.
+    pub outputs: BTreeMap<String, f64>,
+}
+
+/// What a script tells of a run.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Ran {
+    /// The host's version.
+    pub version: String,
+    /// From loading the FMU to freeing it [s].
+    pub seconds: f64,
+}
+
+/// How a run ended.
+pub enum Outcome {
+    /// With a table.
+    Ran(Ran),
+    /// Not at all: the host cannot be loaded here, and why.
+    Absent(String),
+}
+
+/// What hosts need before they run.
+pub struct Bench {
+    environment: Environment,
+    /// Where results go.
+    pub folder: PathBuf,
+    /// The program with the hosts in Rust, and fmi-sim; or why they are not there.
+    rust: Result<PathBuf, String>,
+    fmi_sim: Result<PathBuf, String>,
+}
+
+/// All scenes, by name.
+pub fn scenes() -> Result<Vec<Scene>> {
+    let folder = paths::hosts().join("scenes");
+    let mut files: Vec<PathBuf> = fs::read_dir(&folder)
+        .with_context(|| format!("{} cannot be read", folder.display()))?
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| path.extension().is_some_and(|ending| ending == "json"))
+        .collect();
+    files.sort();
+    let scene = |file: PathBuf| {
+        let told = serde_json::from_str(&fs::read_to_string(&file)?)
+            .with_context(|| format!("{} is no scene", paths::shown(&file)))?;
+        Ok(Scene { name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file, told })
+    };
+    files.into_iter().map(scene).collect()
+}
+
+impl Bench {
+    /// With the Python environment and, if `with_rust`, the hosts in Rust; `tell` hears what takes time.
+    pub fn ready(with_rust: bool, tell: impl Fn(&str)) -> Result<Self> {
+        let folder = paths::target().join("hosts");
+        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        let environment = Environment::for_hosts(&tell)?;
+        let left_out = || Err("left out without --with-fmi-sim, as its build takes minutes".to_owned());
+        let (mut rust, mut fmi_sim) = (left_out(), left_out());
+        if with_rust {
+            tell("building fmu-runner and fmi-rs");
+            rust = build_rust(&folder);
+            tell("building fmi-sim (many minutes)");
+            fmi_sim = install_fmi_sim(&folder);
+        }
+        Ok(Self { environment, folder, rust, fmi_sim })
+    }
+
+    /// Whether `host` was left out on demand.
+    pub fn leaves_out(&self, host: &Host, with_rust: bool) -> bool {
+        !with_rust && (matches!(host.start, Start::Rust(_)) || host.name == FMI_SIM[0])
+    }
+
+    /// Runs `host` on `scene` with `fmu`; its table goes to `out`.
+    pub fn run(&self, host: &Host, scene: &Scene, fmu: &Path, out: &Path) -> Result<Outcome> {
+        let mut command = match host.start {
+            Start::Script(script, _) => {
+                let mut command = self.environment.command();
+                command.arg(paths::hosts().join(script));
+                command
+            }
+            Start::Rust(name) => match &self.rust {
+                Ok(program) => {
+                    let mut command = Command::new(program);
+                    command.arg(name);
+                    command
+                }
+                Err(why) => return Ok(Outcome::Absent(why.clone())),
+            },
+        };
+        if host.name == FMI_SIM[0] {
+            match &self.fmi_sim {
+                Ok(program) => command.env("FMI_SIM", program),
+                Err(why) => return Ok(Outcome::Absent(why.clone())),
+            };
+        }
+        command.arg(fmu).arg(&scene.file).arg(out);
+        if let Start::Script(_, arguments) = host.start {
+            command.args(arguments);
+        }
+        // some write logs where they stand
+        command.current_dir(out.parent().unwrap_or(out));
+        let ended = command.output().with_context(|| format!("{} cannot be run", host.name))?;
+        let (printed, remarks) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
+        if ended.status.code() == Some(CANNOT_LOAD) {
+            return Ok(Outcome::Absent(format!("{} ({})", last_line(&remarks), host.hint)));
+        }
+        if !ended.status.success() {
+            bail!("{} fails on {} ({}):\n{}", host.name, scene.name, ended.status, remarks.trim_end());
+        }
+        let told = serde_json::from_str(last_line(&printed));
+        Ok(Outcome::Ran(told.with_context(|| format!("{} tells nothing of its run", host.name))?))
+    }
+}
+
+fn last_line(text: &str) -> &str {
+    text.trim_end().lines().next_back().unwrap_or_default()
+}
+
+fn build_rust(folder: &Path) -> Result<PathBuf, String> {
+    let manifest = paths::hosts().join("rust").join("Cargo.toml");
+    let target = folder.join("rust");
+    cargo(|command| {
+        command.args(["build", "--release", "--locked", "--quiet", "--manifest-path"]).arg(manifest);
+        command.arg("--target-dir").arg(&target);
+    })?;
+    Ok(target.join("release").join(format!("rust-hosts{}", env::consts::EXE_SUFFIX)))
+}
+
+fn install_fmi_sim(folder: &Path) -> Result<PathBuf, String> {
+    let [name, version] = FMI_SIM;
+    let root = folder.join(name);
+    cargo(|command| {
+        command.args(["install", name, "--version", version, "--locked", "--quiet", "--root"]).arg(&root);
+    })?;
+    Ok(root.join("bin").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
+}
+
+/// Runs cargo; the last line it says is the reason if it fails.
+fn cargo(arguments: impl FnOnce(&mut Command)) -> Result<(), String> {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    arguments(&mut command);
+    let output = command.output().map_err(|error| format!("cargo cannot be run: {error}"))?;
+    let remarks = String::from_utf8_lossy(&output.stderr);
+    if output.status.success() { Ok(()) } else { Err(format!("it does not build: {}", last_line(&remarks))) }
+}

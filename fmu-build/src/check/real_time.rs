@@ -1,0 +1,78 @@
+//! What the costliest communication step of the fixed-step method costs beside the median one: instructions, not time.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail, ensure};
+
+use crate::check::{stepping, zero_cost};
+use crate::tools::progress::Progress;
+use crate::tools::{paths, sections};
+
+/// Scenes, by the names that the stepping program knows.
+const SCENES: [(&str, &[&str]); 4] =
+    [("straight", &[]), ("turn", &[]), ("straight", &["rolling"]), ("turn", &["rolling", "reversal"])];
+/// Steps of the method [s].
+const SIZES: [&str; 3] = ["1e-3", "1e-4", "1e-5"];
+/// Communication steps of 1 ms.
+const STEPS: &str = "300";
+/// Most that the costliest step may cost over the median one.
+const MOST: f64 = 2.0;
+/// Where the table stands in docs/cost.md.
+const MARKS: [&str; 2] = ["<!-- real-time:begin -->", "<!-- real-time:end -->"];
+
+/// Counts every communication step, prints the table, and with `write` puts it into docs/cost.md; fails if one costs more
+/// than twice the median.
+pub fn run(write: bool) -> Result<()> {
+    let progress = Progress::start("building the stepping program");
+    let program = stepping::build(&zero_cost::EFFECTS, "full")?;
+    let folder = paths::target().join("real-time");
+    let mut table = String::from(
+        "| scene | `solver.fixed_step`, s | median | costliest | costliest / median |\n|---|---:|---:|---:|---:|\n",
+    );
+    let mut worst = 0.0f64;
+    for (scene, options) in SCENES {
+        for size in SIZES {
+            progress.tell(&format!("counting {scene} {}, steps of {size} s", options.join(" ")));
+            let _ = fs::remove_dir_all(&folder);
+            fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+            let file = format!("--callgrind-out-file={}", folder.join("count").display());
+            let each = ["--dump-after=*one_communication_step*", &file];
+            let fixed = format!("fixed_step={size}");
+            stepping::callgrind(&program, &each, &[&[scene, STEPS, "unread", &fixed], options].concat())?;
+            let mut counts = counts(&folder)?;
+            counts.sort_by(f64::total_cmp);
+            let (median, most) = (counts[counts.len() / 2], counts[counts.len() - 1]);
+            worst = worst.max(most / median);
+            let name = std::iter::once(scene).chain(options.iter().copied()).collect::<Vec<_>>().join(", ");
+            table.push_str(&format!("| {name} | {size} | {median:.0} | {most:.0} | {:.2} |\n", most / median));
+        }
+    }
+    progress.finish();
+    table.push_str(&format!("\nInstructions of a communication step of 1 ms, {STEPS} steps each.\n"));
+    println!("{table}");
+    if worst > MOST {
+        bail!("the costliest step costs {worst:.2} times the median one, more than {MOST}");
+    }
+    if write {
+        sections::renew("docs/cost.md", MARKS, &table)?;
+    }
+    Ok(())
+}
+
+/// Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
+/// the program as well, and `count` its end.
+fn counts(folder: &Path) -> Result<Vec<f64>> {
+    let mut counts = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let part = path.extension().and_then(|part| part.to_str()?.parse::<u32>().ok());
+        if part.is_some_and(|part| part > 1) {
+            let text = fs::read_to_string(&path)?;
+            let count = text.lines().find_map(|line| line.strip_prefix("summary:")?.trim().parse::<f64>().ok());
+            counts.push(count.with_context(|| format!("{} tells no count", path.display()))?);
+        }
+    }
+    ensure!(counts.len() > 1, "callgrind told no step by itself: has the stepping program its symbols?");
+    Ok(counts)
+}

@@ -1,0 +1,105 @@
+//! Proof that an effect that is off is nothing: builds that leave its file out are compared with the full build, bit by
+//! bit and instruction by instruction.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::Command;
+
+use anyhow::{Context, Result, bail, ensure};
+
+use crate::check::stepping;
+use crate::tools::progress::Progress;
+use crate::tools::sections;
+
+/// Every effect with a file of its own, by the name of its cargo feature.
+pub const EFFECTS: [&str; 11] = [
+    "bearing_drag",
+    "final_drive",
+    "half_shaft",
+    "limited_slip",
+    "lock",
+    "pin_compliance",
+    "strength",
+    "thrust_friction",
+    "tooth_errors",
+    "tooth_fault",
+    "tooth_friction",
+];
+
+/// Where the table stands in docs/effects.md.
+const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];
+
+/// Steps of the two runs whose difference is counted: starting up cancels.
+const STEPS: [u32; 2] = [100, 300];
+
+/// What a run gave.
+#[derive(Clone, Debug, PartialEq)]
+struct Run {
+    bits: String,
+    /// Instructions per communication step.
+    instructions: f64,
+}
+
+/// Compares builds without each effect (`quick`: only one without all of them), prints the table, and with `write` puts it
+/// into docs/effects.md; fails if anything differs.
+pub fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("building with all effects");
+    let full = stepping::build(&EFFECTS, "full")?;
+    let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
+    let mut rows = String::new();
+    let mut different = Vec::new();
+    let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
+        progress.tell(&format!("building without {what}"));
+        let without = stepping::build(kept, "less")?;
+        let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
+        if runs != off {
+            different.push(format!("{what}: {runs:?} left out, {off:?} off"));
+        }
+        Ok(runs[1].instructions)
+    };
+    let without_any = if quick { Some(compare("all of them", &[])?) } else { None };
+    for effect in EFFECTS {
+        let left_out = match without_any {
+            Some(count) => count,
+            None => compare(effect, &EFFECTS.into_iter().filter(|&e| e != effect).collect::<Vec<_>>())?,
+        };
+        let on = measure(&full, "turn", &[effect])?.instructions;
+        let cost = on / off[1].instructions;
+        writeln!(rows, "| `{effect}` | {left_out:.0} | {:.0} | {on:.0} | {cost:.2} |", off[1].instructions)?;
+    }
+    progress.finish();
+    let table = format!(
+        "| effect | left out | off | on | on / off |\n|---|---:|---:|---:|---:|\n{rows}\n\
+         Instructions per communication step of 1 ms in the study's turn. {} \
+         Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
+        if quick {
+            "\"Left out\" is one build without any of these files; its results have the same bits."
+        } else {
+            "\"Left out\" is a build without the file of this effect; its results have the same bits."
+        }
+    );
+    println!("{table}");
+    if !different.is_empty() {
+        bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
+    }
+    if write {
+        sections::renew("docs/effects.md", MARKS, &table)?;
+    }
+    Ok(())
+}
+
+fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
+    let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
+    ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
+    let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
+    let mut counts = [0.0; 2];
+    for (count, steps) in counts.iter_mut().zip(STEPS) {
+        let steps = steps.to_string();
+        let told = stepping::callgrind(program, &[], &[&[scene, &steps, "unread"], effects].concat())?;
+        *count = told
+            .lines()
+            .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
+            .context("valgrind gave no count")?;
+    }
+    Ok(Run { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
+}

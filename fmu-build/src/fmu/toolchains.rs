@@ -1,0 +1,112 @@
+//! The tool chains for the users' machines, each in a folder of its own beside the system: none is needed for the main
+//! job, and the packager takes what is there.
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail};
+use bevel_differential::variables;
+
+use crate::tools::paths;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+
+/// How to get them, for hints.
+pub const COMMAND: &str = "cargo run --release -- toolchains";
+
+/// Oldest glibc that the library for Linux is linked for.
+pub const GLIBC: &str = "2.17";
+
+/// Rust's name of the Windows that is built for.
+pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
+
+/// Makes the tool chains that do not exist yet, or that for `platform` alone, and tells where they are.
+pub fn run(platform: Option<&str>) -> Result<()> {
+    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+        bail!("the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone");
+    }
+    if let Some(other) = platform.filter(|name| !["linux64", "win64"].contains(name)) {
+        bail!("there is no tool chain for \"{other}\", only for linux64 and win64");
+    }
+    let wanted = |name| platform.is_none_or(|only| only == name);
+    let progress = Progress::start("looking for Python");
+    let mut made = Vec::new();
+    if wanted("linux64") {
+        let linux = Environment::for_old_linux(|what| progress.tell(what))?;
+        made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
+    }
+    if wanted("win64") {
+        let windows = Windows::made(&progress)?;
+        made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
+    }
+    progress.finish();
+    println!("{}", made.join("\n"));
+    Ok(())
+}
+
+/// Rust for Windows, a linker, and wine, unpacked from Debian's packages.
+pub struct Windows {
+    folder: PathBuf,
+}
+
+impl Windows {
+    /// The tool chain if it has been made by today's script.
+    pub fn found() -> Option<Self> {
+        let windows = Self { folder: paths::toolchains().join("windows") };
+        let wanted = stamp().ok()?;
+        fs::read_to_string(windows.stamp()).is_ok_and(|found| found == wanted).then_some(windows)
+    }
+
+    fn made(progress: &Progress) -> Result<Self> {
+        if let Some(windows) = Self::found() {
+            return Ok(windows);
+        }
+        let windows = Self { folder: paths::toolchains().join("windows") };
+        progress.tell("unpacking Rust, MinGW and wine for Windows (280 MB to download)");
+        let output = Command::new("bash")
+            .arg(script())
+            .arg(&windows.folder)
+            .stdin(Stdio::null())
+            .output()
+            .context("bash, which unpacks the tool chain for Windows, cannot be run")?;
+        if !output.status.success() {
+            bail!("the tool chain for Windows cannot be made: {}", String::from_utf8_lossy(&output.stderr).trim_end());
+        }
+        fs::write(windows.stamp(), stamp()?)?;
+        Ok(windows)
+    }
+
+    fn stamp(&self) -> PathBuf {
+        self.folder.join("stamp")
+    }
+
+    /// The folder with the programs to call: rustc, the linker, wine64.
+    pub fn programs(&self) -> PathBuf {
+        self.folder.join("bin")
+    }
+
+    /// The folder that the packages are unpacked to.
+    pub fn root(&self) -> PathBuf {
+        self.folder.join("root")
+    }
+}
+
+/// The search path with `folder` before all others.
+pub fn path_with(folder: &Path) -> Result<OsString> {
+    let path = env::var_os("PATH").unwrap_or_default();
+    let folders = std::iter::once(folder.to_path_buf()).chain(env::split_paths(&path));
+    env::join_paths(folders).with_context(|| format!("{} cannot be put into PATH", folder.display()))
+}
+
+fn script() -> PathBuf {
+    paths::workspace().join("fmu-build").join("cross").join("windows.sh")
+}
+
+/// Changes with the script.
+fn stamp() -> Result<String> {
+    let script = fs::read(script()).context("fmu-build/cross/windows.sh cannot be read")?;
+    Ok(format!("{:016x}\n", variables::fnv1a(script.into_iter())))
+}

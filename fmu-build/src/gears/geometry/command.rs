@@ -1,0 +1,98 @@
+//! The command `geometry`: checks the gears, makes every file in memory, and only then writes them.
+
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, anyhow, bail};
+
+use super::design::Design;
+use super::interference::Check;
+use super::made::Made;
+use super::{json, models, text};
+use crate::gears::scene::set::{real, value, variable};
+use crate::tools::paths;
+use crate::tools::progress::Progress;
+
+/// Facets per flank unless told otherwise.
+const FACETS: usize = 32;
+/// Fewest and most facets per flank: fewer show no involute, more make files that no CAD program wants.
+const FACETS_RANGE: (usize, usize) = (2, 1000);
+
+/// `geometry [--set NAME=VALUE]... [--facets N] [--thicken LENGTH] [--out DIR]`.
+#[derive(Clone, Debug, Default)]
+pub struct Geometry {
+    /// What to set, each `name=value`.
+    pub set: Vec<String>,
+    /// Facets per flank, as written.
+    pub facets: Option<String>,
+    /// By how much teeth are thicker in the check of interference, as written.
+    pub thicken: Option<String>,
+    /// Where to put the files.
+    pub out: Option<PathBuf>,
+}
+
+impl Geometry {
+    /// Does it.
+    pub fn run(&self) -> Result<()> {
+        let (design, facets, thicken) = match (Design::new(&self.set), self.facets(), self.thicken()) {
+            (Ok(design), Ok(facets), Ok(thicken)) => (design, facets, thicken),
+            (design, facets, thicken) => {
+                let problems = [design.err(), facets.err(), thicken.err()].into_iter().flatten();
+                bail!("{}", problems.map(|problem| problem.to_string()).collect::<Vec<_>>().join("\n"))
+            }
+        };
+        let progress = Progress::start("turning the gears through a tooth pitch");
+        let check = Check::new(&design, thicken)?;
+        progress.tell("making curves and solids");
+        let made = files(&design, &check, facets)?;
+        progress.finish();
+        let folder = self.out.clone().unwrap_or_else(|| paths::target().join("geometry"));
+        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        for file in &made {
+            let path = folder.join(&file.name);
+            fs::write(&path, &file.content).with_context(|| format!("{} cannot be written", path.display()))?;
+        }
+        let (table, found) = (text::text(&design), check.text());
+        print!("{table}\n{found}\nfiles in {}\n{}", paths::shown(&folder), list(&made));
+        Ok(())
+    }
+
+    fn facets(&self) -> Result<usize> {
+        let Some(text) = &self.facets else { return Ok(FACETS) };
+        let (least, most) = FACETS_RANGE;
+        let number = text.parse().ok().filter(|number| (least..=most).contains(number));
+        number.ok_or_else(|| anyhow!("--facets {text}: must be a whole number from {least} to {most}"))
+    }
+
+    /// In metres, within the range that backlash has.
+    fn thicken(&self) -> Result<f64> {
+        let Some(text) = &self.thicken else { return Ok(0.0) };
+        let number = variable("geometry.backlash").and_then(|row| real(row, &value(text)));
+        number.map_err(|problem| anyhow!("--thicken {text}: {problem}"))
+    }
+}
+
+/// All files of `design` and its `check`, with `facets` per flank where flanks are divided.
+pub fn files(design: &Design, check: &Check, facets: usize) -> Result<Vec<Made>> {
+    let mut made = vec![
+        Made::text("dimensions.txt", text::text(design)),
+        Made::text("dimensions.json", json::text(design, Some(check))?),
+        Made::text("interference.txt", check.text()),
+    ];
+    made.extend(models::files(design, facets)?);
+    Ok(made)
+}
+
+/// Names and sizes, a line each.
+fn list(made: &[Made]) -> String {
+    let width = made.iter().map(|file| file.name.len()).max().unwrap_or(0);
+    made.iter().map(|file| format!("  {:<width$}  {:>7}\n", file.name, size(file.content.len()))).collect()
+}
+
+fn size(bytes: usize) -> String {
+    match bytes {
+        0..1_000 => format!("{bytes} B"),
+        1_000..1_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}

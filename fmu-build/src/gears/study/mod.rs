@@ -1,0 +1,76 @@
+//! The main job: package the FMU, simulate the study's two cases through fmpy, compare with the study and with theory.
+
+pub mod comparison;
+pub mod evaluation;
+pub mod published;
+pub mod report;
+pub mod theory;
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use bevel_differential::model::Parameters;
+
+use crate::fmu::package;
+use crate::gears::study::evaluation::{Order, Results};
+use crate::gears::study::theory::Theory;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// Between these lines of the README stands the table.
+const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
+
+/// Does the study; with `readme` the README's table and pictures are renewed.
+pub fn run(readme: bool) -> Result<()> {
+    // Python first: what the user has to install should not come out after minutes of building
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::ready(|what| progress.tell(what))?;
+    progress.tell("packaging the FMU");
+    let fmu = package::package()?;
+    let folder = paths::study();
+    fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    let theory = Theory::new(&Parameters::default());
+    let results = simulate(&environment, &fmu, &folder, &Order::new(&theory), &progress)?;
+    progress.finish();
+    let report = comparison::report(&theory, &results);
+    let markdown = report.markdown();
+    fs::write(folder.join("table.md"), &markdown).context("the table cannot be written")?;
+    print!("{}", report.terminal());
+    println!("\nFMU:     {}\nresults: {}", paths::shown(&fmu), paths::shown(&folder));
+    if readme {
+        sections::renew("README.md", MARKS, &markdown)?;
+        copy_pictures(&folder)?;
+        println!("renewed: README.md, docs/images");
+    }
+    Ok(())
+}
+
+/// Runs study.py in `folder` and reads what it found.
+fn simulate(
+    environment: &Environment,
+    fmu: &Path,
+    folder: &Path,
+    order: &Order,
+    progress: &Progress,
+) -> Result<Results> {
+    fs::write(folder.join("order.json"), order.json()?).context("the order for study.py cannot be written")?;
+    let study = paths::workspace().join("fmu-build").join("python").join("study.py");
+    progress.begin_bar("simulating");
+    script::run(environment, &study, &[fmu, folder], progress)?;
+    let results = fs::read_to_string(folder.join("results.json")).context("study.py left no results")?;
+    serde_json::from_str(&results).context("the results of study.py cannot be read")
+}
+
+fn copy_pictures(folder: &Path) -> Result<()> {
+    let images = paths::workspace().join("docs").join("images");
+    fs::create_dir_all(&images).context("docs/images cannot be made")?;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
+            fs::copy(&path, images.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,41 @@
+//! This program beside MuJoCo and Drake on the study's two cases: their own Python environment, one run, one table.
+
+use std::ffi::OsString;
+use std::fs;
+
+use anyhow::{Context, Result};
+
+use crate::fmu::package;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// The document with the table, the table's place, and the picture beside it.
+const DOCUMENT: &str = "docs/compare.md";
+const MARKS: [&str; 2] = ["<!-- peers:begin -->", "<!-- peers:end -->"];
+const PICTURE: &str = "peers.png";
+
+/// Runs benches/peers/run.py and prints its table; `quick`: a few rows, once; `write`: also renews the document.
+pub fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::for_peers(|what| progress.tell(what))?;
+    progress.tell("packaging the FMU");
+    let fmu = package::package()?;
+    let folder = paths::target().join("peers");
+    let mut arguments: Vec<OsString> = vec![fmu.into(), folder.clone().into()];
+    if quick {
+        arguments.push("--quick".into());
+    }
+    progress.begin_bar("comparing");
+    let table = script::run(&environment, &paths::peers().join("run.py"), &arguments, &progress)?;
+    progress.finish();
+    print!("{table}");
+    println!("\nresults: {}", paths::shown(&folder));
+    if write {
+        sections::renew(DOCUMENT, MARKS, &table)?;
+        let images = paths::workspace().join("docs").join("images");
+        fs::copy(folder.join(PICTURE), images.join(PICTURE)).context("the picture cannot be copied to docs/images")?;
+        println!("renewed: {DOCUMENT}, docs/images/{PICTURE}");
+    }
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! The program's method beside solvers that others wrote, on the same equations: one run, one table.
+
+use std::ffi::OsString;
+
+use anyhow::Result;
+
+use crate::fmu::package;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// The document with the table, and the table's place.
+const DOCUMENT: &str = "docs/foreign-solvers.md";
+const MARKS: [&str; 2] = ["<!-- foreign:begin -->", "<!-- foreign:end -->"];
+
+/// Runs benches/foreign/compare.py and prints its table; `quick`: two cases, once; `write`: also renews the document.
+pub fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::for_foreign(|what| progress.tell(what))?;
+    progress.tell("building the equations as a library");
+    let library = package::build_library("foreign-solvers")?;
+    let folder = paths::target().join("cost");
+    let mut arguments: Vec<OsString> = vec![library.into(), folder.clone().into()];
+    if quick {
+        arguments.push("--quick".into());
+    }
+    progress.begin_bar("comparing");
+    let table = script::run(&environment, &paths::foreign().join("compare.py"), &arguments, &progress)?;
+    progress.finish();
+    print!("{table}");
+    println!("\nresults: {}", paths::shown(&folder.join("foreign.csv")));
+    if write {
+        sections::renew(DOCUMENT, MARKS, &table)?;
+        println!("renewed: {DOCUMENT}");
+    }
+    Ok(())
+}

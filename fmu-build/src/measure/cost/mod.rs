@@ -1,0 +1,163 @@
+//! What accuracy costs: figures that the program measures of itself.
+//!
+//! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
+//! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
+//! 3. Effects: what each changes in a scene, what it costs, and which the scene calls for ([`switched`]).
+//! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
+//!
+//! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
+
+pub mod cases;
+pub mod communication;
+pub mod coupling;
+pub mod csv;
+pub mod fidelity;
+pub mod measure;
+pub mod reference;
+pub mod summary;
+pub mod switched;
+pub mod vehicle;
+pub mod work_precision;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// Where the summary stands.
+const DOCUMENT: &str = "docs/cost.md";
+const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
+/// Share of the bar that belongs to each figure, and to drawing.
+const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
+
+/// The command `cost [--quick] [--write] [--out DIR]`.
+#[derive(Clone, Debug, Default)]
+pub struct Cost {
+    /// The short form.
+    pub quick: bool,
+    /// Whether to renew the documents.
+    pub write: bool,
+    /// Where to put the files.
+    pub out: Option<PathBuf>,
+}
+
+/// How much is measured.
+pub struct Form {
+    /// Relative tolerances.
+    pub tolerances: &'static [f64],
+    /// Steps of the method with fixed ones [s].
+    pub fixed_steps: &'static [f64],
+    /// Communication steps, each an exact part of 0.1 s [s].
+    pub communication_steps: &'static [f64],
+    /// Scenes whose effects are switched.
+    pub scenes: &'static [&'static str],
+    /// Runs of each setting.
+    pub runs: usize,
+    /// Seconds on the processor after which a run is given up.
+    pub patience: f64,
+    /// Whether the ladder leaves out rungs between others.
+    pub short: bool,
+}
+
+const FULL: Form = Form {
+    tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
+    fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
+    communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
+    scenes: &["torque_bias", "clunk"],
+    runs: 15,
+    patience: 10.0,
+    short: false,
+};
+
+const QUICK: Form = Form {
+    tolerances: &[1e-3, 1e-6, 1e-9],
+    fixed_steps: &[1e-4, 1e-5],
+    communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
+    scenes: &["clunk"],
+    runs: 5,
+    patience: 0.5,
+    short: true,
+};
+
+impl Cost {
+    /// Does it.
+    pub fn run(&self) -> Result<()> {
+        let form = if self.quick { QUICK } else { FULL };
+        // Python first: what the user has to install should not come out after minutes of measuring
+        let progress = Progress::start("looking for Python");
+        let environment = Environment::ready(|what| progress.tell(what))?;
+        let folder = self.out.clone().unwrap_or_else(|| paths::target().join("cost"));
+        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        let begun = Instant::now();
+        progress.begin_bar("measuring");
+        let tell = |part: usize, done: f64, what: &str| {
+            let done = SHARES[..part].iter().sum::<f64>() + SHARES[part] * done;
+            progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
+        };
+        let found = work_precision::measure(&form, &mut |done, what| tell(0, done, what))?;
+        save(&folder, "work_precision.csv", &found.csv())?;
+        save(
+            &folder,
+            "communication_step.csv",
+            &communication::measure(&form, &mut |done, what| tell(1, done, what))?,
+        )?;
+        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| tell(2, done, what))?)?;
+        save(&folder, "effects.csv", &switched::measure(&form, &mut |done, what| tell(3, done, what))?)?;
+        tell(4, 0.0, "drawing");
+        let script = paths::workspace().join("fmu-build").join("python").join("cost.py");
+        script::run(&environment, &script, &[&folder], &progress)?;
+        progress.finish();
+        let tables = summary::tables(&found);
+        for table in &tables {
+            println!("{}", table.terminal());
+        }
+        let mut files = files(&folder)?;
+        files.sort();
+        println!("machine: {}\nfiles:", measure::machine());
+        files.iter().for_each(|file| println!("  {}", paths::shown(file)));
+        if self.write {
+            let text: Vec<String> = tables.iter().map(summary::Table::markdown).collect();
+            let text = format!("{}\nMeasured on {}.\n", text.join("\n"), measure::machine());
+            sections::renew(DOCUMENT, MARKS, &text)?;
+            copy_pictures(&files)?;
+            println!("renewed: {DOCUMENT}, docs/figures");
+        }
+        Ok(())
+    }
+}
+
+/// How long it will take, once that can be told.
+fn left(seconds: f64, done: f64) -> String {
+    if seconds < 2.0 || done < 0.01 {
+        return String::new();
+    }
+    let left = seconds * (1.0 - done) / done;
+    if left < 60.0 { format!(", {left:.0} s left") } else { format!(", {:.0} min left", (left / 60.0).ceil()) }
+}
+
+fn save(folder: &Path, name: &str, text: &str) -> Result<()> {
+    csv::ensure_whole(name, text)?;
+    fs::write(folder.join(name), text).with_context(|| format!("{} cannot be written", folder.join(name).display()))
+}
+
+fn files(folder: &Path) -> Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(folder).with_context(|| format!("{} cannot be read", folder.display()))?;
+    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
+    let known = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "png" || ending == "csv");
+    Ok(paths.filter(known).collect())
+}
+
+fn copy_pictures(files: &[PathBuf]) -> Result<()> {
+    let figures = paths::workspace().join("docs").join("figures");
+    fs::create_dir_all(&figures).context("docs/figures cannot be made")?;
+    for path in files.iter().filter(|path| path.extension().is_some_and(|ending| ending == "png")) {
+        let name = path.file_name().unwrap_or_default();
+        fs::copy(path, figures.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
+    }
+    Ok(())
+}

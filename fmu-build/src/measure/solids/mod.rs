@@ -1,0 +1,127 @@
+//! What facets cost in accuracy and in time: solid teeth in the study's turn, held against exact ones.
+//!
+//! Solids of 4 to 128 facets a flank run beside teeth on the path of contact ([`run`]), with the deepest point nearly alone and
+//! with the patch; errors, their orders in the number of facets, and times ([`measured`], [`errors`]) become a CSV file
+//! each, figures by python/solids.py, docs/solids.md and a table in README.md.
+
+pub mod csv;
+pub mod errors;
+pub mod findings;
+pub mod measured;
+pub mod run;
+pub mod tables;
+
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
+
+use crate::measure::cost::csv::ensure_whole;
+use crate::measure::cost::measure::machine;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+use measured::{Form, Measured};
+use run::Window;
+
+const DOCUMENT: &str = "docs/solids.md";
+const MARKS: [&str; 2] = ["<!-- solids:begin -->", "<!-- solids:end -->"];
+const README: [&str; 2] = ["<!-- solids table begin -->", "<!-- solids table end -->"];
+const PICTURES: [&str; 2] = ["solids_convergence.png", "solids_cycle.png"];
+
+/// Facets, and how far from that of exact teeth their mean force may be, relative.
+const BOUNDS: [(i32, f64); 2] = [(32, 1e-2), (128, 1e-3)];
+
+/// From 0.14 s two mesh cycles of 0.18 s each are left.
+const FULL: Form = Form {
+    facets: &[4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128],
+    window: Window { settled: 0.14, close: 0.32, end: 0.5 },
+    runs: 5,
+};
+
+const QUICK: Form = Form { facets: &[4, 8, 16, 32], window: Window { settled: 0.02, close: 0.05, end: 0.1 }, runs: 5 };
+
+/// The command `solids [--quick] [--write] [--out DIR]`.
+#[derive(Clone, Debug, Default)]
+pub struct Solids {
+    /// The short form.
+    pub quick: bool,
+    /// Whether to renew the documents.
+    pub write: bool,
+    /// Where to put the files.
+    pub out: Option<PathBuf>,
+}
+
+impl Solids {
+    /// Does it.
+    pub fn run(&self) -> Result<()> {
+        ensure!(!(self.quick && self.write), "documents want all facets: leave --quick out");
+        let progress = Progress::start("looking for Python");
+        let environment = Environment::ready(|what| progress.tell(what))?;
+        let folder = self.out.clone().unwrap_or_else(|| paths::target().join("solids"));
+        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        progress.begin_bar("measuring");
+        let form = if self.quick { QUICK } else { FULL };
+        let found = measured::measure(form, &mut |done, what| progress.advance(0.95 * done, what))?;
+        for (name, text) in [("solids.csv", csv::errors(&found)), ("solids_cycle.csv", csv::cycle(&found))] {
+            ensure_whole(name, &text)?;
+            fs::write(folder.join(name), text).with_context(|| format!("{name} cannot be written"))?;
+        }
+        progress.advance(0.95, "drawing");
+        let drawing = paths::workspace().join("fmu-build").join("python").join("solids.py");
+        script::run(&environment, &drawing, &[&folder], &progress)?;
+        progress.finish();
+        let page = page(&found);
+        println!("{page}\nfiles: {}", paths::shown(&folder));
+        verdict(&found)?;
+        if self.write {
+            sections::renew(DOCUMENT, MARKS, &page)?;
+            let table = tables::markdown(&tables::spikes(&found));
+            sections::renew("README.md", README, &format!("{table}\n{}\n", findings::readme(&found)))?;
+            let figures = paths::workspace().join("docs").join("figures");
+            for name in PICTURES {
+                fs::copy(folder.join(name), figures.join(name)).with_context(|| format!("{name} cannot be copied"))?;
+            }
+            println!("renewed: {DOCUMENT}, README.md, docs/figures");
+        }
+        Ok(())
+    }
+}
+
+/// What is written into the document.
+fn page(found: &Measured) -> String {
+    let part = |title: &str, rows: Vec<Vec<String>>| format!("{title}\n\n{}\n", tables::markdown(&rows));
+    [
+        findings::page(found),
+        part("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", tables::errors(found, 1)),
+        part("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", tables::errors(found, 0)),
+        part("Orders observed between facet numbers, patch:", tables::orders(found, 1)),
+        part("Orders observed between facet numbers, deepest point:", tables::orders(found, 0)),
+        format!(
+            "Last rows of the first two tables: exact teeth at 1e-6 against themselves at 1e-9. Measured on {}.\n",
+            machine()
+        ),
+    ]
+    .join("\n")
+}
+
+/// Whether solids come to exact teeth; whether they are faster than real time is only told, as machines differ.
+fn verdict(found: &Measured) -> Result<()> {
+    for (facets, bound) in BOUNDS {
+        let Some(row) = found.solid(facets, 1) else { continue };
+        let (mean, exact) = (row.look.mean, found.tooth().look.mean);
+        let off = (mean / exact - 1.0).abs();
+        println!(
+            "{facets} facets: mean force {mean:.1} N, of exact teeth {exact:.1} N, {:.4} % off; {:.2} × real time",
+            100.0 * off,
+            row.real_time(&found.form)
+        );
+        ensure!(
+            off <= bound,
+            "{facets} facets miss the mean force by {:.3} %, more than {} %",
+            100.0 * off,
+            100.0 * bound
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,9 @@
+//! Shared tools: tables, marked sections of documents, paths, progress, Python. Nothing here knows gears or the FMU, and
+//! nothing here uses another room.
+
+pub mod paths;
+pub mod progress;
+pub mod python;
+pub mod script;
+pub mod sections;
+pub mod table;
