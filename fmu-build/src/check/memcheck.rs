@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
 use bevel_differential::variables::{guid, table};
+use clap::Args;
 
 use crate::check::fuzz;
 use crate::fmu::package;
@@ -59,8 +60,18 @@ struct Checked {
     seconds: f64,
 }
 
-/// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
-pub fn run() -> Result<()> {
+/// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
+#[derive(Args, Clone, Debug)]
+pub struct MemcheckCommand {}
+
+impl MemcheckCommand {
+    /// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
+    pub fn run(&self) -> Result<()> {
+        run()
+    }
+}
+
+fn run() -> Result<()> {
     let progress = Progress::start("building the library and the host");
     let library = package::build_library("bevel-differential")?;
     let life = compiled("life", &[])?;

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 
 use crate::fmu::libraries::{self, Library};
 use crate::fmu::package;
@@ -15,8 +16,22 @@ use crate::tools::{paths, script, sections};
 const DOCUMENT: &str = "docs/platforms.md";
 const MARKS: [&str; 2] = ["<!-- platforms:begin -->", "<!-- platforms:end -->"];
 
-/// Runs platforms.py and prints its tables, with `write` also into the document; fails if bits differ.
-pub fn run(write: bool) -> Result<()> {
+/// Checks that the libraries of all platforms give the same bits, Windows under wine
+#[derive(Args, Clone, Debug)]
+pub struct PlatformsCommand {
+    /// Also renew docs/platforms.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl PlatformsCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.write)
+    }
+}
+
+fn run(write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::ready(|what| progress.tell(what))?;
     let (Some(_), Some(windows)) = (Environment::old_linux(), Windows::found()) else {

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
 
 use crate::check::{stepping, zero_cost};
 use crate::tools::progress::Progress;
@@ -21,9 +22,22 @@ const MOST: f64 = 2.0;
 /// Where the table stands in docs/cost.md.
 const MARKS: [&str; 2] = ["<!-- real-time:begin -->", "<!-- real-time:end -->"];
 
-/// Counts every communication step, prints the table, and with `write` puts it into docs/cost.md; fails if one costs more
-/// than twice the median.
-pub fn run(write: bool) -> Result<()> {
+/// Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)
+#[derive(Args, Clone, Debug)]
+pub struct RealTimeCommand {
+    /// Also renew the table in docs/cost.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl RealTimeCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.write)
+    }
+}
+
+fn run(write: bool) -> Result<()> {
     let progress = Progress::start("building the stepping program");
     let program = stepping::build(&zero_cost::EFFECTS, "full")?;
     let folder = paths::target().join("real-time");

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
 
 use crate::check::stepping;
 use crate::tools::progress::Progress;
@@ -40,9 +41,25 @@ struct Run {
     instructions: f64,
 }
 
-/// Compares builds without each effect (`quick`: only one without all of them), prints the table, and with `write` puts it
-/// into docs/effects.md; fails if anything differs.
-pub fn run(quick: bool, write: bool) -> Result<()> {
+/// Checks that an effect that is off costs nothing, by bits and instructions of builds without it (needs valgrind)
+#[derive(Args, Clone, Debug)]
+pub struct ZeroCostCommand {
+    /// Compare with one build without any effect
+    #[arg(long)]
+    quick: bool,
+    /// Also renew the table in docs/effects.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl ZeroCostCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.quick, self.write)
+    }
+}
+
+fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("building with all effects");
     let full = stepping::build(&EFFECTS, "full")?;
     let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];

@@ -3,21 +3,45 @@
 use std::fs;
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
 use bevel_differential::model::Parameters;
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
     Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, real_start, table,
 };
+use clap::Args;
 
 use crate::fmu::xml::Element;
+use crate::tools::paths;
 
 /// Fixed, so that the same sources give the same bytes.
 const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
 /// The study's duration and output interval [s].
 const STOP_TIME: f64 = 0.5;
 const STEP_SIZE: f64 = 0.001;
+
+/// Writes modelDescription/modelDescription.xml
+#[derive(Args, Clone, Debug)]
+pub struct DescribeCommand {
+    /// Only check whether the file is up to date
+    #[arg(long)]
+    check: bool,
+}
+
+impl DescribeCommand {
+    /// Writes or checks the file.
+    pub fn run(&self) -> Result<()> {
+        let file = paths::model_description();
+        if !self.check {
+            write(&file)?;
+        } else if is_stale(&file)? {
+            bail!("{} is out of date; renew it: cargo run --release -- describe", paths::shown(&file));
+        }
+        println!("{} is up to date", paths::shown(&file));
+        Ok(())
+    }
+}
 
 /// The model description as a text.
 pub fn model_description() -> Result<String> {

@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use bevel_differential::variables::MODEL_NAME;
+use clap::Args;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, Library};
-use crate::fmu::{describe, documentation, licences};
+use crate::fmu::{describe, documentation, licences, plain_types};
 use crate::tools::paths;
+use crate::tools::progress::Progress;
 
 pub use crate::fmu::libraries::build_library;
 
@@ -24,6 +26,31 @@ struct Entry {
     path: String,
     content: Vec<u8>,
     permissions: u32,
+}
+
+/// Builds target/fmu/BevelDifferential.fmu for every platform whose tool chain is installed
+#[derive(Args, Clone, Debug)]
+pub struct PackageCommand {
+    /// Also build BevelDifferential_integers.fmu, for hosts without enumerations (libcosim, Ecos)
+    #[arg(long)]
+    integers: bool,
+}
+
+impl PackageCommand {
+    /// Packages the FMU and prints where it is.
+    pub fn run(&self) -> Result<()> {
+        let progress = Progress::start("packaging the FMU");
+        let packed = packed()?;
+        let plain = if self.integers { Some(plain_types::package(&packed.fmu)?) } else { None };
+        progress.finish();
+        for file in std::iter::once(&packed.fmu).chain(&plain) {
+            println!("{}", paths::shown(file));
+        }
+        if !packed.left_out.is_empty() {
+            println!("{}", packed.left_out.join("; "));
+        }
+        Ok(())
+    }
 }
 
 /// A packed FMU.

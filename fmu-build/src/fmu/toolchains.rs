@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 
 use anyhow::{Context, Result, bail};
 use bevel_differential::variables;
+use clap::Args;
 
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -23,13 +24,26 @@ pub const GLIBC: &str = "2.17";
 /// Rust's name of the Windows that is built for.
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 
-/// Makes the tool chains that do not exist yet, or that for `platform` alone, and tells where they are.
-pub fn run(platform: Option<&str>) -> Result<()> {
+/// Installs the tool chains for old Linux systems and for Windows, with wine, in target/toolchains
+///
+/// They need Debian on x86-64, 400 MB to download and 2 GB on disk. Packaging uses them from then on.
+#[derive(Args, Clone, Debug)]
+pub struct ToolchainsCommand {
+    /// Install only this one
+    #[arg(value_parser = ["linux64", "win64"])]
+    platform: Option<String>,
+}
+
+impl ToolchainsCommand {
+    /// Installs what is missing and prints where it is.
+    pub fn run(&self) -> Result<()> {
+        run(self.platform.as_deref())
+    }
+}
+
+fn run(platform: Option<&str>) -> Result<()> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         bail!("the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone");
-    }
-    if let Some(other) = platform.filter(|name| !["linux64", "win64"].contains(name)) {
-        bail!("there is no tool chain for \"{other}\", only for linux64 and win64");
     }
     let wanted = |name| platform.is_none_or(|only| only == name);
     let progress = Progress::start("looking for Python");

@@ -6,3 +6,32 @@ pub mod geometry;
 pub mod pattern;
 pub mod scene;
 pub mod study;
+
+use anyhow::Result;
+use clap::Subcommand;
+
+/// A command for users of the gears.
+#[derive(Subcommand)]
+#[allow(missing_docs)] // each command describes itself
+pub enum GearsCommand {
+    Study(study::StudyCommand),
+    Scene(scene::command::SceneCommand),
+    Loads(scene::command::LoadsCommand),
+    Effects(effects::job::EffectsCommand),
+    Geometry(geometry::command::GeometryCommand),
+    Pattern(pattern::PatternCommand),
+}
+
+impl GearsCommand {
+    /// Runs the command.
+    pub fn run(self) -> Result<()> {
+        match self {
+            Self::Study(command) => command.run(),
+            Self::Scene(command) => command.run(),
+            Self::Loads(command) => command.run(),
+            Self::Effects(command) => command.run(),
+            Self::Geometry(command) => command.run(),
+            Self::Pattern(command) => command.run(),
+        }
+    }
+}

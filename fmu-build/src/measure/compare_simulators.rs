@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::fs;
 
 use anyhow::{Context, Result};
+use clap::Args;
 
 use crate::fmu::package;
 use crate::tools::progress::Progress;
@@ -15,8 +16,25 @@ const DOCUMENT: &str = "docs/compare.md";
 const MARKS: [&str; 2] = ["<!-- peers:begin -->", "<!-- peers:end -->"];
 const PICTURE: &str = "peers.png";
 
-/// Runs benches/peers/run.py and prints its table; `quick`: a few rows, once; `write`: also renews the document.
-pub fn run(quick: bool, write: bool) -> Result<()> {
+/// Compares MuJoCo and Drake with this program on the study's cases (a few minutes)
+#[derive(Args, Clone, Debug)]
+pub struct CompareSimulatorsCommand {
+    /// A few rows, once
+    #[arg(long)]
+    quick: bool,
+    /// Also renew docs/compare.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl CompareSimulatorsCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.quick, self.write)
+    }
+}
+
+fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::for_peers(|what| progress.tell(what))?;
     progress.tell("packaging the FMU");

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 
 use anyhow::Result;
+use clap::Args;
 
 use crate::fmu::package;
 use crate::tools::progress::Progress;
@@ -13,8 +14,25 @@ use crate::tools::{paths, script, sections};
 const DOCUMENT: &str = "docs/foreign-solvers.md";
 const MARKS: [&str; 2] = ["<!-- foreign:begin -->", "<!-- foreign:end -->"];
 
-/// Runs benches/foreign/compare.py and prints its table; `quick`: two cases, once; `write`: also renews the document.
-pub fn run(quick: bool, write: bool) -> Result<()> {
+/// Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)
+#[derive(Args, Clone, Debug)]
+pub struct CompareSolversCommand {
+    /// Two cases, once
+    #[arg(long)]
+    quick: bool,
+    /// Also renew docs/foreign-solvers.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl CompareSolversCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.quick, self.write)
+    }
+}
+
+fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::for_foreign(|what| progress.tell(what))?;
     progress.tell("building the equations as a library");

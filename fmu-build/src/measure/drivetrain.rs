@@ -3,7 +3,8 @@
 use std::ffi::OsString;
 use std::fs;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
+use clap::Args;
 
 use crate::fmu::{package, plain_types};
 use crate::tools::progress::Progress;
@@ -15,12 +16,25 @@ const DOCUMENT: &str = "docs/coupling.md";
 const MARKS: [&str; 2] = ["<!-- drivetrain:begin -->", "<!-- drivetrain:end -->"];
 const PICTURES: [&str; 3] = ["drivetrain_signals.png", "drivetrain_launch.png", "drivetrain_errors.png"];
 
-/// Runs examples/drivetrain/run.py and prints its tables; `quick`: ideal gears, few steps; `write`: also renews the
-/// document.
-pub fn run(quick: bool, write: bool) -> Result<()> {
-    if quick && write {
-        bail!("drivetrain --write takes the full run: leave --quick out");
+/// Couples a whole drivetrain from FMUs and compares it with all its equations at once (many minutes)
+#[derive(Args, Clone, Debug)]
+pub struct DrivetrainCommand {
+    /// Ideal gears only, in a minute and a half
+    #[arg(long, conflicts_with = "write")]
+    quick: bool,
+    /// Also renew docs/coupling.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl DrivetrainCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.quick, self.write)
     }
+}
+
+fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::for_drivetrain(|what| progress.tell(what))?;
     progress.tell("packaging the FMU");

@@ -22,30 +22,28 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Result, bail};
+use clap::Args;
 
 use crate::tools::progress::Progress;
 
-/// Calls if nothing is said.
+/// Number of calls by default.
 const MANY: usize = 1_000_000;
 
-/// What to do.
-#[derive(Clone, Copy, Debug)]
-pub struct Fuzz {
-    /// How many calls.
-    pub calls: usize,
-    /// Seed of the first round; the next has the next.
-    pub seed: u64,
-    /// Whether this process is a worker: rounds in a row, told on standard output.
-    pub is_worker: bool,
+/// Calls the C functions at random and checks each result against what the FMU promises
+#[derive(Args, Clone, Copy, Debug)]
+pub struct FuzzCommand {
+    /// Number of calls
+    #[arg(long, value_name = "N", default_value_t = MANY)]
+    calls: usize,
+    /// Seed of the first round; each further round has the next
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Run rounds one after the other in this process and report them on standard output
+    #[arg(long = "worker", hide = true)]
+    is_worker: bool,
 }
 
-impl Default for Fuzz {
-    fn default() -> Self {
-        Self { calls: MANY, seed: 1, is_worker: false }
-    }
-}
-
-impl Fuzz {
+impl FuzzCommand {
     /// Calls at random and prints the table; fails with the seed if a promise is not kept.
     pub fn run(self) -> Result<()> {
         if self.is_worker {

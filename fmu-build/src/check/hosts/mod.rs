@@ -5,6 +5,7 @@ mod list;
 mod run;
 
 use anyhow::{Context, Result, bail};
+use clap::Args;
 
 use crate::fmu::{package, plain_types};
 use crate::tools::progress::Progress;
@@ -19,15 +20,18 @@ const MARKS: [&str; 2] = ["<!-- hosts:begin -->", "<!-- hosts:end -->"];
 /// Largest deviation between two hosts.
 const MOST: f64 = 1e-9;
 
-/// What to do.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Hosts {
-    /// Whether a host that cannot be loaded is an error.
-    pub require: bool,
-    /// Whether docs/hosts.md is renewed.
-    pub write: bool,
-    /// Whether hosts in Rust are built and run.
-    pub with_rust: bool,
+/// Runs the FMU in other FMI hosts on the same scenes and compares their results with fmpy's
+#[derive(Args, Clone, Copy, Debug)]
+pub struct HostsCommand {
+    /// Fail if a host cannot be loaded
+    #[arg(long)]
+    require: bool,
+    /// Also renew docs/hosts.md
+    #[arg(long)]
+    write: bool,
+    /// Also run hosts in Rust: fmi-sim, fmi-rs and fmu-runner (builds for many minutes)
+    #[arg(long = "with-fmi-sim")]
+    with_rust: bool,
 }
 
 /// A host on all scenes.
@@ -38,7 +42,7 @@ struct Hosted {
     deviations: Vec<Deviation>,
 }
 
-impl Hosts {
+impl HostsCommand {
     /// Runs all hosts on all scenes, prints the table, and with `write` puts it into docs/hosts.md.
     pub fn run(self) -> Result<()> {
         let progress = Progress::start("looking for Python");

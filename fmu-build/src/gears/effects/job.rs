@@ -5,41 +5,45 @@ use std::io::{BufWriter, Write};
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
 
 use super::{Question, csv, examine, reduced, table};
 use crate::gears::scene::{Scene, find, units};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 
-/// `effects --scene FILE|NAME --accuracy 1% [--from TIME] [--as-written] [--csv OUT.csv] [--write [FILE]]`.
-#[derive(Clone, Debug, Default)]
-pub struct Effects {
-    /// File or name.
-    pub scene: Option<String>,
-    /// Wanted accuracy.
-    pub accuracy: Option<String>,
-    /// Time from which on outputs count, with a unit.
-    pub from: Option<String>,
-    /// Whether to look only at what the scene has on.
-    pub as_written: bool,
-    /// Where to put all changes.
-    pub csv: Option<PathBuf>,
-    /// Whether to save the reduced scene.
-    pub write: bool,
-    /// Where; without it beside the scene.
-    pub file: Option<PathBuf>,
+/// Finds the effects a scene needs at an accuracy, and what each changes and costs
+#[derive(Args, Clone, Debug)]
+pub struct EffectsCommand {
+    /// A scene file, or the name of a scene
+    #[arg(long, value_name = "FILE|NAME")]
+    scene: String,
+    /// The accuracy that the outputs need, such as 1%
+    #[arg(long)]
+    accuracy: String,
+    /// Count outputs from this time on, such as 10ms
+    #[arg(long, value_name = "TIME")]
+    from: Option<String>,
+    /// Only check what the scene can do without, not what it lacks
+    #[arg(long)]
+    as_written: bool,
+    /// Also write all changes by effect and output
+    #[arg(long, value_name = "OUT.csv")]
+    csv: Option<PathBuf>,
+    /// Save the scene with the needed effects only [default: reduced/NAME.toml next to the scene]
+    #[arg(long, value_name = "FILE", num_args = 0..=1)]
+    write: Option<Option<PathBuf>>,
 }
 
-impl Effects {
-    /// Does it.
+impl EffectsCommand {
+    /// Runs the comparison and prints it.
     pub fn run(&self) -> Result<()> {
-        let wants = |what: &str| anyhow!("effects wants {what}: effects --scene NAME --accuracy 1%");
-        let scene = find(self.scene.as_deref().ok_or_else(|| wants("--scene"))?)?;
-        let accuracy = fraction(self.accuracy.as_deref().ok_or_else(|| wants("--accuracy"))?)?;
+        let scene = find(&self.scene)?;
+        let accuracy = fraction(&self.accuracy)?;
         told_by(&scene, accuracy)?;
         let from = self.from.as_deref().map(units::seconds).transpose();
         let from = from.map_err(|problem| anyhow!("--from: {problem}"))?.unwrap_or(0.0);
-        let file = self.write.then(|| self.file.clone().unwrap_or_else(|| reduced::default_file(&scene)));
+        let file = self.write.as_ref().map(|file| file.clone().unwrap_or_else(|| reduced::default_file(&scene)));
         // before the work, not after it
         file.as_deref().map(reduced::ensure_new).transpose()?;
         let record = self.csv.as_deref().map(|path| {

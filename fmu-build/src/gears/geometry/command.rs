@@ -4,6 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
+use clap::Args;
 
 use super::design::Design;
 use super::interference::Check;
@@ -18,21 +19,25 @@ const FACETS: usize = 32;
 /// Fewest and most facets per flank: fewer show no involute, more make files that no CAD program wants.
 const FACETS_RANGE: (usize, usize) = (2, 1000);
 
-/// `geometry [--set NAME=VALUE]... [--facets N] [--thicken LENGTH] [--out DIR]`.
-#[derive(Clone, Debug, Default)]
-pub struct Geometry {
-    /// What to set, each `name=value`.
+/// Calculates all dimensions of the gears, checks them for interference, and makes curves and solids for CAD
+#[derive(Args, Clone, Debug, Default)]
+pub struct GeometryCommand {
+    /// Set a parameter of the gears, such as geometry.module=4mm
+    #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// Facets per flank, as written.
+    /// Facets per flank of curves and solids [default: 32]
+    #[arg(long, value_name = "N")]
     pub facets: Option<String>,
-    /// By how much teeth are thicker in the check of interference, as written.
+    /// Check for interference with teeth thicker by this length, such as 0.15mm
+    #[arg(long, value_name = "LENGTH")]
     pub thicken: Option<String>,
-    /// Where to put the files.
+    /// Folder for the files [default: target/geometry]
+    #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }
 
-impl Geometry {
-    /// Does it.
+impl GeometryCommand {
+    /// Checks the gears, then writes the files.
     pub fn run(&self) -> Result<()> {
         let (design, facets, thicken) = match (Design::new(&self.set), self.facets(), self.thicken()) {
             (Ok(design), Ok(facets), Ok(thicken)) => (design, facets, thicken),

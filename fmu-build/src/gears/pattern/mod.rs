@@ -14,6 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
+use clap::Args;
 
 use crate::gears::scene::find;
 use crate::tools::progress::Progress;
@@ -30,24 +31,23 @@ const MARKS: [&str; 2] = ["<!-- pattern:begin -->", "<!-- pattern:end -->"];
 /// Share of the bar that belongs to simulating.
 const SIMULATING: f64 = 0.9;
 
-/// The command `pattern [--scene FILE|NAME]... [--out DIR] [--write]`.
-#[derive(Clone, Debug, Default)]
-pub struct Pattern {
-    /// Files or names of scenes; without any the cases of the documentation.
-    pub scenes: Vec<String>,
-    /// Where to put the files.
-    pub out: Option<PathBuf>,
-    /// Whether to renew the documents.
-    pub write: bool,
+/// Shows the contact pattern of solid teeth: pressure on the planet's flank over one engagement
+#[derive(Args, Clone, Debug)]
+pub struct PatternCommand {
+    /// A scene file or the name of a scene, repeatable [default: the aligned and misaligned cases of docs/pattern.md]
+    #[arg(long = "scene", value_name = "FILE|NAME")]
+    scenes: Vec<String>,
+    /// Folder for figures and CSV [default: target/pattern]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Also renew docs/pattern.md and its figures
+    #[arg(long, conflicts_with = "scenes")]
+    write: bool,
 }
 
-impl Pattern {
-    /// Does it.
+impl PatternCommand {
+    /// Simulates the cases and draws their patterns.
     pub fn run(&self) -> Result<()> {
-        anyhow::ensure!(
-            !self.write || self.scenes.is_empty(),
-            "--write renews the documents with their own cases: leave --scene out"
-        );
         let cases: Vec<Case> = if self.scenes.is_empty() {
             cases::all()?
         } else {

@@ -1,6 +1,6 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
-pub mod job;
+pub mod command;
 pub mod load;
 pub mod loads;
 pub mod plan;

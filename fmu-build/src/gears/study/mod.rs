@@ -11,6 +11,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use bevel_differential::model::Parameters;
+use clap::Args;
 
 use crate::fmu::package;
 use crate::gears::study::evaluation::{Order, Results};
@@ -22,8 +23,22 @@ use crate::tools::{paths, script, sections};
 /// Between these lines of the README stands the table.
 const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
 
-/// Does the study; with `readme` the README's table and pictures are renewed.
-pub fn run(readme: bool) -> Result<()> {
+/// Packages the FMU, simulates the study and compares the results with it (the default command)
+#[derive(Args, Clone, Debug, Default)]
+pub struct StudyCommand {
+    /// Also write the comparison into README.md and docs/study.md, and renew the pictures
+    #[arg(long)]
+    pub readme: bool,
+}
+
+impl StudyCommand {
+    /// Runs the study and prints the comparison.
+    pub fn run(&self) -> Result<()> {
+        run(self.readme)
+    }
+}
+
+fn run(readme: bool) -> Result<()> {
     // Python first: what the user has to install should not come out after minutes of building
     let progress = Progress::start("looking for Python");
     let environment = Environment::ready(|what| progress.tell(what))?;

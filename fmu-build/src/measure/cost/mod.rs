@@ -24,6 +24,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use clap::Args;
 
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
@@ -35,15 +36,18 @@ const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 /// Share of the bar that belongs to each figure, and to drawing.
 const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
 
-/// The command `cost [--quick] [--write] [--out DIR]`.
-#[derive(Clone, Debug, Default)]
-pub struct Cost {
-    /// The short form.
-    pub quick: bool,
-    /// Whether to renew the documents.
-    pub write: bool,
-    /// Where to put the files.
-    pub out: Option<PathBuf>,
+/// Measures what accuracy costs: methods, fidelities, effects and communication steps
+#[derive(Args, Clone, Debug)]
+pub struct CostCommand {
+    /// Take under a minute: fewer tolerances, steps and runs
+    #[arg(long)]
+    quick: bool,
+    /// Also renew docs/cost.md and its figures
+    #[arg(long)]
+    write: bool,
+    /// Folder for figures and CSV [default: target/cost]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 /// How much is measured.
@@ -84,8 +88,8 @@ const QUICK: Form = Form {
     short: true,
 };
 
-impl Cost {
-    /// Does it.
+impl CostCommand {
+    /// Measures, draws and prints the summary.
     pub fn run(&self) -> Result<()> {
         let form = if self.quick { QUICK } else { FULL };
         // Python first: what the user has to install should not come out after minutes of measuring

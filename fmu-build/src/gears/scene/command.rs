@@ -5,39 +5,46 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
+use clap::Args;
 
 use super::run::Run;
 use super::{find, list, loads, plan, run, units};
 use crate::tools::paths;
 
-/// `scene [FILE|NAME] [--run] [--csv OUT.csv]`.
-#[derive(Clone, Debug, Default)]
-pub struct Scene {
-    /// File or name; none lists the scenes.
-    pub name: Option<String>,
-    /// Whether to simulate it.
-    pub run: bool,
-    /// Where to record it; asks for a run too.
-    pub csv: Option<PathBuf>,
+/// Describes a scene, or lists all scenes; --run simulates it
+#[derive(Args, Clone, Debug)]
+pub struct SceneCommand {
+    /// A scene file, or the name of a scene; without it, list the scenes
+    #[arg(value_name = "FILE|NAME")]
+    name: Option<String>,
+    /// Simulate the scene and summarise its outputs
+    #[arg(long)]
+    run: bool,
+    /// Simulate the scene and record its outputs at each communication point
+    #[arg(long, value_name = "OUT.csv")]
+    csv: Option<PathBuf>,
 }
 
-/// `loads --scene FILE|NAME --out OUT.csv [--every TIME]`.
-#[derive(Clone, Debug, Default)]
-pub struct Loads {
-    /// File or name.
-    pub scene: Option<String>,
-    /// File to write.
-    pub out: Option<PathBuf>,
-    /// Interval, with a unit of time.
-    pub every: Option<String>,
+/// Records the force on each loaded tooth pair of a scene, for FEA
+#[derive(Args, Clone, Debug)]
+pub struct LoadsCommand {
+    /// A scene file, or the name of a scene
+    #[arg(long, value_name = "FILE|NAME")]
+    scene: String,
+    /// The file to write
+    #[arg(long, value_name = "OUT.csv")]
+    out: PathBuf,
+    /// Time between records, such as 0.1ms [default: the scene's communication step]
+    #[arg(long, value_name = "TIME")]
+    every: Option<String>,
 }
 
-impl Scene {
-    /// Does it.
+impl SceneCommand {
+    /// Describes, lists or simulates.
     pub fn run(&self) -> Result<()> {
         let Some(name) = &self.name else {
             if self.run || self.csv.is_some() {
-                return Err(anyhow!("scene --run wants a scene:\n{}", list()?));
+                return Err(anyhow!("--run and --csv need a scene; name one of these:\n{}", list()?));
             }
             print!("{}", list()?);
             return Ok(());
@@ -58,12 +65,11 @@ impl Scene {
     }
 }
 
-impl Loads {
-    /// Does it.
+impl LoadsCommand {
+    /// Simulates the scene and writes the file.
     pub fn run(&self) -> Result<()> {
-        let wants = |what: &str| anyhow!("loads wants {what}: loads --scene NAME --out OUT.csv [--every TIME]");
-        let scene = find(self.scene.as_deref().ok_or_else(|| wants("--scene"))?)?;
-        let path = self.out.as_deref().ok_or_else(|| wants("--out"))?;
+        let scene = find(&self.scene)?;
+        let path = self.out.as_path();
         let every = self.every.as_deref().map(units::seconds).transpose();
         let every = every.map_err(|problem| anyhow!("--every: {problem}"))?;
         let mut file = create(path)?;
