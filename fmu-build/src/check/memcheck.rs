@@ -16,7 +16,7 @@ use crate::check::fuzz;
 use crate::fmu::package;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
-use crate::tools::table;
+use crate::tools::table::Table;
 
 /// Calls at random: of the host in C, and of the driver in Rust.
 const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];
@@ -85,11 +85,11 @@ fn run() -> Result<()> {
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
-    let head = ["program", "checker", "errors", "bytes lost", "time, s"].map(str::to_owned).to_vec();
-    let rows = checked
-        .into_iter()
-        .map(|c| vec![c.program.to_owned(), c.checker.to_owned(), c.errors, c.lost, format!("{:.1}", c.seconds)]);
-    print!("{}", table::aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>(), &[0, 1]));
+    let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);
+    for c in checked {
+        table.push([c.program.to_owned(), c.checker.to_owned(), c.errors, c.lost, format!("{:.1}", c.seconds)]);
+    }
+    print!("{}", table.terminal());
     Ok(())
 }
 

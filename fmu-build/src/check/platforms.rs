@@ -7,9 +7,10 @@ use clap::Args;
 
 use crate::fmu::libraries::{self, Library};
 use crate::fmu::package;
-use crate::fmu::toolchains::{self, Windows};
+use crate::fmu::toolchains::{self, WindowsToolchain};
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
+use crate::tools::table::for_terminal;
 use crate::tools::{paths, script, sections};
 
 /// The document with the tables, and their place.
@@ -34,7 +35,7 @@ impl PlatformsCommand {
 fn run(write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::ready(|what| progress.tell(what))?;
-    let (Some(_), Some(windows)) = (Environment::old_linux(), Windows::found()) else {
+    let (Some(_), Some(windows)) = (Environment::old_linux(), WindowsToolchain::found()) else {
         bail!("the tool chains for other machines are not there; to get them: {}", toolchains::COMMAND);
     };
     progress.tell("building the library for each platform");
@@ -58,7 +59,7 @@ fn run(write: bool) -> Result<()> {
     let tables = script::run(&environment, &program, &arguments, &progress)
         .context("the libraries do not agree, or could not be compared")?;
     progress.finish();
-    print!("{tables}");
+    print!("{}", for_terminal(&tables));
     if write {
         sections::renew(DOCUMENT, MARKS, &tables)?;
         println!("\nrenewed: {DOCUMENT}");

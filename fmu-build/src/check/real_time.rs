@@ -7,7 +7,9 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use crate::check::{stepping, zero_cost};
+use crate::tools::numbers::Spread;
 use crate::tools::progress::Progress;
+use crate::tools::table::Table;
 use crate::tools::{paths, sections};
 
 /// Scenes, by the names that the stepping program knows.
@@ -41,9 +43,8 @@ fn run(write: bool) -> Result<()> {
     let progress = Progress::start("building the stepping program");
     let program = stepping::build(&zero_cost::EFFECTS, "full")?;
     let folder = paths::target().join("real-time");
-    let mut table = String::from(
-        "| scene | `solver.fixed_step`, s | median | costliest | costliest / median |\n|---|---:|---:|---:|---:|\n",
-    );
+    let mut table =
+        Table::new(["scene", "`solver.fixed_step`, s", "median", "costliest", "costliest / median"]).left([0]);
     let mut worst = 0.0f64;
     for (scene, options) in SCENES {
         for size in SIZES {
@@ -54,22 +55,22 @@ fn run(write: bool) -> Result<()> {
             let each = ["--dump-after=*one_communication_step*", &file];
             let fixed = format!("fixed_step={size}");
             stepping::callgrind(&program, &each, &[&[scene, STEPS, "unread", &fixed], options].concat())?;
-            let mut counts = counts(&folder)?;
-            counts.sort_by(f64::total_cmp);
-            let (median, most) = (counts[counts.len() / 2], counts[counts.len() - 1]);
+            let counts = counts(&folder)?;
+            let (median, most) = (Spread::of(&counts).median, counts.iter().copied().fold(0.0, f64::max));
             worst = worst.max(most / median);
             let name = std::iter::once(scene).chain(options.iter().copied()).collect::<Vec<_>>().join(", ");
-            table.push_str(&format!("| {name} | {size} | {median:.0} | {most:.0} | {:.2} |\n", most / median));
+            let ratio = format!("{:.2}", most / median);
+            table.push([name, size.to_owned(), format!("{median:.0}"), format!("{most:.0}"), ratio]);
         }
     }
     progress.finish();
-    table.push_str(&format!("\nInstructions of a communication step of 1 ms, {STEPS} steps each.\n"));
-    println!("{table}");
+    let note = format!("Instructions of a communication step of 1 ms, {STEPS} steps each.\n");
+    println!("{}\n{note}", table.terminal());
     if worst > MOST {
         bail!("the costliest step costs {worst:.2} times the median one, more than {MOST}");
     }
     if write {
-        sections::renew("docs/cost.md", MARKS, &table)?;
+        sections::renew("docs/cost.md", MARKS, &format!("{}\n{note}", table.markdown()))?;
     }
     Ok(())
 }

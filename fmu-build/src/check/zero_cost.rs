@@ -1,7 +1,6 @@
 //! Proof that an effect that is off is nothing: builds that leave its file out are compared with the full build, bit by
 //! bit and instruction by instruction.
 
-use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
 
@@ -11,6 +10,7 @@ use clap::Args;
 use crate::check::stepping;
 use crate::tools::progress::Progress;
 use crate::tools::sections;
+use crate::tools::table::{Table, for_terminal};
 
 /// Every effect with a file of its own, by the name of its cargo feature.
 pub const EFFECTS: [&str; 11] = [
@@ -35,7 +35,7 @@ const STEPS: [u32; 2] = [100, 300];
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]
-struct Run {
+struct CountedRun {
     bits: String,
     /// Instructions per communication step.
     instructions: f64,
@@ -63,7 +63,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("building with all effects");
     let full = stepping::build(&EFFECTS, "full")?;
     let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
-    let mut rows = String::new();
+    let mut table = Table::new(["effect", "left out", "off", "on", "on / off"]).left([0]);
     let mut different = Vec::new();
     let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
         progress.tell(&format!("building without {what}"));
@@ -82,30 +82,31 @@ fn run(quick: bool, write: bool) -> Result<()> {
         };
         let on = measure(&full, "turn", &[effect])?.instructions;
         let cost = on / off[1].instructions;
-        writeln!(rows, "| `{effect}` | {left_out:.0} | {:.0} | {on:.0} | {cost:.2} |", off[1].instructions)?;
+        let counts = [left_out, off[1].instructions, on].map(|count| format!("{count:.0}"));
+        table.push([format!("`{effect}`")].into_iter().chain(counts).chain([format!("{cost:.2}")]));
     }
     progress.finish();
-    let table = format!(
-        "| effect | left out | off | on | on / off |\n|---|---:|---:|---:|---:|\n{rows}\n\
-         Instructions per communication step of 1 ms in the study's turn. {} \
+    let page = format!(
+        "{}\nInstructions per communication step of 1 ms in the study's turn. {} \
          Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
+        table.markdown(),
         if quick {
             "\"Left out\" is one build without any of these files; its results have the same bits."
         } else {
             "\"Left out\" is a build without the file of this effect; its results have the same bits."
         }
     );
-    println!("{table}");
+    println!("{}", for_terminal(&page));
     if !different.is_empty() {
         bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
     }
     if write {
-        sections::renew("docs/effects.md", MARKS, &table)?;
+        sections::renew("docs/effects.md", MARKS, &page)?;
     }
     Ok(())
 }
 
-fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
+fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<CountedRun> {
     let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
     ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
     let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
@@ -118,5 +119,5 @@ fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<Run> {
             .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
             .context("valgrind gave no count")?;
     }
-    Ok(Run { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
+    Ok(CountedRun { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
 }

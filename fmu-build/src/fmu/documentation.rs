@@ -5,7 +5,7 @@ use bevel_differential::model::Parameters;
 use bevel_differential::variables::{Access, Causality, MODEL_NAME, Variability, Variable, real_start, table};
 
 use crate::fmu::libraries::Library;
-use crate::fmu::licences::Linked;
+use crate::fmu::licences::LinkedPart;
 use crate::fmu::xml::Element;
 
 const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:70em;margin:2em auto;padding:0 1em}\
@@ -67,7 +67,7 @@ pub const FIGURES: [Figure; 3] = [
 ];
 
 /// The page of an archive with `libraries`, into which all of `linked` is linked.
-pub fn page(libraries: &[Library], linked: &[Linked]) -> Result<String> {
+pub fn page(libraries: &[Library], linked: &[LinkedPart]) -> Result<String> {
     let groups = [(Causality::Parameter, "Parameters"), (Causality::Input, "Inputs"), (Causality::Output, "Outputs")];
     let mut body = Element::new("body")
         .child(Element::new("h1").text(MODEL_NAME))
@@ -125,7 +125,7 @@ fn platform(library: &Library) -> Element {
     Element::new("tr").children(cells.map(|cell| Element::new("td").text(cell)))
 }
 
-fn licences(linked: &Linked) -> Element {
+fn licences(linked: &LinkedPart) -> Element {
     let links = linked.files.iter().map(|file| {
         let link = Element::new("a").with("href", format!("licenses/{file}"));
         Element::new("div").child(link.text(file.rsplit('/').next().unwrap_or(file)))

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
-use crate::fmu::toolchains::{self, GLIBC, WINDOWS_TARGET, Windows};
+use crate::fmu::toolchains::{self, GLIBC, WINDOWS_TARGET, WindowsToolchain};
 use crate::tools::paths;
 use crate::tools::python::Environment;
 
@@ -34,12 +34,12 @@ pub struct Library {
     /// What a machine must have, in words.
     pub needs: String,
     /// What the linker adds to the crates and Rust's standard library.
-    pub added: Vec<Added>,
+    pub added: Vec<AddedPart>,
 }
 
 /// A part of a compiler's runtime that is linked in.
 #[derive(Clone, Debug)]
-pub struct Added {
+pub struct AddedPart {
     /// Its name.
     pub name: &'static str,
     /// Its licence by its SPDX name.
@@ -70,7 +70,7 @@ pub fn build() -> Result<Libraries> {
             }
         }
     }
-    match Windows::found() {
+    match WindowsToolchain::found() {
         Some(tools) => built.push(for_windows(&tools)?),
         None if cross => match rustup_for_windows()? {
             Some(library) => built.push(library),
@@ -116,7 +116,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         .env("PATH", toolchains::path_with(&programs)?)
         .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
     let file = crossed(command, "linux64", "so")?;
-    let unwinder = Added {
+    let unwinder = AddedPart {
         name: "LLVM libunwind",
         licence: "Apache-2.0 WITH LLVM-exception",
         text: tools.packages()?.join("ziglang").join("lib").join("libunwind").join("LICENSE.TXT"),
@@ -130,7 +130,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
     })
 }
 
-fn for_windows(tools: &Windows) -> Result<Library> {
+fn for_windows(tools: &WindowsToolchain) -> Result<Library> {
     let programs = tools.programs();
     let mut command = Command::new(cargo());
     command
@@ -161,8 +161,16 @@ fn windows_library(command: Command, root: &Path) -> Result<Library> {
     let file = crossed(command, "win64", "dll")?;
     let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
     let added = vec![
-        Added { name: "MinGW-w64 runtime", licence: "MIT, ZPL-2.1 and public domain", text: text("mingw-w64-common") },
-        Added { name: "libgcc", licence: "GPL-3.0-or-later WITH GCC-exception-3.1", text: text("gcc-mingw-w64-base") },
+        AddedPart {
+            name: "MinGW-w64 runtime",
+            licence: "MIT, ZPL-2.1 and public domain",
+            text: text("mingw-w64-common"),
+        },
+        AddedPart {
+            name: "libgcc",
+            licence: "GPL-3.0-or-later WITH GCC-exception-3.1",
+            text: text("gcc-mingw-w64-base"),
+        },
     ];
     Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, nothing beside it".into(), added })
 }

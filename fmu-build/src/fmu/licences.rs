@@ -26,7 +26,7 @@ pub struct Licence {
 }
 
 /// What is linked in, and under which licence.
-pub struct Linked {
+pub struct LinkedPart {
     /// Name and version.
     pub name: String,
     /// The licence by its SPDX name.
@@ -40,7 +40,7 @@ pub struct Licences {
     /// The files, sorted by path.
     pub files: Vec<Licence>,
     /// What is linked in.
-    pub linked: Vec<Linked>,
+    pub linked: Vec<LinkedPart>,
 }
 
 /// Collects the licences of `libraries`. A part without a text is an error.
@@ -63,7 +63,7 @@ pub fn collected(libraries: &[Library]) -> Result<Licences> {
             folder.path.display(),
             folder.licence
         );
-        found.linked.push(Linked { name, licence: folder.licence, files });
+        found.linked.push(LinkedPart { name, licence: folder.licence, files });
     }
     standard_library(&mut found)?;
     for library in libraries {
@@ -84,7 +84,7 @@ fn standard_library(found: &mut Licences) -> Result<()> {
     let notices = ["COPYRIGHT-library.html", "COPYRIGHT"].map(|name| folder.join(name));
     let Some(notice) = notices.iter().find(|file| file.is_file()) else {
         // a compiler packed by others keeps them elsewhere; the licences themselves are those of this project
-        found.linked.push(Linked {
+        found.linked.push(LinkedPart {
             name: "Rust standard library".into(),
             licence: "MIT OR Apache-2.0".into(),
             files: vec![COMMON.1.into()],
@@ -106,18 +106,18 @@ fn add(found: &mut Licences, name: &str, licence: &str, place: &str, texts: &[(&
         found.files.push(Licence { path: path.clone(), text });
         files.push(path);
     }
-    found.linked.push(Linked { name: name.into(), licence: licence.into(), files });
+    found.linked.push(LinkedPart { name: name.into(), licence: licence.into(), files });
     Ok(())
 }
 
 /// A crate's sources.
-struct Source {
+struct CrateSource {
     path: PathBuf,
     licence: String,
 }
 
 /// The crates linked into the library on any platform, by name and version.
-fn linked_crates() -> Result<BTreeMap<String, Source>> {
+fn linked_crates() -> Result<BTreeMap<String, CrateSource>> {
     let tree = told(&["tree", "-p", CRATE, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
     let mut wanted: Vec<(&str, &str)> = tree
         .lines()
@@ -138,7 +138,7 @@ fn linked_crates() -> Result<BTreeMap<String, Source>> {
             bail!("cargo metadata does not know {name} {version}")
         };
         let licence = package.and_then(|p| p["license"].as_str()).unwrap_or("not named").replace('/', " OR ");
-        crates.insert(format!("{name}-{version}"), Source { path: folder.to_path_buf(), licence });
+        crates.insert(format!("{name}-{version}"), CrateSource { path: folder.to_path_buf(), licence });
     }
     ensure!(crates.len() > 1, "cargo tree names no crates that the library links");
     Ok(crates)

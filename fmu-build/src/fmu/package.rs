@@ -22,7 +22,7 @@ const PLAIN: u32 = 0o644;
 const EXECUTABLE: u32 = 0o755;
 
 /// A file of the archive.
-struct Entry {
+struct ArchiveFile {
     path: String,
     content: Vec<u8>,
     permissions: u32,
@@ -54,7 +54,7 @@ impl PackageCommand {
 }
 
 /// A packed FMU.
-pub struct Packed {
+pub struct PackedFmu {
     /// The archive.
     pub fmu: PathBuf,
     /// What it holds no library for, and how to get it.
@@ -67,11 +67,11 @@ pub fn package() -> Result<PathBuf> {
 }
 
 /// The same, with what was left out.
-pub fn packed() -> Result<Packed> {
+pub fn packed() -> Result<PackedFmu> {
     let libraries = libraries::build()?;
     let fmu = paths::fmu();
     write_archive(&libraries.built, &fmu)?;
-    Ok(Packed { fmu, left_out: libraries.left_out })
+    Ok(PackedFmu { fmu, left_out: libraries.left_out })
 }
 
 /// Packs the FMU around `libraries` into `target`, which appears at once or not at all.
@@ -85,13 +85,13 @@ pub fn write_archive(libraries: &[Library], target: &Path) -> Result<()> {
         .with_context(|| format!("{} cannot be written", target.display()))
 }
 
-fn entries(libraries: &[Library]) -> Result<Vec<Entry>> {
-    let plain = |path: String, content: Vec<u8>| Entry { path, content, permissions: PLAIN };
+fn entries(libraries: &[Library]) -> Result<Vec<ArchiveFile>> {
+    let plain = |path: String, content: Vec<u8>| ArchiveFile { path, content, permissions: PLAIN };
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
     let mut entries = vec![plain("modelDescription.xml".into(), describe::model_description()?.into_bytes())];
     for library in libraries {
         let path = format!("binaries/{}/{MODEL_NAME}.{}", library.platform, library.ending);
-        entries.push(Entry { path, content: read(&library.file)?, permissions: EXECUTABLE });
+        entries.push(ArchiveFile { path, content: read(&library.file)?, permissions: EXECUTABLE });
     }
     let licences = licences::collected(libraries)?;
     let page = documentation::page(libraries, &licences.linked)?;
@@ -108,7 +108,7 @@ fn entries(libraries: &[Library]) -> Result<Vec<Entry>> {
     Ok(entries)
 }
 
-fn archive(entries: &[Entry]) -> Result<Vec<u8>> {
+fn archive(entries: &[ArchiveFile]) -> Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for entry in entries {
         let options = SimpleFileOptions::default()

@@ -21,7 +21,7 @@ pub const COMMAND: &str = "cargo run --release -- toolchains";
 /// Oldest glibc that the library for Linux is linked for.
 pub const GLIBC: &str = "2.17";
 
-/// Rust's name of the Windows that is built for.
+/// Rust's name of the Windows target that is built for.
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 
 /// Installs the tool chains for old Linux systems and for Windows, with wine, in target/toolchains
@@ -53,7 +53,7 @@ fn run(platform: Option<&str>) -> Result<()> {
         made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
     }
     if wanted("win64") {
-        let windows = Windows::made(&progress)?;
+        let windows = WindowsToolchain::made(&progress)?;
         made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
     }
     progress.finish();
@@ -62,11 +62,11 @@ fn run(platform: Option<&str>) -> Result<()> {
 }
 
 /// Rust for Windows, a linker, and wine, unpacked from Debian's packages.
-pub struct Windows {
+pub struct WindowsToolchain {
     folder: PathBuf,
 }
 
-impl Windows {
+impl WindowsToolchain {
     /// The tool chain if it has been made by today's script.
     pub fn found() -> Option<Self> {
         let windows = Self { folder: paths::toolchains().join("windows") };

@@ -9,6 +9,7 @@ use clap::Args;
 use crate::fmu::package;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
+use crate::tools::table::for_terminal;
 use crate::tools::{paths, script, sections};
 
 /// The document with the table, the table's place, and the picture beside it.
@@ -47,7 +48,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     progress.begin_bar("comparing");
     let table = script::run(&environment, &paths::peers().join("run.py"), &arguments, &progress)?;
     progress.finish();
-    print!("{table}");
+    print!("{}", for_terminal(&table));
     println!("\nresults: {}", paths::shown(&folder));
     if write {
         sections::renew(DOCUMENT, MARKS, &table)?;

@@ -8,6 +8,7 @@ use clap::Args;
 use crate::fmu::package;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
+use crate::tools::table::for_terminal;
 use crate::tools::{paths, script, sections};
 
 /// The document with the table, and the table's place.
@@ -45,7 +46,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     progress.begin_bar("comparing");
     let table = script::run(&environment, &paths::foreign().join("compare.py"), &arguments, &progress)?;
     progress.finish();
-    print!("{table}");
+    print!("{}", for_terminal(&table));
     println!("\nresults: {}", paths::shown(&folder.join("foreign.csv")));
     if write {
         sections::renew(DOCUMENT, MARKS, &table)?;

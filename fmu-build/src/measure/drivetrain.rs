@@ -9,6 +9,7 @@ use clap::Args;
 use crate::fmu::{package, plain_types};
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
+use crate::tools::table::for_terminal;
 use crate::tools::{paths, script, sections};
 
 /// The document with the tables, their place, and the pictures.
@@ -50,7 +51,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     progress.begin_bar("coupling");
     let tables = script::run(&environment, &paths::drivetrain().join("run.py"), &arguments, &progress)?;
     progress.finish();
-    print!("{tables}");
+    print!("{}", for_terminal(&tables));
     println!("\nresults: {}", paths::shown(&folder));
     if write {
         sections::renew(DOCUMENT, MARKS, &tables)?;

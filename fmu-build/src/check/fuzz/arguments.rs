@@ -41,7 +41,7 @@ impl Flaws {
 
 /// What kind of variables a call is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
+pub enum VariableKind {
     /// Real ones to read.
     Real,
     /// Real ones that can be set while a simulation runs.
@@ -58,7 +58,7 @@ pub enum Wanted {
     State,
 }
 
-impl Wanted {
+impl VariableKind {
     fn fits(self, i: usize, row: &Variable) -> bool {
         match self {
             Self::Real => matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_)),
@@ -76,7 +76,7 @@ impl Wanted {
 }
 
 /// Value references: none to four of the right kind, now and then any, now and then all.
-pub fn references(r: &mut Random, wanted: Wanted) -> Vec<u32> {
+pub fn references(r: &mut Random, wanted: VariableKind) -> Vec<u32> {
     let rows = &table().rows;
     let fitting: Vec<u32> =
         rows.iter().enumerate().filter(|(i, row)| wanted.fits(*i, row)).map(|(i, _)| i as u32).collect();

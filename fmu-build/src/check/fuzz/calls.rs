@@ -7,10 +7,10 @@ use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::{fnv1a, guid};
 
-use super::arguments::{Flaws, Wanted, references, row};
+use super::arguments::{Flaws, VariableKind, references, row};
 use super::functions::Function;
 use super::random::Random;
-use super::unit::{Unit, serialised};
+use super::unit::{TestInstance, serialised};
 
 /// Most states and blobs that are held at a time.
 const HELD: usize = 12;
@@ -22,7 +22,7 @@ const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 
 /// States and blobs that are handed between instances.
 #[derive(Default)]
-pub struct Held {
+pub struct HeldStates {
     /// States, each with its bytes.
     pub states: Vec<(FmuState, Vec<u8>)>,
     /// Serialised states.
@@ -30,7 +30,7 @@ pub struct Held {
 }
 
 /// What a call answered.
-pub struct Outcome {
+pub struct CallResult {
     /// Its status.
     pub status: Status,
     /// Numbers that it wrote; looked at only if it was carried out.
@@ -43,7 +43,7 @@ pub struct Outcome {
     pub broken: Option<String>,
 }
 
-impl Outcome {
+impl CallResult {
     fn of(status: Status, flaws: &Flaws) -> Self {
         Self { status, numbers: Vec::new(), must_fail: flaws.any, restored: None, broken: None }
     }
@@ -55,16 +55,22 @@ impl Outcome {
 
 /// Calls `function` on `unit` through `c`, which is its component or a pointer that must be refused.
 #[allow(clippy::too_many_lines)] // one arm per function
-pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut Unit, held: &mut Held) -> Outcome {
+pub fn call(
+    function: Function,
+    c: ComponentPointer,
+    r: &mut Random,
+    unit: &mut TestInstance,
+    held: &mut HeldStates,
+) -> CallResult {
     use Function as F;
     let f = &mut Flaws::default();
     let wanted = match function {
-        F::fmi2GetReal => Wanted::Real,
-        F::fmi2SetReal => Wanted::Settable,
-        F::fmi2GetInteger | F::fmi2SetInteger => Wanted::Integer,
-        F::fmi2GetBoolean | F::fmi2SetBoolean => Wanted::Boolean,
-        F::fmi2SetRealInputDerivatives => Wanted::Input,
-        _ => Wanted::Output,
+        F::fmi2GetReal => VariableKind::Real,
+        F::fmi2SetReal => VariableKind::Settable,
+        F::fmi2GetInteger | F::fmi2SetInteger => VariableKind::Integer,
+        F::fmi2GetBoolean | F::fmi2SetBoolean => VariableKind::Boolean,
+        F::fmi2SetRealInputDerivatives => VariableKind::Input,
+        _ => VariableKind::Output,
     };
     let vr = references(r, wanted);
     let n = vr.len();
@@ -92,7 +98,7 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
     match function {
         F::fmi2GetTypesPlatform | F::fmi2GetVersion => {
             let text = if function == F::fmi2GetVersion { fmi2GetVersion() } else { fmi2GetTypesPlatform() };
-            let mut outcome = Outcome::of(Status::Ok, f);
+            let mut outcome = CallResult::of(Status::Ok, f);
             outcome.broken = text.is_null().then(|| "NULL".into());
             outcome
         }
@@ -101,7 +107,7 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
         F::fmi2FreeInstance => {
             run!(fmi2FreeInstance(ptr::null_mut()));
             run!(fmi2FreeInstance(unit.c.wrapping_byte_add(1)));
-            Outcome::of(Status::Ok, f)
+            CallResult::of(Status::Ok, f)
         }
         F::fmi2SetDebugLogging => {
             let names = [c"logStatusError", c"logStatusDiscard", c"logEvents", c"logNonsense", c""].map(|t| t.as_ptr());
@@ -109,21 +115,21 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
             let pointer = f.pointer(r, names.as_ptr(), count > 0);
             let status = run!(fmi2SetDebugLogging(c, r.below(2) as i32, count, pointer));
             unit.is_filtered |= c == unit.c && status != Status::Error;
-            Outcome::of(status, f)
+            CallResult::of(status, f)
         }
         F::fmi2SetupExperiment => {
             let defined = [r.below(2), r.below(3) / 2].map(|x| x as i32);
             let start = if r.chance(2) { 0.0 } else { r.real() };
             let (tolerance, stop) = (if r.chance(2) { 1e-5 } else { r.real() }, r.real());
-            Outcome::of(run!(fmi2SetupExperiment(c, defined[0], tolerance, start, defined[1], stop)), f)
+            CallResult::of(run!(fmi2SetupExperiment(c, defined[0], tolerance, start, defined[1], stop)), f)
         }
-        F::fmi2EnterInitializationMode => Outcome::of(run!(fmi2EnterInitializationMode(c)), f),
-        F::fmi2ExitInitializationMode => Outcome::of(run!(fmi2ExitInitializationMode(c)), f),
-        F::fmi2Terminate => Outcome::of(run!(fmi2Terminate(c)), f),
-        F::fmi2Reset => Outcome::of(run!(fmi2Reset(c)), f),
+        F::fmi2EnterInitializationMode => CallResult::of(run!(fmi2EnterInitializationMode(c)), f),
+        F::fmi2ExitInitializationMode => CallResult::of(run!(fmi2ExitInitializationMode(c)), f),
+        F::fmi2Terminate => CallResult::of(run!(fmi2Terminate(c)), f),
+        F::fmi2Reset => CallResult::of(run!(fmi2Reset(c)), f),
         F::fmi2GetReal => {
             let (vr, place) = (read!(vr.as_ptr()), f.place(r, numbers.as_mut_ptr(), needed));
-            Outcome::of(run!(fmi2GetReal(c, vr, count, place)), f).with(&numbers[..n])
+            CallResult::of(run!(fmi2GetReal(c, vr, count, place)), f).with(&numbers[..n])
         }
         F::fmi2GetInteger | F::fmi2GetBoolean => {
             let (vr, place) = (read!(vr.as_ptr()), f.place(r, integers.as_mut_ptr(), needed));
@@ -131,25 +137,29 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
                 F::fmi2GetInteger => run!(fmi2GetInteger(c, vr, count, place)),
                 _ => run!(fmi2GetBoolean(c, vr, count, place)),
             };
-            let mut outcome = Outcome::of(status, f);
+            let mut outcome = CallResult::of(status, f);
             let unwritten = status == Status::Ok && integers[..n].contains(&i32::MIN);
             outcome.broken = unwritten.then(|| "a value was not written".into());
             outcome
         }
-        F::fmi2GetString => Outcome::of(run!(fmi2GetString(c, read!(vr.as_ptr()), n, ptr::null_mut())), f),
-        F::fmi2SetString => Outcome::of(run!(fmi2SetString(c, read!(vr.as_ptr()), n, ptr::null())), f),
-        F::fmi2SetReal => Outcome::of(run!(fmi2SetReal(c, read!(vr.as_ptr()), count, read!(values.as_ptr()))), f),
-        F::fmi2SetInteger => Outcome::of(run!(fmi2SetInteger(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f),
-        F::fmi2SetBoolean => Outcome::of(run!(fmi2SetBoolean(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f),
+        F::fmi2GetString => CallResult::of(run!(fmi2GetString(c, read!(vr.as_ptr()), n, ptr::null_mut())), f),
+        F::fmi2SetString => CallResult::of(run!(fmi2SetString(c, read!(vr.as_ptr()), n, ptr::null())), f),
+        F::fmi2SetReal => CallResult::of(run!(fmi2SetReal(c, read!(vr.as_ptr()), count, read!(values.as_ptr()))), f),
+        F::fmi2SetInteger => {
+            CallResult::of(run!(fmi2SetInteger(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f)
+        }
+        F::fmi2SetBoolean => {
+            CallResult::of(run!(fmi2SetBoolean(c, read!(vr.as_ptr()), count, read!(whole.as_ptr()))), f)
+        }
         F::fmi2GetFMUstate => get_state(c, r, f, held),
         F::fmi2SetFMUstate => {
             let (state, bytes) = a_state(r, f, held);
-            let mut outcome = Outcome::of(run!(fmi2SetFMUstate(c, state)), f);
+            let mut outcome = CallResult::of(run!(fmi2SetFMUstate(c, state)), f);
             outcome.restored = (outcome.status == Status::Ok).then_some(bytes);
             outcome
         }
         F::fmi2FreeFMUstate => {
-            let mut outcome = Outcome::of(Status::Ok, f);
+            let mut outcome = CallResult::of(Status::Ok, f);
             if r.chance(4) || held.states.len() < HELD / 2 {
                 let mut nothing = ptr::null_mut();
                 let place = if r.chance(2) { ptr::null_mut() } else { &raw mut nothing };
@@ -169,7 +179,7 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
             let (state, bytes) = a_state(r, f, held);
             let mut size = 0;
             let place = f.place(r, &raw mut size, true);
-            let mut outcome = Outcome::of(run!(fmi2SerializedFMUstateSize(c, state, place)), f);
+            let mut outcome = CallResult::of(run!(fmi2SerializedFMUstateSize(c, state, place)), f);
             if outcome.status == Status::Ok && size != bytes.len() {
                 outcome.broken = Some(format!("{size} bytes told, {} before", bytes.len()));
             }
@@ -181,38 +191,38 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
             let size = if r.chance(6) { r.below(room.len() + 1) } else { bytes.len() };
             f.any |= size != bytes.len();
             let place = f.place(r, room.as_mut_ptr(), true);
-            let mut outcome = Outcome::of(run!(fmi2SerializeFMUstate(c, state, place.cast(), size)), f);
+            let mut outcome = CallResult::of(run!(fmi2SerializeFMUstate(c, state, place.cast(), size)), f);
             let differ = outcome.status == Status::Ok && room[..size] != bytes;
             outcome.broken = differ.then(|| "other bytes than before".into());
             outcome
         }
         F::fmi2DeSerializeFMUstate => deserialize(c, r, f, held),
         F::fmi2GetDirectionalDerivative => {
-            let by = r.pick(&[Wanted::Input, Wanted::State]);
+            let by = r.pick(&[VariableKind::Input, VariableKind::State]);
             let known = references(r, by);
             let change: Vec<f64> = known.iter().map(|_| if r.chance(6) { r.real() } else { 1.0 }).collect();
             let (vr, place) = (read!(vr.as_ptr()), f.place(r, numbers.as_mut_ptr(), needed));
             let known_needed = !known.is_empty();
             let (by, along) = (f.pointer(r, known.as_ptr(), known_needed), f.pointer(r, change.as_ptr(), known_needed));
             let status = run!(fmi2GetDirectionalDerivative(c, vr, n, by, known.len(), along, place));
-            Outcome::of(status, f).with(&numbers[..n])
+            CallResult::of(status, f).with(&numbers[..n])
         }
-        F::fmi2EnterEventMode => Outcome::of(run!(fmi2EnterEventMode(c)), f),
+        F::fmi2EnterEventMode => CallResult::of(run!(fmi2EnterEventMode(c)), f),
         F::fmi2NewDiscreteStates => {
             let mut info = EventInfo { next_event: f64::NAN, ..EventInfo::default() };
             let place = f.place(r, &raw mut info, true);
-            Outcome::of(run!(fmi2NewDiscreteStates(c, place)), f).with(&[info.next_event])
+            CallResult::of(run!(fmi2NewDiscreteStates(c, place)), f).with(&[info.next_event])
         }
-        F::fmi2EnterContinuousTimeMode => Outcome::of(run!(fmi2EnterContinuousTimeMode(c)), f),
+        F::fmi2EnterContinuousTimeMode => CallResult::of(run!(fmi2EnterContinuousTimeMode(c)), f),
         F::fmi2CompletedIntegratorStep => {
             let (mut event, mut end) = (0, 0);
             let (event, end) = (f.place(r, &raw mut event, true), f.place(r, &raw mut end, true));
-            Outcome::of(run!(fmi2CompletedIntegratorStep(c, r.below(2) as i32, event, end)), f)
+            CallResult::of(run!(fmi2CompletedIntegratorStep(c, r.below(2) as i32, event, end)), f)
         }
         F::fmi2SetTime => {
             let now = time_of(unit);
             let time = if r.chance(12) { r.real() } else { now + r.pick(&[0.0, 1e-6, 1e-5, 1e-4]) };
-            Outcome::of(run!(fmi2SetTime(c, time)), f)
+            CallResult::of(run!(fmi2SetTime(c, time)), f)
         }
         F::fmi2SetContinuousStates => {
             let mut x = [0.0; ROOM];
@@ -227,7 +237,7 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
                 x[r.below(STATES)] = r.real();
             }
             let count = counted(r, f, STATES);
-            Outcome::of(run!(fmi2SetContinuousStates(c, f.pointer(r, x.as_ptr(), true), count)), f)
+            CallResult::of(run!(fmi2SetContinuousStates(c, f.pointer(r, x.as_ptr(), true), count)), f)
         }
         F::fmi2GetDerivatives => fill(c, r, f, STATES, fmi2GetDerivatives),
         F::fmi2GetEventIndicators => fill(c, r, f, EVENT_INDICATORS, fmi2GetEventIndicators),
@@ -236,12 +246,12 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
         F::fmi2SetRealInputDerivatives => {
             let rates: Vec<f64> = values.iter().map(|x| if r.chance(3) { 0.0 } else { x * 0.1 }).collect();
             let (vr, orders) = (read!(vr.as_ptr()), read!(orders.as_ptr()));
-            Outcome::of(run!(fmi2SetRealInputDerivatives(c, vr, count, orders, read!(rates.as_ptr()))), f)
+            CallResult::of(run!(fmi2SetRealInputDerivatives(c, vr, count, orders, read!(rates.as_ptr()))), f)
         }
         F::fmi2GetRealOutputDerivatives => {
             let (vr, orders) = (read!(vr.as_ptr()), read!(orders.as_ptr()));
             let place = f.place(r, numbers.as_mut_ptr(), needed);
-            Outcome::of(run!(fmi2GetRealOutputDerivatives(c, vr, count, orders, place)), f).with(&numbers[..n])
+            CallResult::of(run!(fmi2GetRealOutputDerivatives(c, vr, count, orders, place)), f).with(&numbers[..n])
         }
         F::fmi2DoStep => {
             let now = time_of(unit);
@@ -249,27 +259,27 @@ pub fn call(function: Function, c: ComponentPointer, r: &mut Random, unit: &mut 
             // no step that is meant to take hours: the host gets what it asks for
             let h = if r.chance(8) { r.pick(&NO_STEPS) } else { r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
             f.any |= NO_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
-            Outcome::of(run!(fmi2DoStep(c, point, h, r.below(2) as i32)), f)
+            CallResult::of(run!(fmi2DoStep(c, point, h, r.below(2) as i32)), f)
         }
-        F::fmi2CancelStep => Outcome::of(run!(fmi2CancelStep(c)), f),
+        F::fmi2CancelStep => CallResult::of(run!(fmi2CancelStep(c)), f),
         F::fmi2GetStatus => {
             let mut value = Status::Ok;
             let place = f.place(r, &raw mut value, true);
-            Outcome::of(run!(fmi2GetStatus(c, a_kind(r), place)), f)
+            CallResult::of(run!(fmi2GetStatus(c, a_kind(r), place)), f)
         }
         F::fmi2GetRealStatus => {
             let place = f.place(r, numbers.as_mut_ptr(), true);
-            Outcome::of(run!(fmi2GetRealStatus(c, a_kind(r), place)), f).with(&numbers[..1])
+            CallResult::of(run!(fmi2GetRealStatus(c, a_kind(r), place)), f).with(&numbers[..1])
         }
-        F::fmi2GetIntegerStatus => Outcome::of(run!(fmi2GetIntegerStatus(c, a_kind(r), integers.as_mut_ptr())), f),
+        F::fmi2GetIntegerStatus => CallResult::of(run!(fmi2GetIntegerStatus(c, a_kind(r), integers.as_mut_ptr())), f),
         F::fmi2GetBooleanStatus => {
             let place = f.place(r, integers.as_mut_ptr(), true);
-            Outcome::of(run!(fmi2GetBooleanStatus(c, a_kind(r), place)), f)
+            CallResult::of(run!(fmi2GetBooleanStatus(c, a_kind(r), place)), f)
         }
         F::fmi2GetStringStatus => {
             let mut text = ptr::null();
             let place = f.place(r, &raw mut text, true);
-            let mut outcome = Outcome::of(run!(fmi2GetStringStatus(c, a_kind(r), place)), f);
+            let mut outcome = CallResult::of(run!(fmi2GetStringStatus(c, a_kind(r), place)), f);
             outcome.broken = (outcome.status == Status::Ok && text.is_null()).then(|| "NULL".into());
             outcome
         }
@@ -281,7 +291,7 @@ fn a_kind(r: &mut Random) -> i32 {
 }
 
 /// Where the instance is [s]; 0 where it does not tell.
-fn time_of(unit: &Unit) -> f64 {
+fn time_of(unit: &TestInstance) -> f64 {
     let mut now = 0.0;
     // SAFETY: a live component and a place
     unsafe { fmi2GetRealStatus(unit.c, LAST_SUCCESSFUL_TIME, &mut now) };
@@ -298,17 +308,17 @@ fn counted(r: &mut Random, f: &mut Flaws, right: usize) -> usize {
 
 type Filler = unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status;
 
-fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, function: Filler) -> Outcome {
+fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, function: Filler) -> CallResult {
     let mut room = [f64::NAN; ROOM];
     let count = counted(r, f, right);
     let place = f.place(r, room.as_mut_ptr(), true);
     // SAFETY: a live component and room for `count` values, or a pointer that the library checks for
     let status = unsafe { function(c, place, count) };
-    Outcome::of(status, f).with(&room[..right])
+    CallResult::of(status, f).with(&room[..right])
 }
 
 /// A state of any instance, or none.
-fn a_state(r: &mut Random, f: &mut Flaws, held: &Held) -> (FmuState, Vec<u8>) {
+fn a_state(r: &mut Random, f: &mut Flaws, held: &HeldStates) -> (FmuState, Vec<u8>) {
     if held.states.is_empty() || r.chance(20) {
         f.any = true;
         return (if r.chance(2) { ptr::null_mut() } else { ptr::without_provenance_mut(1) }, Vec::new());
@@ -316,14 +326,14 @@ fn a_state(r: &mut Random, f: &mut Flaws, held: &Held) -> (FmuState, Vec<u8>) {
     held.states[r.below(held.states.len())].clone()
 }
 
-fn get_state(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut Held) -> Outcome {
+fn get_state(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut HeldStates) -> CallResult {
     let fresh = held.states.len() < HELD && (held.states.is_empty() || r.chance(2));
     let mut made = ptr::null_mut();
     let at = r.below(held.states.len());
     let place = if fresh { &raw mut made } else { &raw mut held.states[at].0 };
     let place = f.place(r, place, true);
     // SAFETY: a live component and a place for a state
-    let mut outcome = Outcome::of(unsafe { fmi2GetFMUstate(c, place) }, f);
+    let mut outcome = CallResult::of(unsafe { fmi2GetFMUstate(c, place) }, f);
     if outcome.status == Status::Ok {
         let state = if fresh { made } else { held.states[at].0 };
         match serialised(c, state) {
@@ -347,7 +357,7 @@ enum Damage {
     Covered,
 }
 
-fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut Held) -> Outcome {
+fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut HeldStates) -> CallResult {
     let mut blob = if held.blobs.is_empty() { Vec::new() } else { r.pick_clone(&held.blobs) };
     let damage = match r.below(4) {
         _ if blob.is_empty() => Damage::Plain,
@@ -384,7 +394,7 @@ fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut He
     let place = f.place(r, place, true);
     let bytes = f.pointer(r, blob.as_ptr(), true);
     // SAFETY: a live component, the bytes told, and a place for a state
-    let mut outcome = Outcome::of(unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), blob.len(), place) }, f);
+    let mut outcome = CallResult::of(unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), blob.len(), place) }, f);
     if outcome.status == Status::Ok {
         let state = if full { held.states[at].0 } else { made };
         let again = serialised(c, state);
@@ -401,8 +411,8 @@ fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut He
 const HEADER: usize = 28;
 
 /// fmi2Instantiate with anything; what is made is freed.
-fn instantiate(r: &mut Random) -> Outcome {
-    let lines = super::unit::Lines::default();
+fn instantiate(r: &mut Random) -> CallResult {
+    let lines = super::unit::LogLines::default();
     let callbacks = super::unit::callbacks(&lines);
     let right = CString::new(guid()).unwrap_or_default();
     let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));
@@ -413,7 +423,7 @@ fn instantiate(r: &mut Random) -> Outcome {
     // SAFETY: all pointers are NULL or valid through the call
     let c = unsafe { fmi2Instantiate(names[name], kind, ids[id], r.pick(&places), told, 0, r.below(2) as i32) };
     let expected = (kind == MODEL_EXCHANGE || kind == CO_SIMULATION) && name < 2 && id < 2;
-    let mut outcome = Outcome::of(Status::Ok, &Flaws::default());
+    let mut outcome = CallResult::of(Status::Ok, &Flaws::default());
     if c.is_null() == expected {
         outcome.broken = Some(format!("kind {kind}, name {name}, GUID {id}: made {}", !c.is_null()));
     }

@@ -15,7 +15,7 @@ mod unit;
 mod worker;
 
 pub use functions::Function;
-pub use round::{Broken, CALLS, run};
+pub use round::{BrokenPromise, CALLS, run};
 pub use tally::Tally;
 
 use std::thread;

@@ -5,12 +5,12 @@ use std::time::Instant;
 
 use bevel_differential::fmi2::*;
 
-use super::calls::{Held, Outcome, call};
+use super::calls::{CallResult, HeldStates, call};
 use super::functions::Function;
 use super::random::Random;
 use super::scenes;
 use super::tally::Tally;
-use super::unit::Unit;
+use super::unit::TestInstance;
 
 /// Calls of a round.
 pub const CALLS: usize = 500;
@@ -23,7 +23,7 @@ const PATIENCE: usize = 10;
 
 /// A promise that was not kept.
 #[derive(Clone, Debug)]
-pub struct Broken {
+pub struct BrokenPromise {
     /// Number of the call in its round.
     pub at: usize,
     /// What was called.
@@ -33,24 +33,24 @@ pub struct Broken {
 }
 
 /// Calls `calls` functions at random by `seed`, and counts them in `tally`.
-pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), Broken> {
+pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromise> {
     let mut r = Random::new(seed);
-    let outside = |what: &str| Broken { at: 0, function: "start of the round", what: what.to_owned() };
+    let outside = |what: &str| BrokenPromise { at: 0, function: "start of the round", what: what.to_owned() };
     let mut expected = Vec::new();
     for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
-        let plain = Unit::new(kind).ok_or_else(|| outside("no instance was made"))?;
+        let plain = TestInstance::new(kind).ok_or_else(|| outside("no instance was made"))?;
         expected.push(scenes::study(&plain).ok_or_else(|| outside("the study's scene does not run"))?);
     }
     let mut units = Vec::new();
     for i in 0..UNITS {
-        let unit = Unit::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
+        let unit = TestInstance::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
         if i > 0 {
             tally.scenes += u64::from(scenes::start(&unit, &mut r));
         }
         unit.said();
         units.push(unit);
     }
-    let mut held = Held::default();
+    let mut held = HeldStates::default();
     let outcome = (0..calls).try_for_each(|at| {
         let unit = r.below(UNITS);
         one(at, &mut r, &mut units[unit], &mut held, tally)
@@ -63,7 +63,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), Broken> {
     // whatever happened to them: after a reset all are as new
     for unit in &units {
         if scenes::study(unit).as_ref() != Some(&expected[unit.kind as usize]) {
-            return Err(Broken {
+            return Err(BrokenPromise {
                 at: calls,
                 function: "fmi2Reset",
                 what: "the study's scene gives other numbers than in a fresh instance".into(),
@@ -74,7 +74,13 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), Broken> {
 }
 
 /// One call, and all that is promised about it.
-fn one(at: usize, r: &mut Random, unit: &mut Unit, held: &mut Held, tally: &mut Tally) -> Result<(), Broken> {
+fn one(
+    at: usize,
+    r: &mut Random,
+    unit: &mut TestInstance,
+    held: &mut HeldStates,
+    tally: &mut Tally,
+) -> Result<(), BrokenPromise> {
     if unit.refused > PATIENCE {
         unit.refused = 0;
         tally.scenes += u64::from(scenes::start(unit, r));
@@ -92,7 +98,7 @@ fn one(at: usize, r: &mut Random, unit: &mut Unit, held: &mut Held, tally: &mut 
     tally.count(function, outcome.status, start.elapsed());
     let refused = !matches!(outcome.status, Status::Ok | Status::Warning);
     unit.refused = if refused { unit.refused + 1 } else { 0 };
-    let broken = |what: String| Broken { at, function: function.name(), what };
+    let broken = |what: String| BrokenPromise { at, function: function.name(), what };
     let lines = unit.said();
     if let Some(line) = lines.iter().find(|line| line.message.contains("internal error")) {
         return Err(broken(line.message.clone()));
@@ -100,7 +106,7 @@ fn one(at: usize, r: &mut Random, unit: &mut Unit, held: &mut Held, tally: &mut 
     check(function, component != unit.c, unit.is_filtered, &outcome, &lines).map_err(broken)?;
     if let Some(before) = before {
         tally.compared += 1;
-        compare(function, refused, &before, unit).map_err(|what| Broken {
+        compare(function, refused, &before, unit).map_err(|what| BrokenPromise {
             at,
             function: function.name(),
             what: format!("{what}; it said: {lines:?}"),
@@ -124,8 +130,8 @@ fn check(
     function: Function,
     is_foreign: bool,
     is_filtered: bool,
-    outcome: &Outcome,
-    lines: &[super::unit::Line],
+    outcome: &CallResult,
+    lines: &[super::unit::LogLine],
 ) -> Result<(), String> {
     let status = outcome.status;
     if let Some(what) = &outcome.broken {
@@ -170,7 +176,7 @@ fn looks(function: Function) -> bool {
     name.starts_with("fmi2Get") || name.contains("erialize") || name == "fmi2FreeFMUstate"
 }
 
-fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) -> Result<(), String> {
+fn compare(function: Function, refused: bool, before: &[u8], unit: &mut TestInstance) -> Result<(), String> {
     let holds_still = looks(function) || refused && !may_leave_a_mark(function);
     if !holds_still {
         return Ok(());

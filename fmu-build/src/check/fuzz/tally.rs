@@ -6,7 +6,7 @@ use std::time::Duration;
 use bevel_differential::fmi2::Status;
 
 use super::functions::Function;
-use crate::tools::table;
+use crate::tools::table::{Table, wrapped};
 
 /// Statuses that are told apart, as the table heads them.
 const HEADS: [&str; 4] = ["OK", "warning", "discard", "error"];
@@ -14,7 +14,7 @@ const HEADS: [&str; 4] = ["OK", "warning", "discard", "error"];
 /// Counts, by function in the order of the list.
 #[derive(Clone, Debug)]
 pub struct Tally {
-    rows: Vec<Row>,
+    rows: Vec<FunctionTally>,
     /// Instances brought to a running simulation.
     pub scenes: u64,
     /// Calls before and after which states were compared.
@@ -22,7 +22,7 @@ pub struct Tally {
 }
 
 #[derive(Clone, Copy, Debug, Default)]
-struct Row {
+struct FunctionTally {
     statuses: [u64; HEADS.len()],
     total: Duration,
     longest: Duration,
@@ -30,7 +30,7 @@ struct Row {
 
 impl Default for Tally {
     fn default() -> Self {
-        Self { rows: vec![Row::default(); Function::ALL.len()], scenes: 0, compared: 0 }
+        Self { rows: vec![FunctionTally::default(); Function::ALL.len()], scenes: 0, compared: 0 }
     }
 }
 
@@ -73,7 +73,7 @@ impl Tally {
         for row in &mut tally.rows {
             let [a, b, c, d, total, longest] = lines.next()??[..] else { return None };
             let [total, longest] = [total, longest].map(Duration::from_nanos);
-            *row = Row { statuses: [a, b, c, d], total, longest };
+            *row = FunctionTally { statuses: [a, b, c, d], total, longest };
         }
         Some(tally)
     }
@@ -89,7 +89,7 @@ impl Tally {
 
     /// The table.
     pub fn table(&self) -> String {
-        let cells = |name: &str, row: &Row| {
+        let cells = |name: &str, row: &FunctionTally| {
             let calls: u64 = row.statuses.iter().sum();
             let mean = row.total.as_secs_f64() * 1e6 / calls.max(1) as f64;
             let mut cells = vec![name.to_owned(), calls.to_string()];
@@ -98,15 +98,15 @@ impl Tally {
             cells
         };
         let head = ["function", "calls"].into_iter().chain(HEADS).chain(["mean, µs", "longest, ms"]);
-        let mut rows = vec![head.map(str::to_owned).collect()];
-        rows.extend(Function::ALL.iter().zip(&self.rows).map(|(function, row)| cells(function.name(), row)));
-        let mut all = Row::default();
+        let mut table = Table::new(head).left([0]);
+        Function::ALL.iter().zip(&self.rows).for_each(|(function, row)| table.push(cells(function.name(), row)));
+        let mut all = FunctionTally::default();
         self.rows.iter().for_each(|row| all.add(row));
-        rows.push(cells("all", &all));
+        table.push(cells("all", &all));
         format!(
             "{}\n{}",
-            table::aligned(&rows, &[0]),
-            table::wrapped(&format!(
+            table.terminal(),
+            wrapped(&format!(
                 "simulations started: {}; communication steps done: {}; steps completed in model exchange: {}; states \
                  compared before and after a call: {}",
                 self.scenes,
@@ -118,7 +118,7 @@ impl Tally {
     }
 }
 
-impl Row {
+impl FunctionTally {
     fn add(&mut self, more: &Self) {
         self.statuses.iter_mut().zip(more.statuses).for_each(|(count, n)| *count += n);
         self.total += more.total;

@@ -9,7 +9,7 @@ use bevel_differential::variables::guid;
 
 /// A line of the log.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct LogLine {
     /// Status it was sent with.
     pub status: Status,
     /// Text.
@@ -17,19 +17,19 @@ pub struct Line {
 }
 
 /// Lines since the last call.
-pub type Lines = Mutex<Vec<Line>>;
+pub type LogLines = Mutex<Vec<LogLine>>;
 
 /// Variadic in C, but no argument ever follows the message.
 unsafe extern "C" fn logger(env: *mut c_void, _instance: Text, status: Status, _category: Text, message: Text) {
-    // SAFETY: `env` is the lines that `Unit` keeps alive; the text comes from the FMU and ends with NUL
-    let (lines, message) = unsafe { (&*env.cast::<Lines>(), CStr::from_ptr(message)) };
+    // SAFETY: `env` is the lines that `TestInstance` keeps alive; the text comes from the FMU and ends with NUL
+    let (lines, message) = unsafe { (&*env.cast::<LogLines>(), CStr::from_ptr(message)) };
     if let Ok(mut lines) = lines.lock() {
-        lines.push(Line { status, message: message.to_string_lossy().into_owned() });
+        lines.push(LogLine { status, message: message.to_string_lossy().into_owned() });
     }
 }
 
 /// Callbacks that log into `lines`.
-pub fn callbacks(lines: &Lines) -> CallbackFunctions {
+pub fn callbacks(lines: &LogLines) -> CallbackFunctions {
     // SAFETY: on the platforms this runs on, fixed arguments reach a plain function as they reach a variadic one
     let logger =
         unsafe { std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(logger) };
@@ -43,13 +43,13 @@ pub fn callbacks(lines: &Lines) -> CallbackFunctions {
 }
 
 /// An instance of the driver's.
-pub struct Unit {
+pub struct TestInstance {
     /// The instance.
     pub c: ComponentPointer,
     /// What it was made for.
     pub kind: i32,
     /// What it said since the last call.
-    pub lines: Box<Lines>,
+    pub lines: Box<LogLines>,
     /// Whether it was told to keep categories to itself.
     pub is_filtered: bool,
     /// A state to keep the present in, for comparison; NULL until it is needed.
@@ -58,7 +58,7 @@ pub struct Unit {
     pub refused: usize,
 }
 
-impl Unit {
+impl TestInstance {
     /// A fresh instance; none if it is refused.
     pub fn new(kind: i32) -> Option<Self> {
         let lines = Box::new(Mutex::new(Vec::new()));
@@ -70,7 +70,7 @@ impl Unit {
     }
 
     /// What was said since this was last asked.
-    pub fn said(&self) -> Vec<Line> {
+    pub fn said(&self) -> Vec<LogLine> {
         self.lines.lock().map_or_else(|_| Vec::new(), |mut lines| std::mem::take(&mut *lines))
     }
 
@@ -97,7 +97,7 @@ pub fn serialised(c: ComponentPointer, state: FmuState) -> Option<Vec<u8>> {
     (status == Status::Ok).then_some(bytes)
 }
 
-impl Drop for Unit {
+impl Drop for TestInstance {
     fn drop(&mut self) {
         // SAFETY: component and state are this unit's own
         unsafe {

@@ -1,14 +1,13 @@
-//! Two tables of the same scene: how far they are apart.
+//! Two records of the same scene: how far they are apart.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail, ensure};
 
 /// Outputs by communication point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct HostRecord {
     names: Vec<String>,
     rows: BTreeMap<usize, Vec<f64>>,
 }
@@ -26,24 +25,23 @@ pub struct Deviation {
     pub compared: usize,
 }
 
-impl Table {
-    /// Reads what a host's script wrote.
+impl HostRecord {
+    /// Reads what a host's script wrote, a row for each communication point.
     pub fn read(path: &Path) -> Result<Self> {
-        let text = fs::read_to_string(path).with_context(|| format!("{} cannot be read", path.display()))?;
-        let mut lines = text.lines();
-        let names = lines.next().unwrap_or_default().split(',').skip(1).map(str::to_owned).collect::<Vec<_>>();
+        let mut file = csv::Reader::from_path(path).with_context(|| format!("{} cannot be read", path.display()))?;
+        let names: Vec<String> = file.headers()?.iter().skip(1).map(str::to_owned).collect();
         let mut rows = BTreeMap::new();
-        for line in lines {
-            let (point, values) = line.split_once(',').with_context(|| format!("\"{line}\" is no row"))?;
-            let values = values.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>()?;
-            ensure!(values.len() == names.len(), "point {point} has {} of {} values", values.len(), names.len());
-            rows.insert(point.parse()?, values);
+        for row in file.records() {
+            let row = row?;
+            let values = row.iter().skip(1).map(str::parse).collect::<Result<Vec<f64>, _>>()?;
+            let point = row.get(0).unwrap_or_default();
+            rows.insert(point.parse().with_context(|| format!("\"{point}\" is not the number of a point"))?, values);
         }
         Ok(Self { names, rows })
     }
 
     /// How far `other` is from this one. It must have the same outputs at the same points, but for the start if
-    /// `without_start`. `scale` tells what an output's small values are measured by.
+    /// `without_start`. `scale` is what an output's small values are measured by.
     pub fn deviation(
         &self,
         other: &Self,
@@ -55,23 +53,23 @@ impl Table {
         let expected: Vec<&usize> = self.rows.keys().filter(|&&point| point >= first).collect();
         let found: Vec<&usize> = other.rows.keys().filter(|&&point| point >= first).collect();
         ensure!(expected == found, "{} communication points were recorded in place of {}", found.len(), expected.len());
-        let mut told = Deviation::default();
+        let mut found = Deviation::default();
         for (point, values) in self.rows.range(first..) {
             for ((name, value), own) in self.names.iter().zip(&other.rows[point]).zip(values) {
-                let scale = scale(name).with_context(|| format!("the scene tells no natural scale of {name}"))?;
+                let scale = scale(name).with_context(|| format!("the scene states no natural scale of {name}"))?;
                 let deviation = (value - own).abs() / own.abs().max(scale);
                 if deviation.is_nan() {
                     bail!("{name} at point {point} is {value} in place of {own}");
                 }
-                told.compared += 1;
-                told.different += usize::from(value.to_bits() != own.to_bits());
-                if deviation > told.largest {
-                    told.largest = deviation;
-                    told.place = format!("{name} at point {point}");
+                found.compared += 1;
+                found.different += usize::from(value.to_bits() != own.to_bits());
+                if deviation > found.largest {
+                    found.largest = deviation;
+                    found.place = format!("{name} at point {point}");
                 }
             }
         }
-        Ok(told)
+        Ok(found)
     }
 }
 
@@ -79,20 +77,20 @@ impl Table {
 mod tests {
     use std::collections::BTreeMap;
 
-    use super::Table;
+    use super::HostRecord;
 
-    fn table(rows: &[(usize, [f64; 2])]) -> Table {
+    fn table(rows: &[(usize, [f64; 2])]) -> HostRecord {
         let rows: BTreeMap<_, _> = rows.iter().map(|(point, values)| (*point, values.to_vec())).collect();
-        Table { names: vec!["a".into(), "b".into()], rows }
+        HostRecord { names: vec!["a".into(), "b".into()], rows }
     }
 
     #[test]
     fn deviations_are_relative_to_the_value_or_the_natural_scale() {
         let own = table(&[(0, [1.0, 0.0]), (1, [200.0, 0.0])]);
-        let told = own.deviation(&table(&[(0, [1.0, 0.0]), (1, [202.0, 0.1])]), false, |_| Some(20.0));
-        let told = told.expect("tables of one shape");
-        assert_eq!((told.different, told.compared), (2, 4));
-        assert!((told.largest - 0.01).abs() < 1e-15 && told.place == "a at point 1");
+        let found = own.deviation(&table(&[(0, [1.0, 0.0]), (1, [202.0, 0.1])]), false, |_| Some(20.0));
+        let found = found.expect("tables of one shape");
+        assert_eq!((found.different, found.compared), (2, 4));
+        assert!((found.largest - 0.01).abs() < 1e-15 && found.place == "a at point 1");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 /// How a host is started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Start {
+pub enum HostStart {
     /// A script in tests/hosts, with arguments of its own.
     Script(&'static str, &'static [&'static str]),
     /// The program of tests/hosts/rust with the host's name.
@@ -15,7 +15,7 @@ pub struct Host {
     /// Its name in the table.
     pub name: &'static str,
     /// How it is started.
-    pub start: Start,
+    pub start: HostStart,
     /// Language it is used from, and the one it is written in.
     pub language: &'static str,
     /// What imports the FMU.
@@ -36,7 +36,7 @@ const PACKAGES: &str = "pip install -r tests/hosts/requirements.txt";
 pub const HOSTS: [Host; 9] = [
     Host {
         name: "fmpy",
-        start: Start::Script("with_fmpy.py", &[]),
+        start: HostStart::Script("with_fmpy.py", &[]),
         language: "Python",
         import: "its own, ctypes",
         enumerations: true,
@@ -46,7 +46,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "fmuloader",
-        start: Start::Script("with_fmuloader.py", &[]),
+        start: HostStart::Script("with_fmuloader.py", &[]),
         language: "Python",
         import: "its own, ctypes",
         enumerations: true,
@@ -56,7 +56,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "libcosim",
-        start: Start::Script("with_libcosim.py", &[]),
+        start: HostStart::Script("with_libcosim.py", &[]),
         language: "Python, C++",
         import: "FMI Library",
         enumerations: false,
@@ -66,7 +66,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "ecos",
-        start: Start::Script("with_ecos.py", &[]),
+        start: HostStart::Script("with_ecos.py", &[]),
         language: "Python, C++",
         import: "fmi4c",
         enumerations: false,
@@ -76,7 +76,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "ecos, process",
-        start: Start::Script("with_ecos.py", &["--process"]),
+        start: HostStart::Script("with_ecos.py", &["--process"]),
         language: "Python, C++",
         import: "fmi4c, proxyfmu",
         enumerations: false,
@@ -86,7 +86,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "fmucontainer",
-        start: Start::Script("with_fmu_container.py", &[]),
+        start: HostStart::Script("with_fmu_container.py", &[]),
         language: "Python, C",
         import: "its own, an FMU around it",
         enumerations: true,
@@ -96,7 +96,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "fmu-runner",
-        start: Start::Rust("fmu-runner"),
+        start: HostStart::Rust("fmu-runner"),
         language: "Rust",
         import: "libfmi",
         enumerations: true,
@@ -106,7 +106,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "fmi-rs",
-        start: Start::Rust("fmi-rs"),
+        start: HostStart::Rust("fmi-rs"),
         language: "Rust",
         import: "its own",
         enumerations: true,
@@ -116,7 +116,7 @@ pub const HOSTS: [Host; 9] = [
     },
     Host {
         name: "fmi-sim",
-        start: Start::Script("with_fmi_sim.py", &[]),
+        start: HostStart::Script("with_fmi_sim.py", &[]),
         language: "Rust",
         import: "fmi",
         enumerations: true,

@@ -9,10 +9,11 @@ use clap::Args;
 
 use crate::fmu::{package, plain_types};
 use crate::tools::progress::Progress;
-use crate::tools::{paths, sections, table};
-use compare::{Deviation, Table};
+use crate::tools::table::Table;
+use crate::tools::{paths, sections};
+use compare::{Deviation, HostRecord};
 use list::{HOSTS, Host};
-use run::{Bench, Outcome, Scene};
+use run::{HostBench, HostOutcome, HostScene};
 
 /// The document with the table, and the table's place.
 const DOCUMENT: &str = "docs/hosts.md";
@@ -35,7 +36,7 @@ pub struct HostsCommand {
 }
 
 /// A host on all scenes.
-struct Hosted {
+struct HostResults {
     host: &'static Host,
     version: String,
     seconds: f64,
@@ -46,33 +47,33 @@ impl HostsCommand {
     /// Runs all hosts on all scenes, prints the table, and with `write` puts it into docs/hosts.md.
     pub fn run(self) -> Result<()> {
         let progress = Progress::start("looking for Python");
-        let bench = Bench::ready(self.with_rust, |what| progress.tell(what))?;
+        let bench = HostBench::ready(self.with_rust, |what| progress.tell(what))?;
         progress.tell("packaging the FMU");
         let fmu = package::package()?;
         let plain = plain_types::package(&fmu)?;
         let scenes = run::scenes()?;
         let (mut results, mut absent) = (Vec::new(), Vec::new());
-        let mut references: Vec<Table> = Vec::new();
+        let mut references: Vec<HostRecord> = Vec::new();
         progress.begin_bar("running hosts");
         for (done, host) in HOSTS.iter().enumerate() {
             progress.advance(done as f64 / HOSTS.len() as f64, host.name);
-            let mut result = Hosted { host, version: String::new(), seconds: 0.0, deviations: Vec::new() };
+            let mut result = HostResults { host, version: String::new(), seconds: 0.0, deviations: Vec::new() };
             for (k, scene) in scenes.iter().enumerate() {
                 let out = bench.folder.join(format!("{}_{}.csv", scene.name, host.name.replace(", ", "_")));
                 let fmu = if host.enumerations { &fmu } else { &plain };
                 let ran = match bench.run(host, scene, fmu, &out)? {
-                    Outcome::Ran(ran) => ran,
-                    Outcome::Absent(why) => {
+                    HostOutcome::HostRun(ran) => ran,
+                    HostOutcome::Absent(why) => {
                         absent.push((host, why));
                         break;
                     }
                 };
-                let table = Table::read(&out)?;
+                let record = HostRecord::read(&out)?;
                 if references.len() == k {
-                    references.push(table.clone());
+                    references.push(record.clone());
                 }
-                let scale = |name: &str| scene.told.outputs.get(name).copied();
-                let deviation = references[k].deviation(&table, !host.reads_start, scale);
+                let scale = |name: &str| scene.file.outputs.get(name).copied();
+                let deviation = references[k].deviation(&record, !host.reads_start, scale);
                 result.deviations.push(deviation.with_context(|| format!("{} on {}", host.name, scene.name))?);
                 result.seconds += ran.seconds;
                 result.version = ran.version;
@@ -86,7 +87,7 @@ impl HostsCommand {
             }
         }
         progress.finish();
-        print!("{}", table::aligned(&rows(&results, &scenes), &[0, 1, 2, 3]));
+        print!("{}", deviations(&results, &scenes).terminal());
         for (host, why) in &absent {
             println!("{}: not run: {why}", host.name);
         }
@@ -105,7 +106,7 @@ impl HostsCommand {
 }
 
 /// An error where a host's answer is another one.
-fn judge(results: &[Hosted], scenes: &[Scene]) -> Result<()> {
+fn judge(results: &[HostResults], scenes: &[HostScene]) -> Result<()> {
     let mut wrong = Vec::new();
     for result in results {
         for (deviation, scene) in result.deviations.iter().zip(scenes) {
@@ -118,53 +119,44 @@ fn judge(results: &[Hosted], scenes: &[Scene]) -> Result<()> {
     if wrong.is_empty() { Ok(()) } else { bail!("hosts differ by more than {MOST:e}:\n{}", wrong.join("\n")) }
 }
 
-/// Head and cells of the table; the first columns are texts.
-fn rows(results: &[Hosted], scenes: &[Scene]) -> Vec<Vec<String>> {
-    let mut head: Vec<String> = ["host", "version", "language", "import"].map(str::to_owned).to_vec();
-    head.extend(scenes.iter().map(|scene| scene.name.clone()));
-    head.push("time, s".to_owned());
-    let mut rows = vec![head];
+/// The deviations of each host by scene.
+fn deviations(results: &[HostResults], scenes: &[HostScene]) -> Table {
+    let head = ["host", "version", "language", "import"].into_iter();
+    let mut table =
+        Table::new(head.chain(scenes.iter().map(|scene| scene.name.as_str())).chain(["time, s"])).left(0..4);
     for result in results {
         let Host { name, language, import, .. } = *result.host;
         let mut row = [name, &result.version, language, import].map(str::to_owned).to_vec();
         row.extend(result.deviations.iter().map(cell));
         row.push(format!("{:.2}", result.seconds));
-        rows.push(row);
+        table.push(row);
     }
-    rows
+    table
 }
 
 fn cell(deviation: &Deviation) -> String {
     if deviation.different == 0 { "same bits".to_owned() } else { format!("{:.1e}", deviation.largest) }
 }
 
-fn markdown(results: &[Hosted], scenes: &[Scene]) -> String {
-    let rows = rows(results, scenes);
-    let line = |cells: &[String]| format!("| {} |\n", cells.join(" | "));
-    let mut text = line(&rows[0]);
-    let right = scenes.len() + 1;
-    text.push_str(&format!("|{}{}\n", "---|".repeat(4), "---:|".repeat(right)));
-    for row in &rows[1..] {
-        text.push_str(&line(row));
-    }
-    text.push_str("\n| host | sets | enumerations | outputs at the start |\n|---|---|---|---|\n");
-    for Hosted { host, .. } in results {
+fn markdown(results: &[HostResults], scenes: &[HostScene]) -> String {
+    let mut hosts = Table::new(["host", "sets", "enumerations", "outputs at the start"]).all_left();
+    for HostResults { host, .. } in results {
         let enumerations = if host.enumerations { "yes" } else { "no: the FMU with integers" };
-        let start = if host.reads_start { "yes" } else { "no" };
-        text.push_str(&format!("| {} | {} | {enumerations} | {start} |\n", host.name, host.sets));
+        hosts.push([host.name, host.sets, enumerations, if host.reads_start { "yes" } else { "no" }]);
     }
-    text.push_str("\n| scene | what |\n|---|---|\n");
-    for Scene { name, told, .. } in scenes {
-        text.push_str(&format!("| `{name}` | {}; steps of {} s |\n", told.description, told.step));
+    let mut what = Table::new(["scene", "what"]).all_left();
+    for HostScene { name, file, .. } in scenes {
+        what.push([format!("`{name}`"), format!("{}; steps of {} s", file.description, file.step)]);
     }
+    let tables = [deviations(results, scenes), hosts, what].map(|table| table.markdown());
     let (compared, different) = results
         .iter()
         .flat_map(|result| &result.deviations)
         .fold((0, 0), |sum, deviation| (sum.0 + deviation.compared, sum.1 + deviation.different));
-    text.push_str(&format!(
-        "\nDeviations are from fmpy, the largest over all outputs and communication points, relative to the value or, where \
-         that is smaller, to the output's natural scale, which the scene tells. {compared} values were compared, {different} \
-         of them have other bits.\n"
-    ));
-    text
+    format!(
+        "{}\nDeviations are from fmpy, the largest over all outputs and communication points, relative to the value or, where \
+         that is smaller, to the output's natural scale, which the scene states. {compared} values were compared, {different} \
+         of them have other bits.\n",
+        tables.join("\n")
+    )
 }

@@ -9,7 +9,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail};
 use serde::Deserialize;
 
-use super::list::{Host, Start};
+use super::list::{Host, HostStart};
 use crate::tools::paths;
 use crate::tools::python::Environment;
 
@@ -19,18 +19,18 @@ const CANNOT_LOAD: i32 = 3;
 const FMI_SIM: [&str; 2] = ["fmi-sim", "0.7.0"];
 
 /// A scene of tests/hosts/scenes.
-pub struct Scene {
+pub struct HostScene {
     /// Name of its file.
     pub name: String,
-    /// Its file.
-    pub file: PathBuf,
-    /// What it tells that matters here.
-    pub told: Told,
+    /// Path of its file.
+    pub path: PathBuf,
+    /// What the file says.
+    pub file: HostSceneFile,
 }
 
 /// Parts of a scene's file.
 #[derive(Deserialize)]
-pub struct Told {
+pub struct HostSceneFile {
     /// What is simulated.
     pub description: String,
     /// Communication step [s].
@@ -39,9 +39,9 @@ pub struct Told {
     pub outputs: BTreeMap<String, f64>,
 }
 
-/// What a script tells of a run.
+/// What a script reports of a run.
 #[derive(Clone, Debug, Deserialize)]
-pub struct Ran {
+pub struct HostRun {
     /// The host's version.
     pub version: String,
     /// From loading the FMU to freeing it [s].
@@ -49,15 +49,15 @@ pub struct Ran {
 }
 
 /// How a run ended.
-pub enum Outcome {
+pub enum HostOutcome {
     /// With a table.
-    Ran(Ran),
+    HostRun(HostRun),
     /// Not at all: the host cannot be loaded here, and why.
     Absent(String),
 }
 
 /// What hosts need before they run.
-pub struct Bench {
+pub struct HostBench {
     environment: Environment,
     /// Where results go.
     pub folder: PathBuf,
@@ -67,7 +67,7 @@ pub struct Bench {
 }
 
 /// All scenes, by name.
-pub fn scenes() -> Result<Vec<Scene>> {
+pub fn scenes() -> Result<Vec<HostScene>> {
     let folder = paths::hosts().join("scenes");
     let mut files: Vec<PathBuf> = fs::read_dir(&folder)
         .with_context(|| format!("{} cannot be read", folder.display()))?
@@ -75,15 +75,15 @@ pub fn scenes() -> Result<Vec<Scene>> {
         .filter(|path| path.extension().is_some_and(|ending| ending == "json"))
         .collect();
     files.sort();
-    let scene = |file: PathBuf| {
-        let told = serde_json::from_str(&fs::read_to_string(&file)?)
-            .with_context(|| format!("{} is no scene", paths::shown(&file)))?;
-        Ok(Scene { name: file.file_stem().unwrap_or_default().to_string_lossy().into_owned(), file, told })
+    let scene = |path: PathBuf| {
+        let file = serde_json::from_str(&fs::read_to_string(&path)?)
+            .with_context(|| format!("{} is not a scene", paths::shown(&path)))?;
+        Ok(HostScene { name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(), path, file })
     };
     files.into_iter().map(scene).collect()
 }
 
-impl Bench {
+impl HostBench {
     /// With the Python environment and, if `with_rust`, the hosts in Rust; `tell` hears what takes time.
     pub fn ready(with_rust: bool, tell: impl Fn(&str)) -> Result<Self> {
         let folder = paths::target().join("hosts");
@@ -102,34 +102,34 @@ impl Bench {
 
     /// Whether `host` was left out on demand.
     pub fn leaves_out(&self, host: &Host, with_rust: bool) -> bool {
-        !with_rust && (matches!(host.start, Start::Rust(_)) || host.name == FMI_SIM[0])
+        !with_rust && (matches!(host.start, HostStart::Rust(_)) || host.name == FMI_SIM[0])
     }
 
     /// Runs `host` on `scene` with `fmu`; its table goes to `out`.
-    pub fn run(&self, host: &Host, scene: &Scene, fmu: &Path, out: &Path) -> Result<Outcome> {
+    pub fn run(&self, host: &Host, scene: &HostScene, fmu: &Path, out: &Path) -> Result<HostOutcome> {
         let mut command = match host.start {
-            Start::Script(script, _) => {
+            HostStart::Script(script, _) => {
                 let mut command = self.environment.command();
                 command.arg(paths::hosts().join(script));
                 command
             }
-            Start::Rust(name) => match &self.rust {
+            HostStart::Rust(name) => match &self.rust {
                 Ok(program) => {
                     let mut command = Command::new(program);
                     command.arg(name);
                     command
                 }
-                Err(why) => return Ok(Outcome::Absent(why.clone())),
+                Err(why) => return Ok(HostOutcome::Absent(why.clone())),
             },
         };
         if host.name == FMI_SIM[0] {
             match &self.fmi_sim {
                 Ok(program) => command.env("FMI_SIM", program),
-                Err(why) => return Ok(Outcome::Absent(why.clone())),
+                Err(why) => return Ok(HostOutcome::Absent(why.clone())),
             };
         }
-        command.arg(fmu).arg(&scene.file).arg(out);
-        if let Start::Script(_, arguments) = host.start {
+        command.arg(fmu).arg(&scene.path).arg(out);
+        if let HostStart::Script(_, arguments) = host.start {
             command.args(arguments);
         }
         // some write logs where they stand
@@ -137,13 +137,13 @@ impl Bench {
         let ended = command.output().with_context(|| format!("{} cannot be run", host.name))?;
         let (printed, remarks) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
         if ended.status.code() == Some(CANNOT_LOAD) {
-            return Ok(Outcome::Absent(format!("{} ({})", last_line(&remarks), host.hint)));
+            return Ok(HostOutcome::Absent(format!("{} ({})", last_line(&remarks), host.hint)));
         }
         if !ended.status.success() {
             bail!("{} fails on {} ({}):\n{}", host.name, scene.name, ended.status, remarks.trim_end());
         }
         let told = serde_json::from_str(last_line(&printed));
-        Ok(Outcome::Ran(told.with_context(|| format!("{} tells nothing of its run", host.name))?))
+        Ok(HostOutcome::HostRun(told.with_context(|| format!("{} tells nothing of its run", host.name))?))
     }
 }
 

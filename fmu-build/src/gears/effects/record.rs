@@ -4,7 +4,7 @@ use bevel_differential::model::CostClass;
 use cpu_time::ThreadTime;
 
 use crate::gears::scene::Scene;
-use crate::gears::scene::run::Run;
+use crate::gears::scene::run::SceneRun;
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ impl Record {
         let told = |problems: Vec<bevel_differential::problem::Problem>| {
             problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
         };
-        let mut run = Run::attempt(scene, scene.step).map_err(told)?;
+        let mut run = SceneRun::attempt(scene, scene.step).map_err(told)?;
         let mut record = Self {
             times: Vec::new(),
             values: vec![Vec::new(); scene.outputs.len()],
@@ -56,7 +56,7 @@ impl Record {
         Ok((record, Taken { seconds: begun.elapsed().as_secs_f64() }))
     }
 
-    fn take(&mut self, scene: &Scene, run: &mut Run, from: f64) {
+    fn take(&mut self, scene: &Scene, run: &mut SceneRun, from: f64) {
         let values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
         if run.time() > from {
             self.times.push(run.time());

@@ -5,7 +5,7 @@ use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Choice, Variable, table};
 
 use crate::gears::scene::Scene;
-use crate::gears::scene::run::Run;
+use crate::gears::scene::run::SceneRun;
 
 /// Beginning of the names of all switches.
 const PREFIX: &str = "effects.";
@@ -86,7 +86,7 @@ impl Switch {
         match self {
             Self::Effect(row) => {
                 let turned = with(scene, row, !self.is_on(&scene.parameters));
-                Run::attempt(&turned, turned.step)?;
+                SceneRun::attempt(&turned, turned.step)?;
                 Ok(Turned { scene: turned, without: Vec::new() })
             }
             Self::Level(choice) => on_level(scene, choice.value),
@@ -160,7 +160,7 @@ fn on_level(scene: &Scene, value: i32) -> Result<Turned, Vec<Problem>> {
         set(&mut turned.scene.parameters, value);
     }
     loop {
-        let Err(problems) = Run::attempt(&turned.scene, turned.scene.step) else { return Ok(turned) };
+        let Err(problems) = SceneRun::attempt(&turned.scene, turned.scene.step) else { return Ok(turned) };
         let named =
             |switch: &Switch| matches!(switch, Switch::Effect(row) if problems.iter().any(|p| p.variable == row.name));
         let known: Vec<Switch> = effects().filter(|s| named(s) && s.is_on(&turned.scene.parameters)).collect();

@@ -8,7 +8,7 @@ use super::verdict::Verdict;
 use super::words::{most, name, pair, percent, scene, three};
 use super::{Finding, Findings};
 use crate::gears::scene::units;
-use crate::tools::table::{aligned, wrapped};
+use crate::tools::table::{Table, wrapped};
 
 /// All of it.
 pub fn text(found: &Findings) -> String {
@@ -37,11 +37,11 @@ pub fn text(found: &Findings) -> String {
 fn effects(found: &Findings) -> String {
     let bench = &found.bench;
     let head = ["", "effect", "scene", "alone", "among all", "most in", "by points", "cost", "evaluations", "verdict"];
-    let mut rows = vec![head.map(str::to_owned)];
+    let mut table = Table::new(head).left([1, 2, 5, 9]);
     for (i, row) in found.rows.iter().enumerate() {
         let change = row.among.change(bench);
         let size = |change: Option<&Change>| change.map_or_else(|| "–".into(), |change| percent(change.largest()));
-        rows.push([
+        table.push([
             (i + 1).to_string(),
             name(row),
             scene(row.standing, &row.switch).into(),
@@ -54,7 +54,7 @@ fn effects(found: &Findings) -> String {
             row.verdict.text(row.standing),
         ]);
     }
-    aligned(&rows, &[1, 2, 5, 9])
+    table.terminal()
 }
 
 /// Why effects are refused, or scenes without them fail; effects of one reason together.
@@ -87,7 +87,7 @@ fn outputs(found: &Findings) -> String {
         .collect();
     let mut head: Vec<String> = ["output, among all", "100 %", "strays"].map(str::to_owned).to_vec();
     head.extend(columns.iter().map(|(number, _)| format!("[{number}]")));
-    let mut rows = vec![head];
+    let mut table = Table::new(head).left([0]);
     for (i, output) in found.scene.outputs.iter().enumerate() {
         let scale = units::shown(output, found.scales[i].magnitude);
         let mut row = vec![
@@ -96,9 +96,9 @@ fn outputs(found: &Findings) -> String {
             percent(found.strays[i]),
         ];
         row.extend(columns.iter().map(|(_, change)| percent(change.outputs[i].by).replace(" %", "")));
-        rows.push(row);
+        table.push(row);
     }
-    aligned(&rows, &[0])
+    table.terminal()
 }
 
 fn costs(row: &Finding, bench: &Bench) -> Option<Ratio> {

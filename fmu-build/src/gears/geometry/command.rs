@@ -7,8 +7,8 @@ use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 
 use super::design::Design;
-use super::interference::Check;
-use super::made::Made;
+use super::geometry_file::GeometryFile;
+use super::interference::InterferenceCheck;
 use super::{json, models, text};
 use crate::gears::scene::set::{real, value, variable};
 use crate::tools::paths;
@@ -47,7 +47,7 @@ impl GeometryCommand {
             }
         };
         let progress = Progress::start("turning the gears through a tooth pitch");
-        let check = Check::new(&design, thicken)?;
+        let check = InterferenceCheck::new(&design, thicken)?;
         progress.tell("making curves and solids");
         let made = files(&design, &check, facets)?;
         progress.finish();
@@ -78,18 +78,18 @@ impl GeometryCommand {
 }
 
 /// All files of `design` and its `check`, with `facets` per flank where flanks are divided.
-pub fn files(design: &Design, check: &Check, facets: usize) -> Result<Vec<Made>> {
+pub fn files(design: &Design, check: &InterferenceCheck, facets: usize) -> Result<Vec<GeometryFile>> {
     let mut made = vec![
-        Made::text("dimensions.txt", text::text(design)),
-        Made::text("dimensions.json", json::text(design, Some(check))?),
-        Made::text("interference.txt", check.text()),
+        GeometryFile::text("dimensions.txt", text::text(design)),
+        GeometryFile::text("dimensions.json", json::text(design, Some(check))?),
+        GeometryFile::text("interference.txt", check.text()),
     ];
     made.extend(models::files(design, facets)?);
     Ok(made)
 }
 
 /// Names and sizes, a line each.
-fn list(made: &[Made]) -> String {
+fn list(made: &[GeometryFile]) -> String {
     let width = made.iter().map(|file| file.name.len()).max().unwrap_or(0);
     made.iter().map(|file| format!("  {:<width$}  {:>7}\n", file.name, size(file.content.len()))).collect()
 }

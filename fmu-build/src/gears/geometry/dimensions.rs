@@ -4,18 +4,18 @@
 //! gears; a row says which. In the standard's terms these are straight bevel gears (β = 0) without offset, whose tip,
 //! pitch and root cones meet in one apex, which is the crossing point of the axes.
 
-pub use super::row::{Group, Kind, Row};
+pub use super::dimension::{Dimension, DimensionGroup, QuantityKind};
 use super::{gear_rows, pair_rows, tooth_rows};
 
 /// Dimensions that planet and side gear have each.
-pub fn of_gears() -> Vec<Group> {
+pub fn of_gears() -> Vec<DimensionGroup> {
     let mut groups = gear_rows::groups();
     groups.extend(tooth_rows::groups());
     groups
 }
 
 /// Dimensions that the pair has once.
-pub fn of_pair() -> Vec<Group> {
+pub fn of_pair() -> Vec<DimensionGroup> {
     pair_rows::groups()
 }
 

@@ -3,7 +3,7 @@
 use bevel_differential::numeric::{cos, sin};
 
 use super::design::Design;
-use super::row::{Group, ISO_23509, Of, rows};
+use super::dimension::{DimensionGroup, DimensionValue, ISO_23509, dimensions};
 
 /// Share of the outer cone distance at which the middle and the toe of the face stand.
 pub fn mean(d: &Design) -> f64 {
@@ -32,9 +32,9 @@ fn crown(d: &Design, i: usize) -> f64 {
 }
 
 /// The rows.
-pub fn groups() -> Vec<Group> {
+pub fn groups() -> Vec<DimensionGroup> {
     vec![
-        rows!("cones", Of::Gear,
+        dimensions!("cones", DimensionValue::Gear,
             "number_of_teeth_z" "z" Count ISO_23509, "given", |d, i| f64::from(d.pair.gears[i].teeth);
             "pitch_angle_delta" "δ" Angle ISO_23509, "half angle of the pitch cone", |d, i| d.pair.gears[i].pitch;
             "face_angle_delta_a" "δ_a" Angle ISO_23509, "of the tip cone, its apex in the pitch apex",
@@ -50,7 +50,7 @@ pub fn groups() -> Vec<Group> {
             "face_angle_for_uniform_clearance" "" Angle None, "δ_a if the tip cone were parallel to the mate's root cone",
                 |d, i| d.pair.gears[i].pitch + d.pair.gears[1 - i].pitch - d.pair.gears[1 - i].root;
         ),
-        rows!("diameters, on the back cone and the cones parallel to it", Of::Gear,
+        dimensions!("diameters, on the back cone and the cones parallel to it", DimensionValue::Gear,
             "outer_pitch_diameter_d_e" "d_e" Length ISO_23509, "at the heel, m_et z",
                 |d, i| d.pair.outer_pitch_diameter(i);
             "mean_pitch_diameter_d_m" "d_m" Length ISO_23509, "in the middle of the face",
@@ -65,7 +65,7 @@ pub fn groups() -> Vec<Group> {
                 |d, i| root_diameter(d, i) * mean(d);
             "inner_root_diameter_d_fi" "d_fi" Length ISO_23509, "at the toe", |d, i| root_diameter(d, i) * toe(d);
         ),
-        rows!("diameters, on the spheres R_e and R_i that the teeth of the solids end on", Of::Gear,
+        dimensions!("diameters, on the spheres R_e and R_i that the teeth of the solids end on", DimensionValue::Gear,
             "outer_tip_diameter_on_sphere" "" Length None, "at the heel, 2 R_e sin δ_a",
                 |d, i| 2.0 * d.pair.outer_cone * sin(d.pair.gears[i].tip);
             "inner_tip_diameter_on_sphere" "" Length None, "at the toe, 2 R_i sin δ_a",
@@ -77,7 +77,7 @@ pub fn groups() -> Vec<Group> {
             "outer_base_diameter_on_sphere" "" Length None, "at the heel, 2 R_e sin δ_b",
                 |d, i| 2.0 * d.pair.outer_cone * sin(d.pair.gears[i].base);
         ),
-        rows!("along the axis", Of::Gear,
+        dimensions!("along the axis", DimensionValue::Gear,
             "crossing_point_to_crown_t_xo" "t_xo" Length ISO_23509, "from the apex to the tip at the heel, on the back cone",
                 crown;
             "crossing_point_to_front_crown_t_xi" "t_xi" Length ISO_23509, "from the apex to the tip at the toe",

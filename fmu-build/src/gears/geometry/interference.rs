@@ -20,7 +20,7 @@ const GEARS: [&str; 2] = ["planet", "side gear"];
 const NEAR: f64 = 0.25;
 
 /// The check of a design.
-pub struct Check {
+pub struct InterferenceCheck {
     pair: Pair,
     spec: GearSpec,
     /// By how much teeth are thicker than they are made [m], both gears together at the outer pitch circle.
@@ -31,25 +31,25 @@ pub struct Check {
 
 /// The check in JSON: lengths in mm, angles in degrees.
 #[derive(Serialize)]
-pub struct Told {
+pub struct InterferenceReport {
     found: bool,
     thicken: f64,
     backlash: f64,
-    middle: ToldStance,
-    driving: ToldStance,
+    middle: StanceReport,
+    driving: StanceReport,
     between_tip_cones_of_neighbouring_planets: f64,
     between_tip_cones_of_side_gears: f64,
 }
 
 #[derive(Serialize)]
-struct ToldStance {
+struct StanceReport {
     verdict: &'static str,
     resolution: f64,
-    approaches: Vec<ToldApproach>,
+    approaches: Vec<ApproachReport>,
 }
 
 #[derive(Serialize)]
-struct ToldApproach {
+struct ApproachReport {
     planet: &'static str,
     side_gear: &'static str,
     at_heel: f64,
@@ -62,7 +62,7 @@ struct ToldApproach {
     side_gear_tooth: i32,
 }
 
-impl Check {
+impl InterferenceCheck {
     /// Checks `design` with teeth thicker by `thicken` [m].
     pub fn new(design: &Design, thicken: f64) -> Result<Self> {
         let spec = GearSpec { backlash: design.spec.backlash - thicken, ..design.spec };
@@ -190,36 +190,36 @@ impl Check {
     }
 
     /// For a program.
-    pub fn told(&self) -> Told {
+    pub fn told(&self) -> InterferenceReport {
         let [middle, driving] = &self.stances;
         let [planets, sides] = middle.between_tips.map(f64::to_degrees);
-        Told {
+        InterferenceReport {
             found: self.any(),
             thicken: self.thicken * MM,
             backlash: self.spec.backlash * MM,
-            middle: self.told_stance(middle),
-            driving: self.told_stance(driving),
+            middle: self.stance_report(middle),
+            driving: self.stance_report(driving),
             between_tip_cones_of_neighbouring_planets: planets,
             between_tip_cones_of_side_gears: sides,
         }
     }
 
-    fn told_stance(&self, found: &Interference) -> ToldStance {
+    fn stance_report(&self, found: &Interference) -> StanceReport {
         let near = |a: &&Approach| a.gap * self.pair.outer_cone < NEAR * self.pair.module;
         let verdict = found.worst().map_or(Verdict::Clear, |worst| found.verdict(worst.gap));
-        ToldStance {
+        StanceReport {
             verdict: match verdict {
                 Verdict::Clear => "clear",
                 Verdict::Touching => "touching",
                 Verdict::Interfering => "interfering",
             },
             resolution: self.heel(found.resolution),
-            approaches: found.approaches.iter().filter(near).map(|a| self.told_approach(a)).collect(),
+            approaches: found.approaches.iter().filter(near).map(|a| self.approach_report(a)).collect(),
         }
     }
 
-    fn told_approach(&self, a: &Approach) -> ToldApproach {
-        ToldApproach {
+    fn approach_report(&self, a: &Approach) -> ApproachReport {
+        ApproachReport {
             planet: part(a.parts[0]),
             side_gear: part(a.parts[1]),
             at_heel: self.heel(a.gap),

@@ -7,17 +7,17 @@ use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::design::{Design, parameters};
-use super::dimensions::{Group, Kind, Row, of_gears, of_pair};
-use super::interference::{Check, Told};
-use super::tredgold::{Comparison, comparisons};
+use super::dimensions::{Dimension, DimensionGroup, QuantityKind, of_gears, of_pair};
+use super::interference::{InterferenceCheck, InterferenceReport};
+use super::tredgold::{TredgoldComparison, comparisons};
 use crate::gears::scene::set::literal;
 
 /// Entries of an object in the order they are given, which a map of the library would lose.
-struct Ordered(Vec<(&'static str, Entry)>);
+struct Ordered(Vec<(&'static str, JsonEntry)>);
 
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Entry {
+enum JsonEntry {
     Parameter {
         value: Value,
         #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,7 +30,7 @@ enum Entry {
         standard: Value,
         meaning: String,
     },
-    Comparison {
+    TredgoldComparison {
         exact: f64,
         tredgold: f64,
         unit: &'static str,
@@ -52,12 +52,12 @@ struct Document {
     pair: Ordered,
     tredgold: Ordered,
     #[serde(skip_serializing_if = "Option::is_none")]
-    interference: Option<Told>,
+    interference: Option<InterferenceReport>,
     warnings: Vec<Value>,
 }
 
 /// All of it, with what the check of interference found if it was made.
-pub fn text(design: &Design, check: Option<&Check>) -> Result<String> {
+pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String> {
     let mut values = design.parameters;
     let warnings = design.warnings.iter();
     let document = Document {
@@ -66,21 +66,21 @@ pub fn text(design: &Design, check: Option<&Check>) -> Result<String> {
         side_gear: dimensions(of_gears(), design, 1),
         pair: dimensions(of_pair(), design, 0),
         tredgold: Ordered(comparisons(design).iter().map(|found| (found.key, comparison(found))).collect()),
-        interference: check.map(Check::told),
+        interference: check.map(InterferenceCheck::told),
         warnings: warnings.map(|found| json!({"variable": found.variable, "message": found.message})).collect(),
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")
 }
 
-fn dimensions(groups: Vec<Group>, design: &Design, i: usize) -> Ordered {
+fn dimensions(groups: Vec<DimensionGroup>, design: &Design, i: usize) -> Ordered {
     Ordered(groups.iter().flat_map(|group| &group.rows).map(|row| (row.key, dimension(row, design, i))).collect())
 }
 
-fn dimension(row: &Row, design: &Design, i: usize) -> Entry {
+fn dimension(row: &Dimension, design: &Design, i: usize) -> JsonEntry {
     let value = row.shown(design, i);
-    Entry::Dimension {
+    JsonEntry::Dimension {
         // whole numbers without a decimal point
-        value: if row.kind == Kind::Count { Value::from(value as i64) } else { Value::from(value) },
+        value: if row.kind == QuantityKind::Count { Value::from(value as i64) } else { Value::from(value) },
         unit: row.kind.unit(),
         symbol: row.symbol,
         standard: row.standard.map_or(Value::Bool(false), Value::from),
@@ -88,13 +88,13 @@ fn dimension(row: &Row, design: &Design, i: usize) -> Entry {
     }
 }
 
-fn comparison(found: &Comparison) -> Entry {
+fn comparison(found: &TredgoldComparison) -> JsonEntry {
     let [exact, tredgold] = [found.exact, found.planar].map(|value| found.kind.shown(value));
-    Entry::Comparison { exact, tredgold, unit: found.kind.unit(), relative_error: found.error() }
+    JsonEntry::TredgoldComparison { exact, tredgold, unit: found.kind.unit(), relative_error: found.error() }
 }
 
 /// A parameter as the FMU has it.
-fn parameter(row: &Variable, values: &mut Parameters) -> Entry {
+fn parameter(row: &Variable, values: &mut Parameters) -> JsonEntry {
     let value = match row.access {
         Access::Real(access) => Value::from(*access(values)),
         Access::Integer(access) => Value::from(*access(values)),
@@ -104,5 +104,5 @@ fn parameter(row: &Variable, values: &mut Parameters) -> Entry {
         Access::Input(_) | Access::Output(_) => Value::Null,
     };
     let number = matches!(row.access, Access::Real(_) | Access::Integer(_));
-    Entry::Parameter { value, unit: number.then(|| row.unit.map_or("1", |unit| unit.name)) }
+    JsonEntry::Parameter { value, unit: number.then(|| row.unit.map_or("1", |unit| unit.name)) }
 }

@@ -3,15 +3,15 @@
 pub mod assembly;
 pub mod command;
 pub mod design;
+pub mod dimension;
 pub mod dimensions;
 mod gear_rows;
+pub mod geometry_file;
 pub mod gltf;
 pub mod interference;
 pub mod json;
-pub mod made;
 pub mod models;
 mod pair_rows;
-pub mod row;
 pub mod stl;
 pub mod text;
 mod tooth_rows;

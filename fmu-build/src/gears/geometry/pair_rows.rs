@@ -1,12 +1,12 @@
 //! Dimensions that both gears share: modules, cone distances, path of contact, backlash.
 
+use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
 use super::gear_rows::{mean, toe};
-use super::row::{Group, ISO_10300, ISO_23509, Of, rows};
 
 /// The rows.
-pub fn groups() -> Vec<Group> {
+pub fn groups() -> Vec<DimensionGroup> {
     vec![
-        rows!("pair", Of::Pair,
+        dimensions!("pair", DimensionValue::Pair,
             "shaft_angle_Sigma" "Σ" Angle ISO_23509, "between both axes, given", |d| d.pair.shaft_angle;
             "gear_ratio_u" "u" Ratio ISO_23509, "teeth of the larger gear over those of the smaller", |d| {
                 let (p, s) = (f64::from(d.spec.planet_teeth), f64::from(d.spec.side_teeth));
@@ -28,7 +28,7 @@ pub fn groups() -> Vec<Group> {
             "mean_working_depth_h_mw" "h_mw" Length ISO_23509, "both addenda in the middle of the face",
                 |d| (d.pair.gears[0].addendum + d.pair.gears[1].addendum) * mean(d);
         ),
-        rows!("backlash", Of::Pair,
+        dimensions!("backlash", DimensionValue::Pair,
             "outer_transverse_backlash_j_et" "j_et" Length ISO_23509, "along the outer pitch circle, given",
                 |d| d.spec.backlash;
             "outer_normal_backlash_j_en" "j_en" Length ISO_23509, "between the flanks at the heel, j_et cos α",
@@ -38,7 +38,7 @@ pub fn groups() -> Vec<Group> {
             "mean_normal_backlash_j_mn" "j_mn" Length ISO_23509, "between the flanks in the middle of the face",
                 |d| d.pair.normal_backlash * d.pair.mean_cone;
         ),
-        rows!("path of contact, on the sphere", Of::Pair,
+        dimensions!("path of contact, on the sphere", DimensionValue::Pair,
             "line_of_action_Lambda" "Λ" Angle None, "arc between the tangent points on both base circles",
                 |d| d.pair.line_of_action();
             "base_pitch_p_b" "p_b" Angle None, "arc from pair to pair, 360 deg sin δ_b / z", |d| d.pair.base_pitch;
@@ -56,7 +56,7 @@ pub fn groups() -> Vec<Group> {
             "transverse_contact_ratio_of_virtual_gears_epsilon_valpha" "ε_vα" Ratio ISO_10300,
                 "by Tredgold's virtual gears, if no tip passed a base circle", |d| d.planar.contact_ratio;
         ),
-        rows!("assembly", Of::Pair,
+        dimensions!("assembly", DimensionValue::Pair,
             "number_of_planets" "" Count None, "given, equally spaced", |d| f64::from(d.spec.planet_count);
             "assembly_condition" "" Count None, "2 z of the side gear / number of planets, must be whole",
                 |d| f64::from(2 * d.spec.side_teeth) / f64::from(d.spec.planet_count);

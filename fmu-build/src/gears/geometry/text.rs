@@ -1,9 +1,9 @@
 //! The dimensions for a reader: aligned tables, the planar approximation beside them, and the warnings.
 
 use super::design::Design;
-use super::dimensions::{Group, Row, of_gears, of_pair};
+use super::dimensions::{Dimension, DimensionGroup, of_gears, of_pair};
 use super::tredgold::comparisons;
-use crate::tools::table::{aligned, wrapped};
+use crate::tools::table::{Table, wrapped};
 
 /// All of it.
 pub fn text(design: &Design) -> String {
@@ -14,11 +14,11 @@ pub fn text(design: &Design) -> String {
          standard that the term is taken from, ISO 23509:2016 for bevel gears or ISO 10300-1 for virtual cylindrical gears.",
     ));
     let gears = of_gears();
-    out.push_str(&table(&["symbol", "planet", "side gear", "unit", "ISO", "meaning"], &gears, |row| {
+    out.push_str(&grouped(&["symbol", "planet", "side gear", "unit", "ISO", "meaning"], &gears, |row| {
         [0, 1].map(|i| row.kind.text(row.shown(design, i))).to_vec()
     }));
     let pair = of_pair();
-    out.push_str(&table(&["symbol", "pair", "unit", "ISO", "meaning"], &pair, |row| {
+    out.push_str(&grouped(&["symbol", "pair", "unit", "ISO", "meaning"], &pair, |row| {
         vec![row.kind.text(row.shown(design, 0))]
     }));
     out.push('\n');
@@ -39,16 +39,16 @@ fn set(design: &Design) -> String {
 }
 
 /// Rows of all groups in the same columns, each group under its title.
-fn table(head: &[&str], groups: &[Group], values: impl Fn(&Row) -> Vec<String>) -> String {
-    let mut rows = vec![head.iter().map(|&name| name.to_owned()).collect::<Vec<_>>()];
+fn grouped(head: &[&str], groups: &[DimensionGroup], values: impl Fn(&Dimension) -> Vec<String>) -> String {
+    let last = head.len() - 1;
+    let mut table = Table::new(head.iter().copied()).left([0, last - 2, last - 1, last]);
     for row in groups.iter().flat_map(|group| &group.rows) {
         let mut cells = vec![row.symbol.to_owned()];
         cells.extend(values(row));
         cells.extend([unit(row), standard(row), format!("{}: {}", row.term(), row.meaning)]);
-        rows.push(cells);
+        table.push(cells);
     }
-    let last = head.len() - 1;
-    let all = aligned(&rows, &[0, last - 2, last - 1, last]);
+    let all = table.terminal();
     let mut lines = all.lines();
     let mut out = String::new();
     let mut copy =
@@ -62,19 +62,19 @@ fn table(head: &[&str], groups: &[Group], values: impl Fn(&Row) -> Vec<String>) 
     out
 }
 
-fn unit(row: &Row) -> String {
+fn unit(row: &Dimension) -> String {
     row.kind.unit().replace('1', "")
 }
 
-fn standard(row: &Row) -> String {
+fn standard(row: &Dimension) -> String {
     row.standard.map_or_else(|| "-".into(), |name| name.trim_start_matches("ISO ").into())
 }
 
 fn planar(design: &Design) -> String {
-    let mut rows = vec![["quantity", "exact", "Tredgold", "unit", "error"].map(str::to_owned)];
+    let mut table = Table::new(["quantity", "exact", "Tredgold", "unit", "error"]).left([0, 3]);
     for found in comparisons(design) {
         let show = |value: f64| found.kind.text(found.kind.shown(value));
-        rows.push([
+        table.push([
             found.key.replace('_', " "),
             show(found.exact),
             show(found.planar),
@@ -86,7 +86,7 @@ fn planar(design: &Design) -> String {
         "Tredgold's approximation by virtual spur gears on the back cones, which the study uses, beside the exact geometry \
          on the sphere; lengths at the heel. A start of the active profile below 0 is undercut.",
     );
-    format!("{title}\n{}", aligned(&rows, &[0, 3]))
+    format!("{title}\n{}", table.terminal())
 }
 
 fn warnings(design: &Design) -> String {

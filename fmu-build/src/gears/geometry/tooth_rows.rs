@@ -3,8 +3,8 @@
 use bevel_differential::numeric::{cos, sin, tan};
 
 use super::design::Design;
+use super::dimension::{DimensionGroup, DimensionValue, ISO_10300, ISO_23509, dimensions};
 use super::gear_rows::{mean, toe};
-use super::row::{Group, ISO_10300, ISO_23509, Of, rows};
 
 /// Addendum and dedendum at the heel.
 fn depth(d: &Design, i: usize) -> f64 {
@@ -54,12 +54,12 @@ fn sin2_alpha(d: &Design) -> f64 {
 }
 
 /// The rows.
-pub fn groups() -> Vec<Group> {
+pub fn groups() -> Vec<DimensionGroup> {
     vec![heights(), thicknesses(), flank(), limits(), virtual_gear()]
 }
 
-fn heights() -> Group {
-    rows!("tooth heights", Of::Gear,
+fn heights() -> DimensionGroup {
+    dimensions!("tooth heights", DimensionValue::Gear,
         "outer_addendum_h_ae" "h_ae" Length ISO_23509, "at the heel", |d, i| d.pair.gears[i].addendum;
         "outer_dedendum_h_fe" "h_fe" Length ISO_23509, "at the heel", |d, i| d.pair.gears[i].dedendum;
         "outer_whole_depth_h_e" "h_e" Length ISO_23509, "at the heel", depth;
@@ -77,8 +77,8 @@ fn heights() -> Group {
     )
 }
 
-fn thicknesses() -> Group {
-    rows!("tooth thickness, less half of the backlash", Of::Gear,
+fn thicknesses() -> DimensionGroup {
+    dimensions!("tooth thickness, less half of the backlash", DimensionValue::Gear,
         "profile_shift_coefficient_x_hm" "x_hm" Ratio ISO_23509, "half the difference of addenda, in modules", shift;
         "thickness_modification_coefficient_x_sm" "x_sm" Ratio ISO_23509, "by backlash alone, -j_et / 4 m_et",
             |d, _| -d.spec.backlash / (4.0 * d.pair.module);
@@ -117,8 +117,8 @@ fn thicknesses() -> Group {
     )
 }
 
-fn flank() -> Group {
-    rows!("flank; arcs ψ lie on the line of action and count from the tangent point on the base circle", Of::Gear,
+fn flank() -> DimensionGroup {
+    dimensions!("flank; arcs ψ lie on the line of action and count from the tangent point on the base circle", DimensionValue::Gear,
         "arc_to_pitch_point_psi" "ψ" Angle None, "cos δ = cos δ_b cos ψ", |d, i| d.pair.pitch_arc[i];
         "arc_to_tip_psi_a" "ψ_a" Angle None, "cos δ_a = cos δ_b cos ψ_a", |d, i| d.pair.tip_arc[i];
         "arc_to_start_of_active_profile_psi_f" "ψ_f" Angle None, "where the mate's tip touches, negative if undercut", start_arc;
@@ -134,8 +134,8 @@ fn flank() -> Group {
     )
 }
 
-fn limits() -> Group {
-    rows!("limits; a taller tip passes the mate's base circle, which undercuts the mate or jams in it", Of::Gear,
+fn limits() -> DimensionGroup {
+    dimensions!("limits; a taller tip passes the mate's base circle, which undercuts the mate or jams in it", DimensionValue::Gear,
         "limit_face_angle" "" Angle None, "largest δ_a", |d, i| d.pair.limit_tip_angle(i);
         "limit_outer_addendum" "" Length None, "largest h_ae", |d, i| d.pair.limit_addendum(i);
         "limit_outer_addendum_in_modules" "" Ratio None, "largest h_ae / m_et",
@@ -143,8 +143,8 @@ fn limits() -> Group {
     )
 }
 
-fn virtual_gear() -> Group {
-    rows!("virtual cylindrical gear (Tredgold) at the heel", Of::Gear,
+fn virtual_gear() -> DimensionGroup {
+    dimensions!("virtual cylindrical gear (Tredgold) at the heel", DimensionValue::Gear,
         "number_of_teeth_of_virtual_gear_z_v" "z_v" Ratio ISO_10300, "z / cos δ", |d, i| d.planar.teeth[i];
         "outer_virtual_pitch_diameter_d_ve" "d_ve" Length None, "d_e / cos δ", |d, i| d.planar.diameter[i];
         "outer_virtual_tip_diameter_d_vae" "d_vae" Length None, "d_ve + 2 h_ae", |d, i| d.planar.tip_diameter[i];

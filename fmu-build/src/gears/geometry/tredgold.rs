@@ -7,23 +7,23 @@ use bevel_differential::geometry::Tredgold;
 use bevel_differential::numeric::{PI, acos, cos, sin, sqrt, tan};
 
 use super::design::Design;
-use super::row::Kind;
+use super::dimension::QuantityKind;
 use super::tooth_rows::land;
 
 /// A quantity both ways.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct TredgoldComparison {
     /// Term in snake case.
     pub key: &'static str,
     /// Kind of its number.
-    pub kind: Kind,
+    pub kind: QuantityKind,
     /// Exact, on the sphere [SI].
     pub exact: f64,
     /// By Tredgold's virtual gears [SI].
     pub planar: f64,
 }
 
-impl Comparison {
+impl TredgoldComparison {
     /// Relative error of the approximation; none where there is nothing to compare with.
     pub fn error(&self) -> Option<f64> {
         (self.exact.abs() > f64::EPSILON).then(|| self.planar / self.exact - 1.0)
@@ -76,13 +76,13 @@ impl Plane {
 }
 
 /// Both ways of all that the approximation is used for.
-pub fn comparisons(design: &Design) -> Vec<Comparison> {
+pub fn comparisons(design: &Design) -> Vec<TredgoldComparison> {
     let (pair, alpha) = (&design.pair, design.pair.pressure_angle);
     let plane = Plane::new(&design.planar, alpha);
     let pitch = PI * pair.module * cos(alpha);
     let start = |i: usize| pair.outer_cone * tan(pair.line_of_action() - pair.tip_arc[1 - i]);
-    let length = |key, exact, planar| Comparison { key, kind: Kind::Length, exact, planar };
-    let ratio = |key, exact, planar| Comparison { key, kind: Kind::Ratio, exact, planar };
+    let length = |key, exact, planar| TredgoldComparison { key, kind: QuantityKind::Length, exact, planar };
+    let ratio = |key, exact, planar| TredgoldComparison { key, kind: QuantityKind::Ratio, exact, planar };
     vec![
         ratio("contact_ratio", pair.path.contact_ratio, plane.path() / pitch),
         ratio("contact_ratio_without_limits", pair.path.unclipped_ratio, design.planar.contact_ratio),

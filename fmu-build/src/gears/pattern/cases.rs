@@ -36,7 +36,7 @@ pub const CROWNING: f64 = 20e-6;
 
 /// A scene with its place in the figure.
 #[derive(Clone)]
-pub struct Case {
+pub struct PatternCase {
     /// Name in files.
     pub name: String,
     /// Title in the figure.
@@ -45,7 +45,7 @@ pub struct Case {
     pub scene: Scene,
 }
 
-impl Case {
+impl PatternCase {
     /// A user's own scene.
     pub fn of(scene: Scene) -> Self {
         Self { name: scene.name.clone(), title: scene.name.clone(), scene }
@@ -61,7 +61,7 @@ pub fn turn(errors: &ToothErrorSpec) -> Result<Scene> {
 }
 
 /// Cases of the documentation.
-pub fn all() -> Result<Vec<Case>> {
+pub fn all() -> Result<Vec<PatternCase>> {
     let none = ToothErrorSpec::default();
     [
         ("aligned", "aligned", none),
@@ -78,6 +78,6 @@ pub fn all() -> Result<Vec<Case>> {
         ("hypoid_backward", "pin 0.1 mm backward", ToothErrorSpec { axis_offset: -OFFSET, ..none }),
     ]
     .into_iter()
-    .map(|(name, title, errors)| Ok(Case { name: name.into(), title: title.into(), scene: turn(&errors)? }))
+    .map(|(name, title, errors)| Ok(PatternCase { name: name.into(), title: title.into(), scene: turn(&errors)? }))
     .collect()
 }

@@ -2,12 +2,15 @@
 
 use anyhow::{Context, Result};
 
-use super::cases::Case;
-use super::sample::{Contact, Record};
+use crate::tools::csv_file::CsvFile;
+use crate::tools::table::Table;
+
+use super::cases::PatternCase;
+use super::sample::{Engagement, LoadedSection};
 
 /// Numbers of one case, at the instant at which the pair is at the pitch point unless they say otherwise.
 #[derive(Clone, Debug)]
-pub struct Findings {
+pub struct PatternFindings {
     /// Name and title of the case.
     pub case: [String; 2],
     /// Load's centroid from the middle of the face, toward the heel [m].
@@ -31,21 +34,21 @@ pub struct Findings {
     pub heights: [f64; 2],
 }
 
-impl Findings {
+impl PatternFindings {
     /// Of `case`, whose engagement is `record`.
-    pub fn new(case: &Case, record: &Record) -> Result<Self> {
+    pub fn new(case: &PatternCase, record: &Engagement) -> Result<Self> {
         let pitch = record.at_pitch_point();
         let (first, last) = (pitch.first(), pitch.last());
         let (first, last) = first.zip(last).context("the pair that was followed has no load at the pitch point")?;
         let gear = &record.pair.gears[0];
-        let height = |c: &Contact, cone: f64| cone * (c.polar[0] - gear.pitch);
+        let height = |c: &LoadedSection, cone: f64| cone * (c.polar[0] - gear.pitch);
         let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
         let above = record.engagement().filter(|c| !c.corner && c.polar[0] >= gear.pitch);
         let peak = above.max_by(|a, b| a.pressure.total_cmp(&b.pressure));
         let face = record.pair.outer_cone - record.pair.inner_cone;
         // a face of which one end is bare has its sections at the other
-        let reaches = |c: &Contact, end: f64| (c.cone - end).abs() <= c.width;
-        let end = |c: &Contact, end: f64| if reaches(c, end) { c.line_load } else { 0.0 };
+        let reaches = |c: &LoadedSection, end: f64| (c.cone - end).abs() <= c.width;
+        let end = |c: &LoadedSection, end: f64| if reaches(c, end) { c.line_load } else { 0.0 };
         let mean = record.pair.mean_cone;
         Ok(Self {
             case: [case.name.clone(), case.title.clone()],
@@ -54,7 +57,7 @@ impl Findings {
             bearing: pitch.iter().map(|c| c.width).sum::<f64>() / face,
             pitch_pressure: greatest(&mut pitch.iter().map(|c| c.pressure)),
             drive: record.followed.0,
-            force: pitch.iter().map(Contact::force).sum(),
+            force: pitch.iter().map(LoadedSection::force).sum(),
             peak: peak.map_or([0.0; 2], |c| [c.pressure, c.cone]),
             most: greatest(&mut record.engagement().map(|c| c.line_load)),
             heights: [
@@ -80,8 +83,8 @@ impl Findings {
 }
 
 /// Centre of the load along the face [m].
-pub fn centroid(line: &[Contact]) -> f64 {
-    let force: f64 = line.iter().map(Contact::force).sum();
+pub fn centroid(line: &[LoadedSection]) -> f64 {
+    let force: f64 = line.iter().map(LoadedSection::force).sum();
     line.iter().map(|c| c.force() * c.cone).sum::<f64>() / force
 }
 
@@ -99,39 +102,30 @@ const HEAD: [&str; CELLS] = [
     "carries at heights, mm",
 ];
 
-/// The table for the document.
-pub fn markdown(found: &[Findings]) -> String {
-    let mut out = format!("| {} |\n|{}\n", HEAD.join(" | "), "---|".repeat(HEAD.len()));
-    for f in found {
-        out.push_str(&format!("| {} |\n", f.cells().join(" | ")));
-    }
-    out.push_str(
-        "\nForce, centroid, line loads, face in contact and pressure at the instant at which the pair touches at its pitch \
-         point; the last two columns over the whole engagement, heights along the planet's profile from its pitch \
-         circle, those of the last column at the middle of the face.\n",
-    );
-    out
+/// The table of all cases.
+pub fn table(found: &[PatternFindings]) -> Table {
+    let mut table = Table::new(HEAD).all_left();
+    found.iter().for_each(|f| table.push(f.cells()));
+    table
 }
 
-/// The table for the terminal.
-pub fn terminal(found: &[Findings]) -> String {
-    let rows: Vec<[String; CELLS]> =
-        std::iter::once(HEAD.map(str::to_owned)).chain(found.iter().map(Findings::cells)).collect();
-    let width: [usize; CELLS] = std::array::from_fn(|i| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0));
-    rows.iter()
-        .map(|row| {
-            let cells: Vec<String> = row.iter().zip(width).map(|(cell, w)| format!("{cell:<w$}")).collect();
-            format!("{}\n", cells.join("  ").trim_end())
-        })
-        .collect()
+/// The table for the document.
+pub fn markdown(found: &[PatternFindings]) -> String {
+    format!(
+        "{}\nForce, centroid, line loads, face in contact and pressure at the instant at which the pair touches at its \
+         pitch point; the last two columns over the whole engagement, heights along the planet's profile from its pitch \
+         circle, those of the last column at the middle of the face.\n",
+        table(found).markdown()
+    )
 }
+
+/// Columns of the file.
+const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
+                       lowest,highest";
 
 /// The numbers as a file.
-pub fn csv(found: &[Findings]) -> String {
-    let mut out = "# units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm\n\
-                   case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
-                   lowest,highest\n"
-        .to_owned();
+pub fn csv(found: &[PatternFindings]) -> Result<String> {
+    let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm"])?;
     for f in found {
         let [name, title] = &f.case;
         let flank = if f.drive { "drive" } else { "coast" };
@@ -148,7 +142,8 @@ pub fn csv(found: &[Findings]) -> String {
             1e3 * f.heights[0],
             1e3 * f.heights[1],
         ];
-        out.push_str(&format!("{name},\"{title}\",{flank},{}\n", numbers.map(|x| format!("{x:.4}")).join(",")));
+        let texts = [name, title, flank].map(str::to_owned);
+        file.push(texts.into_iter().chain(numbers.map(|x| format!("{x:.4}"))))?;
     }
-    out
+    file.text()
 }

@@ -20,10 +20,10 @@ use crate::gears::scene::find;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script, sections};
-use cases::Case;
+use cases::PatternCase;
 use envelope::Envelope;
-use findings::Findings;
-use sample::Record;
+use findings::PatternFindings;
+use sample::Engagement;
 
 /// Where the findings stand.
 const DOCUMENT: &str = "docs/pattern.md";
@@ -48,32 +48,32 @@ pub struct PatternCommand {
 impl PatternCommand {
     /// Simulates the cases and draws their patterns.
     pub fn run(&self) -> Result<()> {
-        let cases: Vec<Case> = if self.scenes.is_empty() {
+        let cases: Vec<PatternCase> = if self.scenes.is_empty() {
             cases::all()?
         } else {
-            self.scenes.iter().map(|name| find(name).map(Case::of)).collect::<Result<_>>()?
+            self.scenes.iter().map(|name| find(name).map(PatternCase::of)).collect::<Result<_>>()?
         };
         let progress = Progress::start("looking for Python");
         let environment = Environment::ready(|what| progress.tell(what))?;
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("pattern"));
         fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
         progress.begin_bar("simulating");
-        let (mut envelopes, mut contacts, mut found) = (Envelope::head(), Record::head(), Vec::new());
-        let mut outline = envelope::outline_head();
+        let (mut envelopes, mut contacts, mut found) = (Envelope::file()?, Engagement::file()?, Vec::new());
+        let mut outline = envelope::outline_file()?;
         for (i, case) in cases.iter().enumerate() {
             progress.advance(SIMULATING * i as f64 / cases.len() as f64, &case.title);
-            let record = Record::new(&case.scene)?;
-            envelope::outline(&record.pair, &case.name, &mut outline);
-            Envelope::new(&record).rows(&case.name, &mut envelopes);
-            record.rows(&case.name, &mut contacts);
-            found.push(Findings::new(case, &record)?);
+            let record = Engagement::new(&case.scene)?;
+            envelope::outline(&record.pair, &case.name, &mut outline)?;
+            Envelope::new(&record).rows(&case.name, &mut envelopes)?;
+            record.rows(&case.name, &mut contacts)?;
+            found.push(PatternFindings::new(case, &record)?);
         }
-        let summary = findings::csv(&found);
+        let summary = findings::csv(&found)?;
         for (name, text) in [
-            ("pattern.csv", &envelopes),
-            ("contacts.csv", &contacts),
-            ("summary.csv", &summary),
-            ("outline.csv", &outline),
+            ("pattern.csv", envelopes.text()?),
+            ("contacts.csv", contacts.text()?),
+            ("summary.csv", summary),
+            ("outline.csv", outline.text()?),
         ] {
             fs::write(folder.join(name), text).with_context(|| format!("{name} cannot be written"))?;
         }
@@ -81,7 +81,7 @@ impl PatternCommand {
         let drawing = paths::workspace().join("fmu-build").join("python").join("pattern.py");
         script::run(&environment, &drawing, &[&folder], &progress)?;
         progress.finish();
-        print!("{}", findings::terminal(&found));
+        print!("{}", findings::table(&found).terminal());
         println!("files: {}", paths::shown(&folder));
         if self.write {
             sections::renew(DOCUMENT, MARKS, &findings::markdown(&found))?;

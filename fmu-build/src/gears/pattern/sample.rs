@@ -17,21 +17,22 @@ use bevel_differential::model::{GearContact, Simulation, ToothLoad, Touch};
 use bevel_differential::strength::LineContact;
 
 use crate::gears::scene::Scene;
-use crate::gears::scene::run::Run;
+use crate::gears::scene::run::SceneRun;
+use crate::tools::csv_file::CsvFile;
 
 /// Sections drawn where one stands for all.
 const SECTIONS: usize = 8;
 
 /// Flank and teeth of planet and side gear: one engagement.
-pub type Name = (bool, [usize; 2]);
+pub type PairName = (bool, [usize; 2]);
 
 /// A loaded section.
 #[derive(Clone, Copy, Debug)]
-pub struct Contact {
+pub struct LoadedSection {
     /// When [s].
     pub time: f64,
     /// Which pair.
-    pub name: Name,
+    pub name: PairName,
     /// Whether a tip corner carries.
     pub corner: bool,
     /// Place by the planet's rotation [rad].
@@ -52,7 +53,7 @@ pub struct Contact {
     pub half_width: f64,
 }
 
-impl Contact {
+impl LoadedSection {
     /// Normal force [N].
     pub fn force(&self) -> f64 {
         self.line_load * self.width
@@ -61,16 +62,16 @@ impl Contact {
 
 /// All contacts of the mesh until one pair has gone through.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub struct Engagement {
     /// The gears.
     pub pair: Pair,
     /// Loaded sections of all pairs, by time, then as shown by the simulation.
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<LoadedSection>,
     /// The pair that went through.
-    pub followed: Name,
+    pub followed: PairName,
 }
 
-impl Record {
+impl Engagement {
     /// Runs `scene` until a pair has gone through.
     pub fn new(scene: &Scene) -> Result<Self> {
         ensure!(
@@ -78,13 +79,13 @@ impl Record {
             "scene {}: patterns are seen on solid teeth alone: set scene.gear_contact = \"solid\"",
             scene.name
         );
-        let mut run = Run::start(scene, scene.step)?;
+        let mut run = SceneRun::start(scene, scene.step)?;
         let pair = *run.simulation.pair();
         let m = &scene.parameters.material;
         let line = LineContact::new(&pair, m.young_modulus, m.poisson_ratio);
         let mut contacts = Vec::new();
         // when a pair was seen first, and whether others than those of the start
-        let mut seen: HashMap<Name, bool> = HashMap::new();
+        let mut seen: HashMap<PairName, bool> = HashMap::new();
         let mut first = true;
         while !run.is_over() {
             if !first {
@@ -106,53 +107,50 @@ impl Record {
     }
 
     /// Contacts of the pair that went through.
-    pub fn engagement(&self) -> impl Iterator<Item = &Contact> {
+    pub fn engagement(&self) -> impl Iterator<Item = &LoadedSection> {
         self.contacts.iter().filter(|c| c.name == self.followed)
     }
 
     /// Contacts of that pair at the instant at which it is nearest to the pitch point.
-    pub fn at_pitch_point(&self) -> Vec<Contact> {
+    pub fn at_pitch_point(&self) -> Vec<LoadedSection> {
         let nearest = self.engagement().min_by(|a, b| a.s.abs().total_cmp(&b.s.abs()));
         nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
     }
 
-    /// Head of the file.
-    pub fn head() -> String {
-        "# loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance\n\
-         # followed: the pair whose engagement is whole; corner: 1 where a tip corner carries, whose pressure is told with\n\
-         # the radii at the end of the path and is more\n\
-         # units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm\n\
-         case,time,flank,planet_tooth,side_tooth,followed,corner,s,cone,width,planet_height,side_height,line_load,radius,pressure,\
-         half_width\n"
-            .to_owned()
+    /// The file of loaded sections, without rows.
+    pub fn file() -> Result<CsvFile> {
+        let comments = [
+            "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
+            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries, whose pressure is",
+            "calculated with the radii at the end of the path and is more",
+            "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
+        ];
+        let columns = "case,time,flank,planet_tooth,side_tooth,followed,corner,s,cone,width,planet_height,side_height,\
+                       line_load,radius,pressure,half_width";
+        CsvFile::new(columns, &comments)
     }
 
-    /// Rows of the file.
-    pub fn rows(&self, case: &str, out: &mut String) {
+    /// Adds its sections to the file.
+    pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
         for c in &self.contacts {
             let [planet, side] = [0, 1].map(|i| 1e3 * c.cone * (c.polar[i] - self.pair.gears[i].pitch));
-            out.push_str(&format!(
-                "{case},{:.6},{},{},{},{},{},{:.6},{:.4},{:.4},{planet:.4},{side:.4},{:.4},{:.4},{:.2},{:.4}\n",
-                c.time,
-                if c.name.0 { "drive" } else { "coast" },
-                c.name.1[0],
-                c.name.1[1],
-                u8::from(c.name == self.followed),
-                u8::from(c.corner),
-                c.s,
-                1e3 * c.cone,
-                1e3 * c.width,
-                1e-3 * c.line_load,
-                1e3 * c.radius,
-                1e-6 * c.pressure,
-                1e3 * c.half_width
-            ));
+            let flank = if c.name.0 { "drive" } else { "coast" };
+            let marks = [u8::from(c.name == self.followed), u8::from(c.corner)].map(|mark| mark.to_string());
+            let lengths = [1e3 * c.cone, 1e3 * c.width, planet, side, 1e-3 * c.line_load, 1e3 * c.radius];
+            let mut cells = vec![case.to_owned(), format!("{:.6}", c.time), flank.to_owned()];
+            cells.extend(c.name.1.map(|tooth| tooth.to_string()));
+            cells.extend(marks);
+            cells.push(format!("{:.6}", c.s));
+            cells.extend(lengths.map(|length| format!("{length:.4}")));
+            cells.extend([format!("{:.2}", 1e-6 * c.pressure), format!("{:.4}", 1e3 * c.half_width)]);
+            out.push(cells)?;
         }
+        Ok(())
     }
 }
 
 /// Loaded sections of planet 1's left mesh as it stands.
-pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<Contact> {
+pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<LoadedSection> {
     let (mut all, time) = (Vec::new(), simulation.time());
     simulation.tooth_loads(|load| {
         if let (0, 0, Some(touch)) = (load.planet, load.side, load.touch) {
@@ -171,13 +169,21 @@ fn sections(pair: &Pair, load: &ToothLoad) -> impl Iterator<Item = (f64, f64)> {
     (0..count).map(move |i| (if whole { inner + width * (i as f64 + 0.5) } else { cone }, width))
 }
 
-fn contact(pair: &Pair, line: &LineContact, time: f64, load: &ToothLoad, t: &Touch, cone: f64, width: f64) -> Contact {
+fn contact(
+    pair: &Pair,
+    line: &LineContact,
+    time: f64,
+    load: &ToothLoad,
+    t: &Touch,
+    cone: f64,
+    width: f64,
+) -> LoadedSection {
     // on the flank of each gear no nearer to its base circle than the path comes
     let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
     let cot = |i: usize| 1.0 / pair.gears[i].action_arc(t.polar[i]).max(least[i]).tan();
     let radius = cone / (cot(0) + cot(1));
     let pressure = line.pressure_on(load.line_load, radius).unwrap_or(0.0);
-    Contact {
+    LoadedSection {
         time,
         name: (load.flank == Flank::Drive, load.teeth),
         corner: load.spot != Spot::Path,

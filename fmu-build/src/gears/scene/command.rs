@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow};
 use clap::Args;
 
-use super::run::Run;
+use super::run::SceneRun;
 use super::{find, list, loads, plan, run, units};
 use crate::tools::paths;
 
@@ -50,7 +50,7 @@ impl SceneCommand {
             return Ok(());
         };
         let scene = find(name)?;
-        print!("{}", plan::text(&scene, &Run::start(&scene, scene.step)?.simulation));
+        print!("{}", plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation));
         if !self.run && self.csv.is_none() {
             return Ok(());
         }

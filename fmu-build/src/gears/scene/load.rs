@@ -30,7 +30,7 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::set::{Setting, closest, real, variable, written};
-use super::{Event, Scene, Track};
+use super::{Event, InputTable, Scene};
 use crate::tools::paths;
 
 /// What stands in a file.
@@ -45,13 +45,13 @@ struct File {
     #[serde(default)]
     at: Vec<Table>,
     #[serde(default)]
-    table: Vec<TrackEntry>,
+    table: Vec<InputTableEntry>,
     outputs: Vec<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct TrackEntry {
+struct InputTableEntry {
     input: String,
     time: Vec<f64>,
     value: Vec<Value>,
@@ -77,14 +77,15 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
     let mut events: Vec<Event> =
         entry.at.into_iter().filter_map(|at| event(at, &entry.stop_time, &mut problems)).collect();
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let tracks: Vec<Track> = entry.table.into_iter().filter_map(|table| track(table, &mut problems)).collect();
+    let input_tables: Vec<InputTable> =
+        entry.table.into_iter().filter_map(|table| input_table(table, &mut problems)).collect();
     let outputs = outputs(&entry.outputs, &mut problems);
     if !problems.is_empty() {
         bail!("{}", problems.join("\n"));
     }
-    for track in &tracks {
-        if let Access::Input(access) = track.row.access {
-            *access(&mut inputs) = track.at(0.0);
+    for input_table in &input_tables {
+        if let Access::Input(access) = input_table.row.access {
+            *access(&mut inputs) = input_table.at(0.0);
         }
     }
     Ok(Scene {
@@ -97,7 +98,7 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
         inputs,
         settings,
         events,
-        tracks,
+        input_tables,
         outputs,
     })
 }
@@ -162,7 +163,7 @@ fn event(mut table: Table, stop: &f64, problems: &mut Vec<String>) -> Option<Eve
     Some(Event { time, settings })
 }
 
-fn track(entry: TrackEntry, problems: &mut Vec<String>) -> Option<Track> {
+fn input_table(entry: InputTableEntry, problems: &mut Vec<String>) -> Option<InputTable> {
     let place = format!("[[table]] input = \"{}\":", entry.input);
     let mut wrong = |what: String| problems.push(format!("{place} {what}"));
     let row: &'static Variable = match variable(&entry.input) {
@@ -193,7 +194,7 @@ fn track(entry: TrackEntry, problems: &mut Vec<String>) -> Option<Track> {
     if let Some(period) = entry.period.filter(|&period| !(period > 0.0 && period.is_finite())) {
         wrong(format!("period = {period}: must be above 0 s"));
     }
-    (values.len() == entry.time.len() && rising && !values.is_empty()).then_some(Track {
+    (values.len() == entry.time.len() && rising && !values.is_empty()).then_some(InputTable {
         row,
         times: entry.time,
         values,

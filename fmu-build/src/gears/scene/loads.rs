@@ -10,7 +10,7 @@ use bevel_differential::geometry::action::Action;
 use bevel_differential::model::{GearContact, ToothLoad};
 
 use super::Scene;
-use super::run::Run;
+use super::run::SceneRun;
 use crate::tools::progress::Progress;
 
 /// Times that differ by less than this part of an interval are the same.
@@ -56,10 +56,14 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write) -> Result<u
     if !(every > 0.0 && every <= scene.stop_time) {
         bail!("--every {every} s: must be above 0 and at most the scene's {} s", scene.stop_time);
     }
-    let mut run = Run::start(scene, scene.step.min(every))?;
+    let mut run = SceneRun::start(scene, scene.step.min(every))?;
     let pair = *run.simulation.pair();
     let action = Action::new(&pair);
     header(scene, every, &run, out).context("the loads cannot be written")?;
+    let mut rows = csv::Writer::from_writer(out);
+    let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
+    let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
+    rows.write_record(head).context("the loads cannot be written")?;
     let progress = Progress::start("simulating");
     progress.begin_bar("simulating");
     let (mut records, mut lines) = (0u64, 0u64);
@@ -68,7 +72,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write) -> Result<u
             let (time, mut written) = (run.time(), Ok(()));
             run.simulation.tooth_loads(|load| {
                 if written.is_ok() {
-                    written = line(out, time, load, &on_gears(&action, &pair, load));
+                    written = line(&mut rows, time, load, &on_gears(&action, &pair, load));
                     lines += 1;
                 }
             });
@@ -81,11 +85,12 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write) -> Result<u
         }
         run.advance()?;
     }
+    rows.flush().context("the loads cannot be written")?;
     progress.finish();
     Ok(lines)
 }
 
-fn line(out: &mut dyn Write, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -> std::io::Result<()> {
+fn line(rows: &mut csv::Writer<&mut dyn Write>, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -> csv::Result<()> {
     let side = ["left", "right"][load.side];
     let flank = if load.flank == Flank::Drive { "drive" } else { "coast" };
     let spot = match load.spot {
@@ -93,18 +98,16 @@ fn line(out: &mut dyn Write, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -
         Spot::PlanetTip => "planet_tip",
         Spot::SideTip => "side_tip",
     };
-    let [planet_tooth, side_tooth] = load.teeth;
-    write!(out, "{time:.9e},{},{side},{flank},{spot},{planet_tooth},{side_tooth}", load.planet + 1)?;
-    for value in [load.share, load.s, load.cone, load.normal, load.friction] {
-        write!(out, ",{value:.12e}")?;
-    }
-    for value in gears.iter().flat_map(|g| [g.point, g.normal, g.force]).flatten() {
-        write!(out, ",{value:.12e}")?;
-    }
-    writeln!(out)
+    let values = [load.share, load.s, load.cone, load.normal, load.friction].into_iter();
+    let vectors = gears.iter().flat_map(|g| [g.point, g.normal, g.force]).flatten();
+    let mut cells = vec![format!("{time:.9e}"), (load.planet + 1).to_string()];
+    cells.extend([side, flank, spot].map(str::to_owned));
+    cells.extend(load.teeth.map(|tooth| tooth.to_string()));
+    cells.extend(values.chain(vectors).map(|value| format!("{value:.12e}")));
+    rows.write_record(cells)
 }
 
-fn header(scene: &Scene, every: f64, run: &Run, out: &mut dyn Write) -> std::io::Result<()> {
+fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std::io::Result<()> {
     let (plan, pair) = (run.simulation.plan(), run.simulation.pair());
     writeln!(out, "# mesh forces of scene {}: {}", scene.name, scene.description)?;
     writeln!(out, "# {}", run.simulation.describe())?;
@@ -145,7 +148,5 @@ fn header(scene: &Scene, every: f64, run: &Run, out: &mut dyn Write) -> std::io:
         degrees(1)
     );
     out.write_all(text.as_bytes())?;
-    let columns = |gear: &str| VECTORS.map(|v| format!("{gear}_{v}")).join(",");
-    writeln!(out, "# units: {LOAD_UNITS},{VECTOR_UNITS},{VECTOR_UNITS}")?;
-    writeln!(out, "{LOAD},{},{}", columns("planet"), columns("side"))
+    writeln!(out, "# units: {LOAD_UNITS},{VECTOR_UNITS},{VECTOR_UNITS}")
 }

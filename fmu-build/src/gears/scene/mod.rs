@@ -39,7 +39,7 @@ pub struct Scene {
     /// What it sets later, by time.
     pub events: Vec<Event>,
     /// Inputs that follow a table.
-    pub tracks: Vec<Track>,
+    pub input_tables: Vec<InputTable>,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
 }
@@ -55,7 +55,7 @@ pub struct Event {
 
 /// An input that goes straight from point to point, read at communication points.
 #[derive(Clone)]
-pub struct Track {
+pub struct InputTable {
     /// The input.
     pub row: &'static Variable,
     /// Times [s], rising.
@@ -66,7 +66,7 @@ pub struct Track {
     pub period: Option<f64>,
 }
 
-impl Track {
+impl InputTable {
     /// Value at `time` [s].
     pub fn at(&self, time: f64) -> f64 {
         let time = self.period.map_or(time, |period| time.rem_euclid(period));
@@ -93,9 +93,10 @@ pub fn find(what: &str) -> Result<Scene> {
         return load::load(&named);
     }
     let names: Vec<String> = files()?.iter().filter_map(|f| Some(f.file_stem()?.to_str()?.to_owned())).collect();
-    let hint = set::closest(what, names.iter().map(String::as_str));
-    let hint = hint.map_or(String::new(), |name| format!("; did you mean {name}?"));
-    bail!("there is neither a file nor a scene \"{what}\"{hint}\nscenes: {}", names.join(", "))
+    match set::closest(what, names.iter().map(String::as_str)) {
+        Some(name) => bail!("no scene is named '{what}'; did you mean '{name}'?"),
+        None => bail!("no scene is named '{what}', and there is no such file; scenes: {}", names.join(", ")),
+    }
 }
 
 /// Files of all scenes in the workspace, by name.

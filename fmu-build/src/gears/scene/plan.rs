@@ -72,9 +72,9 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         let settings: Vec<String> = event.settings.iter().map(|s| format!("{} = {}", s.row.name, s.text())).collect();
         line("later", &format!("at {} s {}", event.time, settings.join(", ")));
     }
-    for track in &scene.tracks {
-        let period = track.period.map_or(String::new(), |period| format!(", again every {period} s"));
-        line("table", &format!("{} from {} points{period}", track.row.name, track.times.len()));
+    for input_table in &scene.input_tables {
+        let period = input_table.period.map_or(String::new(), |period| format!(", again every {period} s"));
+        line("table", &format!("{} from {} points{period}", input_table.row.name, input_table.times.len()));
     }
     for warning in simulation.warnings() {
         line("warning", &warning.to_string());

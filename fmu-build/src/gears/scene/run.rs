@@ -9,8 +9,9 @@ use bevel_differential::problem::{self, Problem};
 use bevel_differential::variables::{Access, OutputSource, Variable, check_ranges};
 
 use super::units;
-use super::{Scene, Track};
+use super::{InputTable, Scene};
 use crate::tools::progress::Progress;
+use crate::tools::table::Table;
 
 /// Runs that take longer than this show their progress.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -18,7 +19,7 @@ const PATIENCE: Duration = Duration::from_millis(300);
 const SAME: f64 = 1e-9;
 
 /// A scene that runs: it stops at communication points and where inputs change.
-pub struct Run<'a> {
+pub struct SceneRun<'a> {
     scene: &'a Scene,
     parameters: Parameters,
     inputs: Inputs,
@@ -30,7 +31,7 @@ pub struct Run<'a> {
     pub simulation: Simulation,
 }
 
-impl<'a> Run<'a> {
+impl<'a> SceneRun<'a> {
     /// Starts `scene` with communication steps of `step` [s].
     pub fn start(scene: &'a Scene, step: f64) -> Result<Self> {
         Self::attempt(scene, step).map_err(|found| anyhow!("{}", problem::list(&found))).with_context(|| refused(scene))
@@ -83,10 +84,15 @@ impl<'a> Run<'a> {
             }
             self.events += 1;
         }
-        for Track { row, .. } in &self.scene.tracks {
+        for InputTable { row, .. } in &self.scene.input_tables {
             if let Access::Input(access) = row.access {
                 // the last one wins where two tables name one input
-                let value = self.scene.tracks.iter().rfind(|track| track.row.name == row.name).map(|t| t.at(time));
+                let value = self
+                    .scene
+                    .input_tables
+                    .iter()
+                    .rfind(|input_table| input_table.row.name == row.name)
+                    .map(|t| t.at(time));
                 *access(&mut self.inputs) = value.unwrap_or_default();
             }
         }
@@ -130,7 +136,7 @@ pub struct Summary {
 
 /// Result of a run.
 #[derive(Clone)]
-pub struct Outcome {
+pub struct SceneResult {
     /// One for each output of the scene.
     pub outputs: Vec<Summary>,
     /// What the solver did.
@@ -144,13 +150,11 @@ pub struct Outcome {
 }
 
 /// Runs `scene` to its end, or for at most `steps` communication steps; each communication point goes to `csv` too.
-pub fn run(scene: &Scene, steps: Option<u64>, mut csv: Option<&mut dyn Write>) -> Result<Outcome> {
+pub fn run(scene: &Scene, steps: Option<u64>, csv: Option<&mut dyn Write>) -> Result<SceneResult> {
     let begun = Instant::now();
     let mut progress: Option<Progress> = None;
-    let mut run = Run::start(scene, scene.step)?;
-    if let Some(out) = &mut csv {
-        header(scene, out).context("the record cannot be written")?;
-    }
+    let mut run = SceneRun::start(scene, scene.step)?;
+    let mut csv = csv.map(|out| record(scene, out).context("the record cannot be written")).transpose()?;
     let mut values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
     let mut outputs: Vec<Summary> = scene
         .outputs
@@ -186,9 +190,12 @@ pub fn run(scene: &Scene, steps: Option<u64>, mut csv: Option<&mut dyn Write>) -
             bar.advance(run.time() / scene.stop_time, &format!("{:.3} s of {} s", run.time(), scene.stop_time));
         }
     }
+    if let Some(rows) = &mut csv {
+        rows.flush().context("the record cannot be written")?;
+    }
     let end = run.time();
     outputs.iter_mut().for_each(|summary| summary.mean = if end > 0.0 { summary.mean / end } else { summary.end });
-    Ok(Outcome {
+    Ok(SceneResult {
         outputs,
         account: run.simulation.account(),
         residual: run.simulation.books().energy_residual,
@@ -198,26 +205,28 @@ pub fn run(scene: &Scene, steps: Option<u64>, mut csv: Option<&mut dyn Write>) -
 }
 
 /// Power that drives and wheels exchange with the differential, whichever way [W].
-fn exchange(run: &mut Run) -> f64 {
+fn exchange(run: &mut SceneRun) -> f64 {
     let forces = run.simulation.forces();
     forces.power_in.abs() + forces.power_out.abs()
 }
 
-fn header(scene: &Scene, out: &mut dyn Write) -> std::io::Result<()> {
+/// The record of a scene: comments, then a row for each communication point.
+fn record<'a>(scene: &Scene, out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
     writeln!(out, "# scene {}: {}", scene.name, scene.description)?;
-    let names: Vec<&str> = scene.outputs.iter().map(|row| row.name).collect();
     let units: Vec<&str> = scene.outputs.iter().map(|row| row.unit.map_or("1", |unit| unit.name)).collect();
     writeln!(out, "# units: s,{}", units.join(","))?;
-    writeln!(out, "time,{}", names.join(","))
+    let mut rows = csv::Writer::from_writer(out);
+    rows.write_record(["time"].into_iter().chain(scene.outputs.iter().map(|row| row.name)))?;
+    Ok(rows)
 }
 
-fn line(csv: &mut Option<&mut dyn Write>, time: f64, values: &[f64]) -> Result<()> {
-    let Some(out) = csv else { return Ok(()) };
-    let values: Vec<String> = values.iter().map(f64::to_string).collect();
-    writeln!(out, "{time},{}", values.join(",")).context("the record cannot be written")
+fn line(rows: &mut Option<csv::Writer<&mut dyn Write>>, time: f64, values: &[f64]) -> Result<()> {
+    let Some(rows) = rows else { return Ok(()) };
+    let cells = std::iter::once(&time).chain(values).map(f64::to_string);
+    rows.write_record(cells).context("the record cannot be written")
 }
 
-impl Outcome {
+impl SceneResult {
     /// Energy residual over the energy that went through.
     pub fn relative_residual(&self) -> f64 {
         if self.throughput > 0.0 { self.residual.abs() / self.throughput } else { self.residual.abs() }
@@ -225,22 +234,12 @@ impl Outcome {
 
     /// For the terminal.
     pub fn text(&self) -> String {
-        let head = ["output", "unit", "min", "mean", "max", "end"].map(str::to_owned);
-        let rows = self.outputs.iter().map(|o| {
-            let number = |value: f64| units::digits(units::shown(o.row, value));
-            let unit = units::name(o.row).to_owned();
-            [o.row.name.to_owned(), unit, number(o.min), number(o.mean), number(o.max), number(o.end)]
-        });
-        let rows: Vec<[String; 6]> = std::iter::once(head).chain(rows).collect();
-        let width: [usize; 6] = std::array::from_fn(|i| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0));
-        let mut out = String::new();
-        for [name, unit, numbers @ ..] in &rows {
-            out.push_str(&format!("{name:<w$}  {unit:<v$}", w = width[0], v = width[1]));
-            for (number, w) in numbers.iter().zip(&width[2..]) {
-                out.push_str(&format!("  {number:>w$}"));
-            }
-            out.push('\n');
+        let mut table = Table::new(["output", "unit", "min", "mean", "max", "end"]).left([0, 1]);
+        for o in &self.outputs {
+            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::digits(units::shown(o.row, value)));
+            table.push([o.row.name, units::name(o.row)].map(str::to_owned).into_iter().chain(numbers));
         }
+        let mut out = table.terminal();
         out.push_str(&format!(
             "\n{}\nenergy residual {} of the {} J that went through; computed in {:.2} s\n",
             self.account,

@@ -12,12 +12,12 @@ pub struct Setting {
     /// Row of the variable.
     pub row: &'static Variable,
     /// The value.
-    pub value: Known,
+    pub value: SettingValue,
 }
 
 /// A value of the type that its variable has.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Known {
+pub enum SettingValue {
     /// A number in the unit of the interface.
     Real(f64),
     /// A whole number.
@@ -44,11 +44,11 @@ impl Setting {
     /// Puts the value in its place.
     pub fn apply(&self, parameters: &mut Parameters, inputs: &mut Inputs) {
         match (self.row.access, self.value) {
-            (Access::Real(access), Known::Real(value)) => *access(parameters) = value,
-            (Access::Input(access), Known::Real(value)) => *access(inputs) = value,
-            (Access::Integer(access), Known::Integer(value)) => *access(parameters) = value,
-            (Access::Boolean(access), Known::Boolean(value)) => *access(parameters) = value,
-            (Access::Enumeration(_, _, set), Known::Literal(value)) => set(parameters, value),
+            (Access::Real(access), SettingValue::Real(value)) => *access(parameters) = value,
+            (Access::Input(access), SettingValue::Real(value)) => *access(inputs) = value,
+            (Access::Integer(access), SettingValue::Integer(value)) => *access(parameters) = value,
+            (Access::Boolean(access), SettingValue::Boolean(value)) => *access(parameters) = value,
+            (Access::Enumeration(_, _, set), SettingValue::Literal(value)) => set(parameters, value),
             // `known` gives every access its own type, and outputs none
             _ => {}
         }
@@ -57,10 +57,10 @@ impl Setting {
     /// The value as a reader wants it.
     pub fn text(&self) -> String {
         match self.value {
-            Known::Real(value) => units::text(self.row, value),
-            Known::Integer(value) => value.to_string(),
-            Known::Boolean(value) => value.to_string(),
-            Known::Literal(value) => literal(self.row, value).map_or(String::new(), |(name, _)| name.to_owned()),
+            SettingValue::Real(value) => units::text(self.row, value),
+            SettingValue::Integer(value) => value.to_string(),
+            SettingValue::Boolean(value) => value.to_string(),
+            SettingValue::Literal(value) => literal(self.row, value).map_or(String::new(), |(name, _)| name.to_owned()),
         }
     }
 }
@@ -82,24 +82,24 @@ pub fn literal(row: &Variable, value: i32) -> Option<(&'static str, &'static str
     kind.choices.iter().find(|choice| choice.value == value).map(|choice| (choice.name, choice.description))
 }
 
-fn known(row: &'static Variable, value: &Value) -> Result<Known, String> {
+fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> {
     match (row.access, value) {
         (Access::Output(_), _) => Err("is an output, which cannot be set; name it under outputs".into()),
-        (Access::Real(_) | Access::Input(_), value) => real(row, value).map(Known::Real),
+        (Access::Real(_) | Access::Input(_), value) => real(row, value).map(SettingValue::Real),
         (Access::Integer(_), Value::Integer(number)) => {
             let small = i32::try_from(*number).map_err(|_| "is no number that fits".to_owned())?;
             check_value(row, f64::from(small)).map_err(|problem| problem.message)?;
-            Ok(Known::Integer(small))
+            Ok(SettingValue::Integer(small))
         }
         (Access::Integer(_), _) => Err("must be a whole number".into()),
-        (Access::Boolean(_), Value::Boolean(value)) => Ok(Known::Boolean(*value)),
+        (Access::Boolean(_), Value::Boolean(value)) => Ok(SettingValue::Boolean(*value)),
         (Access::Boolean(_), _) => Err("must be true or false".into()),
         (Access::Enumeration(kind, ..), value) => {
             let names = || kind.choices.iter().map(|choice| choice.name);
             let allowed = names().collect::<Vec<_>>().join(", ");
             let Value::String(name) = value else { return Err(format!("must be one of {allowed}")) };
             match kind.choices.iter().find(|choice| choice.name == name) {
-                Some(choice) => Ok(Known::Literal(choice.value)),
+                Some(choice) => Ok(SettingValue::Literal(choice.value)),
                 None => {
                     let hint = closest(name, names()).map_or(String::new(), |n| format!("; did you mean {n}?"));
                     Err(format!("is none of {allowed}{hint}"))
@@ -158,24 +158,8 @@ pub fn written(value: &Value) -> String {
 
 /// The name nearest to `name`, if one is near: half of its letters right.
 pub fn closest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let near = names.map(|candidate| (edits(name, candidate), candidate)).min_by_key(|(edits, _)| *edits);
+    let near = names.map(|candidate| (strsim::levenshtein(name, candidate), candidate)).min_by_key(|(edits, _)| *edits);
     near.filter(|(edits, _)| 2 * edits <= name.chars().count()).map(|(_, candidate)| candidate)
-}
-
-/// Levenshtein's distance.
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let change = corner + usize::from(x != *y);
-            corner = row[j + 1];
-            row[j + 1] = change.min(corner + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 #[cfg(test)]
@@ -184,8 +168,6 @@ mod tests {
 
     #[test]
     fn the_nearest_name_is_offered_if_it_is_near() {
-        assert_eq!(edits("backlash", "backslash"), 1);
-        assert_eq!(edits("", "abc"), 3);
         assert_eq!(closest("geometry.modul", table().rows.iter().map(|r| r.name)), Some("geometry.module"));
         assert_eq!(closest("xyz", ["geometry.module"].into_iter()), None);
     }

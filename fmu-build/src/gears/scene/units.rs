@@ -3,6 +3,8 @@
 use bevel_differential::variables::Variable;
 use bevel_differential::variables::units::Unit;
 
+use crate::tools::numbers;
+
 /// Units of time besides the second, and how many of them make one.
 const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0)];
 
@@ -73,24 +75,7 @@ pub fn text(row: &Variable, value: f64) -> String {
 
 /// A number with six significant digits.
 pub fn digits(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    if !(1e-3..1e7).contains(&size) {
-        let (mantissa, exponent) = {
-            let text = format!("{value:.5e}");
-            let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-            (trimmed(mantissa), exponent.to_owned())
-        };
-        return format!("{mantissa}e{exponent}");
-    }
-    let decimals = (5.0 - size.log10().floor()).max(0.0) as usize;
-    trimmed(&format!("{value:.decimals$}"))
-}
-
-fn trimmed(number: &str) -> String {
-    if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.').to_owned() } else { number.to_owned() }
+    numbers::short(value, 6)
 }
 
 #[cfg(test)]
@@ -121,20 +106,12 @@ mod tests {
     }
 
     #[test]
-    fn wrong_units_are_told_with_those_that_fit() {
+    fn wrong_units_are_reported_with_those_that_fit() {
         let wrong = |name: &str, text: &str| parse(row(name), text).expect_err(text);
         assert!(wrong("geometry.module", "4.5 kg").ends_with("units that do: m, mm, um"));
         assert!(wrong("geometry.module", "4.5").contains("has no unit"));
         assert!(wrong("geometry.module", "large").contains("does not begin with a number"));
         assert!(wrong("solver.relative_tolerance", "1 mm").contains("has no unit"));
         assert!(seconds("3 m").is_err());
-    }
-
-    #[test]
-    fn numbers_are_shown_short() {
-        assert_eq!(digits(835.0), "835");
-        assert_eq!(digits(0.1 + 0.2), "0.3");
-        assert_eq!(digits(-1.234_567_89e-7), "-1.23457e-7");
-        assert_eq!(digits(49.933_870_2), "49.9339");
     }
 }

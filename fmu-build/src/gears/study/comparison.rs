@@ -4,7 +4,7 @@ use bevel_differential::model::Parameters;
 
 use crate::gears::study::evaluation::{Results, SETTLED_BAND, defaults};
 use crate::gears::study::published;
-use crate::gears::study::report::{Cell, Report, Row};
+use crate::gears::study::report::{Cell, ComparisonReport, ComparisonRow};
 use crate::gears::study::theory::{self, Theory};
 
 /// N/m^1.5 in N/mm^1.5.
@@ -12,8 +12,8 @@ fn per_mm15(stiffness: f64) -> f64 {
     stiffness / 1e3f64.powf(1.5)
 }
 
-fn row(quantity: &'static str, study: Cell, theory: Cell, program: Cell) -> Row {
-    Row { quantity, study, theory, program, note: None }
+fn row(quantity: &'static str, study: Cell, theory: Cell, program: Cell) -> ComparisonRow {
+    ComparisonRow { quantity, study, theory, program, note: None }
 }
 
 /// Notes that rows point to, numbered from 1 in this order.
@@ -28,16 +28,16 @@ enum Note {
     Energy,
 }
 
-fn noted(note: Note, row: Row) -> Row {
-    Row { note: Some(note as usize), ..row }
+fn noted(note: Note, row: ComparisonRow) -> ComparisonRow {
+    ComparisonRow { note: Some(note as usize), ..row }
 }
 
 /// The comparison of `results` with theory and the study.
-pub fn report(theory: &Theory, results: &Results) -> Report {
-    Report { rows: rows(theory, results), notes: notes(theory, results) }
+pub fn report(theory: &Theory, results: &Results) -> ComparisonReport {
+    ComparisonReport { rows: rows(theory, results), notes: notes(theory, results) }
 }
 
-fn rows(theory: &Theory, results: &Results) -> Vec<Row> {
+fn rows(theory: &Theory, results: &Results) -> Vec<ComparisonRow> {
     use Cell::{Empty, Number, Power, Text};
     let [speed, load, stiffness] = defaults();
     let (straight, turning) = (&results.straight, &results.turning);

@@ -27,7 +27,7 @@ type StartValue = (f64, &'static str);
 
 /// The order for study.py.
 #[derive(Serialize)]
-pub struct Order {
+pub struct SimulationRequest {
     /// Length of the records for the spectra [s].
     record: f64,
     /// Length of the study's own record [s].
@@ -50,13 +50,13 @@ pub struct Order {
     /// Teeth of a planet.
     planet_teeth: i32,
     /// Both cases.
-    straight: CaseOrder,
-    turning: CaseOrder,
+    straight: CaseRequest,
+    turning: CaseRequest,
 }
 
 /// One case: what to set, and theory for the figures.
 #[derive(Serialize)]
-struct CaseOrder {
+struct CaseRequest {
     start_values: BTreeMap<&'static str, StartValue>,
     /// Vehicle speed [km/h].
     vehicle_speed: f64,
@@ -72,7 +72,7 @@ struct CaseOrder {
     mesh_frequency: f64,
 }
 
-impl Order {
+impl SimulationRequest {
     /// The study's two cases, from rolling, unloaded teeth.
     pub fn new(theory: &Theory) -> Self {
         let rolling = ("scene.start", (f64::from(Start::Rolling as i32), ""));
@@ -81,7 +81,7 @@ impl Order {
             let mut start_values = BTreeMap::from([rolling, ("carrier.speed_command", (carrier, "deg/s"))]);
             start_values.extend(loads);
             start_values.extend(extra.iter().copied());
-            CaseOrder {
+            CaseRequest {
                 start_values,
                 vehicle_speed,
                 carrier_speed: carrier,

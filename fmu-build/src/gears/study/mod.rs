@@ -14,7 +14,7 @@ use bevel_differential::model::Parameters;
 use clap::Args;
 
 use crate::fmu::package;
-use crate::gears::study::evaluation::{Order, Results};
+use crate::gears::study::evaluation::{Results, SimulationRequest};
 use crate::gears::study::theory::Theory;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
@@ -47,7 +47,7 @@ fn run(readme: bool) -> Result<()> {
     let folder = paths::study();
     fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
     let theory = Theory::new(&Parameters::default());
-    let results = simulate(&environment, &fmu, &folder, &Order::new(&theory), &progress)?;
+    let results = simulate(&environment, &fmu, &folder, &SimulationRequest::new(&theory), &progress)?;
     progress.finish();
     let report = comparison::report(&theory, &results);
     let markdown = report.markdown();
@@ -67,7 +67,7 @@ fn simulate(
     environment: &Environment,
     fmu: &Path,
     folder: &Path,
-    order: &Order,
+    order: &SimulationRequest,
     progress: &Progress,
 ) -> Result<Results> {
     fs::write(folder.join("order.json"), order.json()?).context("the order for study.py cannot be written")?;

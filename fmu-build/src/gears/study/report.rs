@@ -1,9 +1,7 @@
 //! The comparison as an aligned table and as Markdown.
 
-use std::fmt::Write as _;
-
-/// Width of the notes under the table.
-const WIDTH: usize = 110;
+use crate::tools::numbers::signed_percent;
+use crate::tools::table::{Table, labelled};
 
 /// A cell: a number with its decimals, a text, or nothing to say.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +36,7 @@ impl Cell {
 
 /// A row of the comparison.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct ComparisonRow {
     /// What, with its unit.
     pub quantity: &'static str,
     /// The study's number.
@@ -51,7 +49,7 @@ pub struct Row {
     pub note: Option<usize>,
 }
 
-impl Row {
+impl ComparisonRow {
     /// Relative difference of the program from theory.
     fn difference(&self) -> String {
         match (self.theory.value(), self.program.value()) {
@@ -72,90 +70,40 @@ impl Row {
     }
 }
 
-/// A fraction in percent with two significant digits and its sign.
-fn signed_percent(fraction: f64) -> String {
-    let percent = fraction * 100.0;
-    if percent.abs() < 1e-12 {
-        return "0 %".to_owned();
-    }
-    let decimals = (1.0 - percent.abs().log10().floor()).max(0.0) as usize;
-    if decimals > 5 { format!("{percent:+.1e} %") } else { format!("{percent:+.decimals$} %") }
-}
-
 /// The comparison.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct ComparisonReport {
     /// Its rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ComparisonRow>,
     /// Notes, numbered from 1.
     pub notes: Vec<String>,
 }
 
 const HEAD: [&str; 5] = ["quantity", "study", "theory", "this program", "program / theory"];
 
-impl Report {
+impl ComparisonReport {
     /// For the terminal.
     pub fn terminal(&self) -> String {
-        let rows: Vec<[String; 5]> =
-            std::iter::once(HEAD.map(str::to_owned)).chain(self.rows.iter().map(Row::cells)).collect();
-        let width: [usize; 5] = std::array::from_fn(|i| rows.iter().map(|r| r[i].chars().count()).max().unwrap_or(0));
-        let mut out = String::new();
-        for (i, row) in rows.iter().enumerate() {
-            let mut line = format!("{:<w$}", row[0], w = width[0]);
-            for (cell, w) in row.iter().zip(width).skip(1) {
-                let _ = write!(line, "  {cell:>w$}");
-            }
-            let _ = writeln!(out, "{}", line.trim_end());
-            if i == 0 {
-                let _ = writeln!(out, "{}", "-".repeat(width.iter().sum::<usize>() + 2 * (width.len() - 1)));
-            }
-        }
-        out.push('\n');
-        for (i, note) in self.notes.iter().enumerate() {
-            out.push_str(&wrapped(&format!("[{}] ", i + 1), note));
-        }
-        out
+        let notes = self.notes.iter().enumerate().map(|(i, note)| labelled(&format!("[{}] ", i + 1), note));
+        format!("{}\n{}", self.table().terminal(), notes.collect::<String>())
     }
 
-    /// For the README.
+    /// For docs/study.md: the whole table and its notes.
     pub fn markdown(&self) -> String {
-        let mut out = format!("| {} |\n|---|---:|---:|---:|---:|\n", HEAD.join(" | "));
-        for row in &self.rows {
-            let _ = writeln!(out, "| {} |", row.cells().join(" | "));
-        }
-        out.push('\n');
-        for (i, note) in self.notes.iter().enumerate() {
-            let _ = writeln!(out, "{}. {note}", i + 1);
-        }
-        out
+        let notes = self.notes.iter().enumerate().map(|(i, note)| format!("{}. {note}\n", i + 1));
+        format!("{}\n{}", self.table().markdown(), notes.collect::<String>())
     }
-}
 
-/// `text` broken into lines, the later ones indented to the first one's `label`.
-fn wrapped(label: &str, text: &str) -> String {
-    let indent = " ".repeat(label.chars().count());
-    let (mut out, mut line) = (String::new(), label.to_owned());
-    for word in text.split_whitespace() {
-        if line.chars().count() + word.chars().count() > WIDTH {
-            let _ = writeln!(out, "{}", line.trim_end());
-            line.clone_from(&indent);
-        }
-        line.push_str(word);
-        line.push(' ');
+    /// For README.md: the rows of `quantities`, without notes.
+    pub fn excerpt(&self, quantities: &[&str]) -> String {
+        let rows = self.rows.iter().filter(|row| quantities.contains(&row.quantity));
+        let rows = rows.map(|row| ComparisonRow { note: None, ..row.clone() });
+        Self { rows: rows.collect(), notes: Vec::new() }.table().markdown()
     }
-    let _ = writeln!(out, "{}", line.trim_end());
-    out
-}
 
-#[cfg(test)]
-mod tests {
-    use super::signed_percent;
-
-    #[test]
-    fn differences_show_two_digits() {
-        assert_eq!(signed_percent(0.0), "0 %");
-        assert_eq!(signed_percent(0.1234), "+12 %");
-        assert_eq!(signed_percent(-0.000_123_4), "-0.012 %");
-        assert_eq!(signed_percent(1.2e-9), "+1.2e-7 %");
+    fn table(&self) -> Table {
+        let mut table = Table::new(HEAD).left([0]);
+        self.rows.iter().for_each(|row| table.push(row.cells()));
+        table
     }
 }

@@ -15,7 +15,7 @@ use crate::gears::study::published;
 
 /// A motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Motion {
+pub enum CaseMotion {
     /// The study's turn, teeth preloaded: smooth, but for the hand-over of the load from pair to pair.
     Turn,
     /// The same started in the middle of the gaps: the teeth strike.
@@ -41,9 +41,9 @@ pub enum Fidelity {
 
 /// A motion at a fidelity.
 #[derive(Clone)]
-pub struct Case {
+pub struct CostCase {
     /// The motion.
-    pub motion: Motion,
+    pub motion: CaseMotion,
     /// The fidelity.
     pub fidelity: Fidelity,
     /// Parameters, but for the solver.
@@ -65,7 +65,7 @@ pub struct Sample {
     pub force: [f64; 2],
 }
 
-impl Motion {
+impl CaseMotion {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Turn, Self::Blow, Self::Clunk];
 
@@ -138,15 +138,15 @@ pub fn turn() -> (Parameters, Inputs) {
     (parameters, inputs)
 }
 
-impl Case {
+impl CostCase {
     /// `motion` at `fidelity`.
-    pub fn new(motion: Motion, fidelity: Fidelity) -> Result<Self> {
+    pub fn new(motion: CaseMotion, fidelity: Fidelity) -> Result<Self> {
         let (mut parameters, inputs, then) = match motion {
-            Motion::Turn | Motion::Blow => {
+            CaseMotion::Turn | CaseMotion::Blow => {
                 let (parameters, inputs) = turn();
                 (parameters, inputs, inputs)
             }
-            Motion::Clunk => {
+            CaseMotion::Clunk => {
                 let scene = scene::find("clunk")?;
                 let (mut parameters, mut then) = (scene.parameters, scene.inputs);
                 for setting in scene.events.iter().flat_map(|event| &event.settings) {
@@ -159,7 +159,7 @@ impl Case {
                 (parameters, scene.inputs, then)
             }
         };
-        if motion == Motion::Blow {
+        if motion == CaseMotion::Blow {
             parameters.scene.start = Start::Rolling;
         }
         Ok(Self { motion, fidelity, parameters: fidelity.of(parameters), inputs, then, times: motion.times() })
@@ -167,8 +167,8 @@ impl Case {
 
     /// All cases; a blow needs teeth to strike.
     pub fn all() -> Result<Vec<Self>> {
-        let pairs = Motion::ALL.into_iter().flat_map(|motion| Fidelity::ALL.map(|fidelity| (motion, fidelity)));
-        let there = pairs.filter(|pair| *pair != (Motion::Blow, Fidelity::Ideal));
+        let pairs = CaseMotion::ALL.into_iter().flat_map(|motion| Fidelity::ALL.map(|fidelity| (motion, fidelity)));
+        let there = pairs.filter(|pair| *pair != (CaseMotion::Blow, Fidelity::Ideal));
         there.map(|(motion, fidelity)| Self::new(motion, fidelity)).collect()
     }
 
@@ -229,7 +229,7 @@ mod tests {
 
     #[test]
     fn cases_run_and_end_on_time() {
-        for case in Case::all().expect("cases") {
+        for case in CostCase::all().expect("cases") {
             let simulation = case.start(Method::Adaptive, 1e-3, 1e-4).expect("starts");
             let (samples, statistics) = case.samples(simulation, f64::INFINITY).expect("runs");
             assert_eq!(samples.len(), case.times.len(), "{}", case.name());

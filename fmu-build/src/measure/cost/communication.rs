@@ -1,15 +1,15 @@
 //! The communication step: error of a coupled run against the host's step, with and without rollback.
 
-use std::fmt::Write as _;
-
 use anyhow::Result;
 use cpu_time::ThreadTime;
 
 use super::cases::{Fidelity, Sample};
-use super::coupling::{self, Coupled, Coupling};
-use super::measure::{self, Job, Spread, number};
+use super::coupling::{self, CoupledSystem, Coupling};
+use super::measure::{self, TimedJob, cells};
 use super::reference::errors;
-use super::{Form, csv, vehicle};
+use super::{CostPlan, measured_here, vehicle};
+use crate::tools::csv_file::number;
+use crate::tools::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str = "coupling,fidelity,h_s,status,message,runs,cpu_s,cpu_s_low,cpu_s_high,cost,speed_error,\
@@ -32,31 +32,31 @@ const TOLERANCE: f64 = 1e-9;
 const FINEST: f64 = 1e-11;
 
 /// A run.
-struct Row {
+struct CouplingRun {
     run: usize,
     h: f64,
-    outcome: Result<Measured, String>,
+    outcome: Result<CouplingResult, String>,
 }
 
-struct Measured {
+struct CouplingResult {
     seconds: Spread,
     errors: [f64; 2],
     counts: [u64; 2],
 }
 
 /// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let mut rows = Vec::new();
     let mut firsts = Vec::new();
-    let starts: Vec<Coupled> =
-        RUNS.iter().map(|(_, fidelity, _)| Coupled::start(*fidelity, TOLERANCE)).collect::<Result<_>>()?;
+    let starts: Vec<CoupledSystem> =
+        RUNS.iter().map(|(_, fidelity, _)| CoupledSystem::start(*fidelity, TOLERANCE)).collect::<Result<_>>()?;
     let share = 1.0 / (1.0 + form.runs as f64);
     tell(0.0, "coupled run in one piece");
     let references: Vec<Vec<Sample>> = RUNS
         .iter()
         .map(|(coupling, fidelity, _)| match coupling {
             Coupling::None => {
-                let finest = Coupled::start(*fidelity, FINEST)?.samples(coupling::TIMES[0], *coupling);
+                let finest = CoupledSystem::start(*fidelity, FINEST)?.samples(coupling::TIMES[0], *coupling);
                 finest.map(|found| found.0).map_err(|why| anyhow::anyhow!("run with constant inputs: {why}"))
             }
             _ => coupling::in_one_piece(*fidelity),
@@ -70,11 +70,11 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
                 let errors = errors(&references[run], &samples);
                 let finite = errors.iter().all(|error| error.is_finite());
                 finite
-                    .then_some(Measured { seconds: Spread::of(&[]), errors, counts })
+                    .then_some(CouplingResult { seconds: Spread::of(&[]), errors, counts })
                     .ok_or_else(|| "results are no numbers".to_owned())
             });
             firsts.push(begun.elapsed().as_secs_f64());
-            rows.push(Row { run, h, outcome });
+            rows.push(CouplingRun { run, h, outcome });
         }
     }
     let mut jobs = Vec::new();
@@ -84,7 +84,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
             // it has come to its end before
             let _ = start.clone().run(h, coupling, |_| {});
         });
-        jobs.push(Job { run, first: *first });
+        jobs.push(TimedJob { run, first: *first });
     }
     let times = measure::time(&mut jobs, form.runs, &mut |done| {
         tell(share + (1.0 - share) * done, "coupled runs: times");
@@ -92,16 +92,16 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
     drop(jobs);
     let measured = rows.iter_mut().filter_map(|row| row.outcome.as_mut().ok());
     measured.zip(times).for_each(|(measured, seconds)| measured.seconds = seconds);
-    Ok(text(&rows))
+    text(&rows)
 }
 
-fn text(rows: &[Row]) -> String {
+fn text(rows: &[CouplingRun]) -> Result<String> {
     let of = |run: usize, h: f64| {
         let row = rows.iter().find(|row| row.run == run && row.h == h);
         row.and_then(|row| row.outcome.as_ref().ok())
     };
     let unit = of(0, UNIT).map_or(f64::NAN, |m| m.seconds.median);
-    let mut out = csv::head(
+    let mut out = measured_here(
         COLUMNS,
         &[
             "a car accelerates with its left wheel on ice; tyres and car in the host, differential and wheels in the FMU",
@@ -110,26 +110,27 @@ fn text(rows: &[Row]) -> String {
             "steps, rhs_calls: of steps that were kept; those taken back are in the times only",
             &format!("longest stable plain step by the tyre's slope, s: {}", number(vehicle::longest_stable_step())),
         ],
-    );
+    )?;
     for (i, row) in rows.iter().enumerate() {
         let (_, fidelity, name) = RUNS[row.run];
-        let (status, message, cells) = match &row.outcome {
+        let (status, message, numbers) = match &row.outcome {
             Ok(m) => {
                 let before = i.checked_sub(1).map(|i| &rows[i]).filter(|before| before.run == row.run);
                 let order = before.and_then(|before| {
                     let errors = m.errors[0] / before.outcome.as_ref().ok()?.errors[0];
                     Some(errors.ln() / (row.h / before.h).ln())
                 });
-                let [median, low, high, count] = m.seconds.cells();
+                let [median, low, high, count] = cells(&m.seconds);
                 let mut cells = vec![count, median, low, high, number(m.seconds.median / unit)];
                 cells.extend(m.errors.map(number));
                 cells.push(number(order.unwrap_or(f64::NAN)));
                 cells.extend(m.counts.map(|n| n.to_string()));
-                ("ok", "-".to_owned(), cells)
+                ("ok", "", cells)
             }
-            Err(why) => ("failed", csv::text(why), [vec!["0".to_owned()], vec!["nan".to_owned(); 9]].concat()),
+            Err(why) => ("failed", why.as_str(), [vec!["0".to_owned()], vec!["nan".to_owned(); 9]].concat()),
         };
-        let _ = writeln!(out, "{name},{},{},{status},{message},{}", fidelity.name(), number(row.h), cells.join(","));
+        let texts = [name, fidelity.name(), &number(row.h), status, message].map(str::to_owned);
+        out.push(texts.into_iter().chain(numbers))?;
     }
-    out
+    out.text()
 }

@@ -23,7 +23,7 @@ pub enum Coupling {
 
 /// The differential with its car.
 #[derive(Clone)]
-pub struct Coupled {
+pub struct CoupledSystem {
     /// The differential.
     pub simulation: Simulation,
     /// Speed of the car [m/s].
@@ -41,7 +41,7 @@ fn started(fidelity: Fidelity, tolerance: f64, inputs: &Inputs) -> Result<Simula
     Simulation::start(&parameters, inputs, 0.0).map_err(|found| anyhow!("{}", problem::list(&found)))
 }
 
-impl Coupled {
+impl CoupledSystem {
     /// At the start.
     pub fn start(fidelity: Fidelity, tolerance: f64) -> Result<Self> {
         let car = vehicle::speed_at_start();
@@ -119,7 +119,7 @@ fn constant() -> Inputs {
 /// The coupled system in one piece: differential, wheels and car by the classical Runge–Kutta method, from the equations
 /// of motion alone, so that neither communication points nor the program's solver have a part in it.
 pub fn in_one_piece(fidelity: Fidelity) -> Result<Vec<Sample>> {
-    let Coupled { mut simulation, car } = Coupled::start(fidelity, 1e-6)?;
+    let CoupledSystem { mut simulation, car } = CoupledSystem::start(fidelity, 1e-6)?;
     let n = simulation.freedoms();
     let state = *simulation.state();
     let mut y: Vec<f64> = state.q[..n].iter().chain(&state.v[..n]).copied().chain([car]).collect();
@@ -178,7 +178,7 @@ mod tests {
         // ideal gears are a closed form between communication points: all error is that of the coupling
         let reference = in_one_piece(Fidelity::Ideal).expect("runs");
         let error = |h: f64| {
-            let coupled = Coupled::start(Fidelity::Ideal, 1e-6).expect("starts");
+            let coupled = CoupledSystem::start(Fidelity::Ideal, 1e-6).expect("starts");
             errors(&reference, &coupled.samples(h, coupling).expect("runs").0)[0]
         };
         (error(steps[1]) / error(steps[0])).ln() / (steps[1] / steps[0]).ln()
@@ -194,8 +194,9 @@ mod tests {
 
     #[test]
     fn constant_inputs_need_no_communication() {
-        let run =
-            |h: f64| Coupled::start(Fidelity::Ideal, 1e-6).expect("starts").samples(h, Coupling::None).expect("runs").0;
+        let run = |h: f64| {
+            CoupledSystem::start(Fidelity::Ideal, 1e-6).expect("starts").samples(h, Coupling::None).expect("runs").0
+        };
         assert!(errors(&run(0.1), &run(1e-3))[0] < 1e-12);
     }
 }

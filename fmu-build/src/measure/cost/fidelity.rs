@@ -1,15 +1,15 @@
 //! The ladder of fidelities: what each rung gets right, held against the richest, and what it costs.
 
-use std::fmt::Write as _;
-
 use anyhow::Result;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation};
 use bevel_differential::problem;
 
-use super::cases::{Case, Fidelity, Motion};
-use super::measure::{self, Job, Spread, number};
-use super::{Form, csv};
+use super::cases::{CaseMotion, CostCase, Fidelity};
+use super::measure::{self, TimedJob, cells};
+use super::{CostPlan, measured_here};
+use crate::tools::csv_file::number;
+use crate::tools::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str =
@@ -80,24 +80,24 @@ const CLUNK: [(&str, &str); 6] = [
 ];
 
 /// A scene: how it begins, how long it settles, when it ends and how closely it is recorded [s].
-struct Scene {
+struct LadderScene {
     name: &'static str,
-    motion: Motion,
+    motion: CaseMotion,
     settled: f64,
     end: f64,
     every: f64,
     quantities: &'static [(&'static str, &'static str)],
 }
 
-const SCENES: [Scene; 2] = [
-    Scene { name: "turn", motion: Motion::Turn, settled: 0.18, end: 0.36, every: 5e-4, quantities: &TURN },
-    Scene { name: "clunk", motion: Motion::Clunk, settled: 0.0, end: 0.02, every: 1e-5, quantities: &CLUNK },
+const SCENES: [LadderScene; 2] = [
+    LadderScene { name: "turn", motion: CaseMotion::Turn, settled: 0.18, end: 0.36, every: 5e-4, quantities: &TURN },
+    LadderScene { name: "clunk", motion: CaseMotion::Clunk, settled: 0.0, end: 0.02, every: 1e-5, quantities: &CLUNK },
 ];
 /// Communication step while times are measured [s].
 const STEP: f64 = 1e-3;
 
 /// A line of a record.
-struct Point {
+struct LadderPoint {
     time: f64,
     speed: f64,
     carrier: f64,
@@ -108,12 +108,12 @@ struct Point {
 }
 
 /// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let rungs: Vec<Rung> = RUNGS.into_iter().filter(|rung| rung.quick || !form.short).collect();
     let mut found = Vec::new();
     let mut jobs = Vec::new();
     for (i, scene) in SCENES.iter().enumerate() {
-        let case = Case::new(scene.motion, Fidelity::Ideal)?;
+        let case = CostCase::new(scene.motion, Fidelity::Ideal)?;
         let mut parameters = case.parameters;
         for (j, rung) in rungs.iter().enumerate() {
             let done = (i * rungs.len() + j) as f64 / (SCENES.len() * rungs.len()) as f64;
@@ -130,7 +130,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
                         let _ = simulation.advance(f64::from(k) * STEP);
                     }
                 });
-                jobs.push(Job { run, first: 0.0 });
+                jobs.push(TimedJob { run, first: 0.0 });
             }
             found.push(values);
         }
@@ -139,7 +139,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
         measure::time(&mut jobs, form.runs, &mut |done| tell(0.2 + 0.8 * done, "ladder: times")).into_iter();
     let spreads: Vec<Option<Spread>> =
         found.iter().map(|values| if values.is_ok() { times.next() } else { None }).collect();
-    Ok(text(&rungs, &found, &spreads))
+    text(&rungs, &found, &spreads)
 }
 
 fn start(parameters: &Parameters, inputs: &Inputs, then: &Inputs) -> Result<Simulation, String> {
@@ -148,7 +148,7 @@ fn start(parameters: &Parameters, inputs: &Inputs, then: &Inputs) -> Result<Simu
     Ok(simulation)
 }
 
-fn record(scene: &Scene, mut simulation: Simulation) -> Result<Vec<Point>, String> {
+fn record(scene: &LadderScene, mut simulation: Simulation) -> Result<Vec<LadderPoint>, String> {
     let mut points = Vec::new();
     for k in 1..=(scene.end / scene.every).round() as u32 {
         let time = f64::from(k) * scene.every;
@@ -158,7 +158,7 @@ fn record(scene: &Scene, mut simulation: Simulation) -> Result<Vec<Point>, Strin
         }
         let (motion, heat) = (simulation.motion(), simulation.books().heat.iter().sum());
         let forces = simulation.forces();
-        points.push(Point {
+        points.push(LadderPoint {
             time,
             speed: motion.side_speed[0],
             carrier: motion.carrier_speed,
@@ -172,14 +172,14 @@ fn record(scene: &Scene, mut simulation: Simulation) -> Result<Vec<Point>, Strin
 }
 
 /// Values of the quantities of `scene`.
-fn quantities(scene: &Scene, points: &[Point]) -> Vec<f64> {
-    let mean = |of: fn(&Point) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let most = |of: fn(&Point) -> f64| points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let range = |of: fn(&Point) -> f64| most(of) - points.iter().map(of).fold(f64::INFINITY, f64::min);
+fn quantities(scene: &LadderScene, points: &[LadderPoint]) -> Vec<f64> {
+    let mean = |of: fn(&LadderPoint) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    let most = |of: fn(&LadderPoint) -> f64| points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let range = |of: fn(&LadderPoint) -> f64| most(of) - points.iter().map(of).fold(f64::INFINITY, f64::min);
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return Vec::new() };
     let heat = last.heat - first.heat;
     match scene.motion {
-        Motion::Turn | Motion::Blow => vec![
+        CaseMotion::Turn | CaseMotion::Blow => vec![
             mean(|p| p.speed),
             mean(|p| p.force),
             most(|p| p.force),
@@ -188,7 +188,7 @@ fn quantities(scene: &Scene, points: &[Point]) -> Vec<f64> {
             range(|p| p.deflection),
             heat,
         ],
-        Motion::Clunk => {
+        CaseMotion::Clunk => {
             let peak = most(|p| p.torque);
             let when = points.iter().find(|p| p.torque == peak).map_or(f64::NAN, |p| p.time);
             let speed = mean(|p| p.speed * p.speed).sqrt();
@@ -197,43 +197,35 @@ fn quantities(scene: &Scene, points: &[Point]) -> Vec<f64> {
     }
 }
 
-fn text(rungs: &[Rung], found: &[Result<Vec<f64>, String>], spreads: &[Option<Spread>]) -> String {
-    let mut out = csv::head(
+fn text(rungs: &[Rung], found: &[Result<Vec<f64>, String>], spreads: &[Option<Spread>]) -> Result<String> {
+    let mut out = measured_here(
         COLUMNS,
         &[
             "error: difference from the richest rung over its value; cost: cpu_s over that of the ideal rung",
             "turn: the study's, one tooth after one to settle; clunk: the scene with the study's gears and restitution",
         ],
-    );
+    )?;
     for (i, scene) in SCENES.iter().enumerate() {
         let first = i * rungs.len();
         let richest = found[first + rungs.len() - 1].as_ref().ok();
         let unit = spreads[first].map_or(f64::NAN, |s| s.median);
         for (j, Rung { name: rung, adds, .. }) in rungs.iter().enumerate() {
             let (values, spread) = (&found[first + j], spreads[first + j].unwrap_or(Spread::of(&[])));
-            let [median, low, high, count] = spread.cells();
+            let [median, low, high, count] = cells(&spread);
             for (k, (quantity, unit_of)) in scene.quantities.iter().enumerate() {
                 let best = richest.map_or(f64::NAN, |values| values[k]);
                 let (status, message, value) = match values {
-                    Ok(values) => ("ok", "-".to_owned(), values[k]),
-                    Err(why) => ("failed", csv::text(why), f64::NAN),
+                    Ok(values) => ("ok", "", values[k]),
+                    Err(why) => ("failed", why.as_str(), f64::NAN),
                 };
-                let _ = writeln!(
-                    out,
-                    "{},{},{},{status},{message},{},{unit_of},{},{},{},{count},{median},{low},{high},{}",
-                    scene.name,
-                    csv::text(rung),
-                    csv::text(adds),
-                    csv::text(quantity),
-                    number(value),
-                    number(best),
-                    number((value / best - 1.0).abs()),
-                    number(spread.median / unit)
-                );
+                let texts = [scene.name, rung, adds, status, message, quantity, unit_of].map(str::to_owned);
+                let values = [value, best, (value / best - 1.0).abs()].map(number);
+                let times = [&count, &median, &low, &high].map(String::clone);
+                out.push(texts.into_iter().chain(values).chain(times).chain([number(spread.median / unit)]))?;
             }
         }
     }
-    out
+    out.text()
 }
 
 #[cfg(test)]
@@ -242,7 +234,7 @@ mod tests {
 
     #[test]
     fn quantities_of_a_record_are_means_ranges_and_peaks() {
-        let point = |time: f64, speed: f64| Point {
+        let point = |time: f64, speed: f64| LadderPoint {
             time,
             speed,
             carrier: 7.0,

@@ -3,10 +3,10 @@
 //! Jobs are run in turn, each once in a round, so that what else the machine does hits all alike. A number is the median
 //! of its runs with the quartiles around it.
 
-use std::path::Path;
-use std::{env, fs, thread};
-
 use cpu_time::ThreadTime;
+
+use crate::tools::csv_file::number;
+use crate::tools::numbers::Spread;
 
 /// Runs shorter than this are repeated until they are as long together [s]; clocks of processors are coarser than that.
 const SHORTEST: f64 = 2e-3;
@@ -15,42 +15,14 @@ const LONG: f64 = 0.2;
 /// Fewest runs of a job.
 const FEWEST: usize = 5;
 
-/// Median and quartiles.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spread {
-    /// Median.
-    pub median: f64,
-    /// Lower quartile.
-    pub low: f64,
-    /// Upper quartile.
-    pub high: f64,
-    /// How many values there were.
-    pub count: usize,
-}
-
-impl Spread {
-    /// That of `values`; numbers that are not, if there are none.
-    pub fn of(values: &[f64]) -> Self {
-        let mut sorted = values.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let at = |part: f64| {
-            let Some(last) = sorted.len().checked_sub(1) else { return f64::NAN };
-            let place = part * last as f64;
-            let (below, rest) = (place.floor() as usize, place.fract());
-            sorted[below] + rest * (sorted[(below + 1).min(last)] - sorted[below])
-        };
-        Self { median: at(0.5), low: at(0.25), high: at(0.75), count: sorted.len() }
-    }
-
-    /// Its cells: median, quartiles, count.
-    pub fn cells(&self) -> [String; 4] {
-        let [median, low, high] = [self.median, self.low, self.high].map(number);
-        [median, low, high, self.count.to_string()]
-    }
+/// Cells of a spread: median, quartiles, count.
+pub fn cells(spread: &Spread) -> [String; 4] {
+    let [median, low, high] = [spread.median, spread.low, spread.high].map(number);
+    [median, low, high, spread.count.to_string()]
 }
 
 /// Something whose time is measured.
-pub struct Job<'a> {
+pub struct TimedJob<'a> {
     /// Does it once.
     pub run: Box<dyn FnMut() + 'a>,
     /// Seconds it took when it was done before.
@@ -58,9 +30,9 @@ pub struct Job<'a> {
 }
 
 /// Times `jobs` in `rounds` rounds, long ones in fewer. `tell` hears how much of the work is done, a fraction.
-pub fn time(jobs: &mut [Job], rounds: usize, tell: &mut dyn FnMut(f64)) -> Vec<Spread> {
+pub fn time(jobs: &mut [TimedJob], rounds: usize, tell: &mut dyn FnMut(f64)) -> Vec<Spread> {
     let rounds = rounds.max(FEWEST);
-    let is_due = |job: &Job, round: usize| job.first < LONG || round < FEWEST;
+    let is_due = |job: &TimedJob, round: usize| job.first < LONG || round < FEWEST;
     let all: f64 = (0..rounds)
         .flat_map(|round| jobs.iter().map(move |job| (round, job.first, is_due(job, round))))
         .map(|(_, first, due)| if due { first.max(SHORTEST) } else { 0.0 })
@@ -96,34 +68,9 @@ pub fn largest_error(values: impl Iterator<Item = (f64, f64)>, scale: f64) -> f6
     if sum.is_finite() { largest / scale } else { f64::NAN }
 }
 
-/// A number as it stands in a CSV file.
-pub fn number(value: f64) -> String {
-    if value.is_nan() { "nan".into() } else { format!("{value:.6e}") }
-}
-
-/// Processor, cores and system, in a line.
-pub fn machine() -> String {
-    let info = fs::read_to_string(Path::new("/proc/cpuinfo")).unwrap_or_default();
-    let field = |name: &str| {
-        let line = info.lines().find(|line| line.starts_with(name))?;
-        Some(line.split_once(':')?.1.trim().to_owned())
-    };
-    let processor = field("model name").or_else(|| field("Model")).unwrap_or_else(|| "processor not named".into());
-    let cores = thread::available_parallelism().map_or(1, |cores| cores.get());
-    format!("{processor}, {cores} cores, {} {}", env::consts::OS, env::consts::ARCH)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn quartiles_lie_between_the_values_they_part() {
-        let spread = Spread::of(&[5.0, 1.0, 2.0, 4.0, 3.0]);
-        assert_eq!(spread, Spread { median: 3.0, low: 2.0, high: 4.0, count: 5 });
-        assert_eq!(Spread::of(&[1.0, 2.0]).median, 1.5);
-        assert!(Spread::of(&[]).median.is_nan());
-    }
 
     #[test]
     fn an_error_is_the_largest_difference_and_no_number_stays_none() {
@@ -136,7 +83,7 @@ mod tests {
         let counts = [0, 1].map(std::cell::Cell::new);
         let job = |i: usize, first: f64| {
             let count = &counts[i];
-            Job { run: Box::new(move || count.set(count.get() + 1)), first }
+            TimedJob { run: Box::new(move || count.set(count.get() + 1)), first }
         };
         let mut told = 0.0;
         let spreads = time(&mut [job(0, 0.0), job(1, 1.0)], 7, &mut |done| told = done);

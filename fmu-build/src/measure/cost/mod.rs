@@ -10,7 +10,6 @@
 pub mod cases;
 pub mod communication;
 pub mod coupling;
-pub mod csv;
 pub mod fidelity;
 pub mod measure;
 pub mod reference;
@@ -26,9 +25,12 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use clap::Args;
 
+use crate::tools::csv_file::CsvFile;
+use crate::tools::machine::machine;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script, sections};
+use summary::TitledTable;
 
 /// Where the summary stands.
 const DOCUMENT: &str = "docs/cost.md";
@@ -51,7 +53,7 @@ pub struct CostCommand {
 }
 
 /// How much is measured.
-pub struct Form {
+pub struct CostPlan {
     /// Relative tolerances.
     pub tolerances: &'static [f64],
     /// Steps of the method with fixed ones [s].
@@ -68,7 +70,7 @@ pub struct Form {
     pub short: bool,
 }
 
-const FULL: Form = Form {
+const FULL: CostPlan = CostPlan {
     tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
     fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
     communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
@@ -78,7 +80,7 @@ const FULL: Form = Form {
     short: false,
 };
 
-const QUICK: Form = Form {
+const QUICK: CostPlan = CostPlan {
     tolerances: &[1e-3, 1e-6, 1e-9],
     fixed_steps: &[1e-4, 1e-5],
     communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
@@ -104,7 +106,7 @@ impl CostCommand {
             progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
         };
         let found = work_precision::measure(&form, &mut |done, what| tell(0, done, what))?;
-        save(&folder, "work_precision.csv", &found.csv())?;
+        save(&folder, "work_precision.csv", &found.csv()?)?;
         save(
             &folder,
             "communication_step.csv",
@@ -122,11 +124,11 @@ impl CostCommand {
         }
         let mut files = files(&folder)?;
         files.sort();
-        println!("machine: {}\nfiles:", measure::machine());
+        println!("machine: {}\nfiles:", machine());
         files.iter().for_each(|file| println!("  {}", paths::shown(file)));
         if self.write {
-            let text: Vec<String> = tables.iter().map(summary::Table::markdown).collect();
-            let text = format!("{}\nMeasured on {}.\n", text.join("\n"), measure::machine());
+            let text: Vec<String> = tables.iter().map(TitledTable::markdown).collect();
+            let text = format!("{}\nMeasured on {}.\n", text.join("\n"), machine());
             sections::renew(DOCUMENT, MARKS, &text)?;
             copy_pictures(&files)?;
             println!("renewed: {DOCUMENT}, docs/figures");
@@ -144,8 +146,13 @@ fn left(seconds: f64, done: f64) -> String {
     if left < 60.0 { format!(", {left:.0} s left") } else { format!(", {:.0} min left", (left / 60.0).ceil()) }
 }
 
+/// A CSV file of what was measured on this machine.
+pub fn measured_here(columns: &str, comments: &[&str]) -> Result<CsvFile> {
+    let machine = format!("machine: {}", machine());
+    CsvFile::new(columns, &[&[machine.as_str()], comments].concat())
+}
+
 fn save(folder: &Path, name: &str, text: &str) -> Result<()> {
-    csv::ensure_whole(name, text)?;
     fs::write(folder.join(name), text).with_context(|| format!("{} cannot be written", folder.join(name).display()))
 }
 

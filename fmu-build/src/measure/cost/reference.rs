@@ -9,7 +9,7 @@ use std::fs;
 use anyhow::{Context, Result, anyhow, ensure};
 use bevel_differential::model::Method;
 
-use super::cases::{Case, Fidelity, Motion, Sample};
+use super::cases::{CaseMotion, CostCase, Fidelity, Sample};
 use super::measure::largest_error;
 use crate::tools::paths;
 
@@ -31,8 +31,8 @@ pub struct Reference {
 }
 
 /// The reference for `case`.
-pub fn of(case: &Case) -> Result<Reference> {
-    if let (Motion::Turn, Fidelity::Ideal) = (case.motion, case.fidelity) {
+pub fn of(case: &CostCase) -> Result<Reference> {
+    if let (CaseMotion::Turn, Fidelity::Ideal) = (case.motion, case.fidelity) {
         return closed_form(case);
     }
     match file(case) {
@@ -42,10 +42,10 @@ pub fn of(case: &Case) -> Result<Reference> {
 }
 
 /// Name of the file for `case`, if there is one.
-fn file(case: &Case) -> Option<String> {
+fn file(case: &CostCase) -> Option<String> {
     let name = match (case.motion, case.fidelity) {
-        (Motion::Turn, Fidelity::Impact) => "turn_equilibrium",
-        (Motion::Blow, Fidelity::Impact) => "turn_rolling",
+        (CaseMotion::Turn, Fidelity::Impact) => "turn_equilibrium",
+        (CaseMotion::Blow, Fidelity::Impact) => "turn_rolling",
         _ => return None,
     };
     let name = format!("reference_{name}.csv");
@@ -53,7 +53,7 @@ fn file(case: &Case) -> Option<String> {
 }
 
 /// Nothing is solved in a turn of ideal gears with imposed speeds: Willis' equation and static forces.
-fn closed_form(case: &Case) -> Result<Reference> {
+fn closed_form(case: &CostCase) -> Result<Reference> {
     let simulation = case.start(Method::Adaptive, TOLERANCE, 1.0)?;
     let ratio = f64::from(case.parameters.geometry.planet_teeth) / f64::from(case.parameters.geometry.side_teeth);
     let [mean, half] = [case.then.carrier_speed, ratio * case.then.planet_spin];
@@ -62,7 +62,7 @@ fn closed_form(case: &Case) -> Result<Reference> {
     Ok(Reference::new(vec![sample; case.times.len()], "closed form".into(), [0.0; 2]))
 }
 
-fn from_file(case: &Case, name: String) -> Result<Reference> {
+fn from_file(case: &CostCase, name: String) -> Result<Reference> {
     let path = paths::workspace().join("tests").join("data").join(&name);
     let text = fs::read_to_string(&path).with_context(|| format!("{name} cannot be read"))?;
     let samples = parse(&text, &case.times).with_context(|| name.clone())?;
@@ -107,7 +107,7 @@ fn parse(text: &str, times: &[f64]) -> Result<Vec<Sample>> {
 }
 
 /// Radau and Rodas5P of this program; they share the equations and the error control, but no formula of a step.
-fn by_two_methods(case: &Case) -> Result<Reference> {
+fn by_two_methods(case: &CostCase) -> Result<Reference> {
     let [radau, rodas] = [Method::Radau, Method::Adaptive].map(|method| -> Result<Vec<Sample>> {
         let simulation = case.start(method, TOLERANCE, 1.0)?;
         case.samples(simulation, f64::INFINITY)
@@ -174,7 +174,7 @@ mod tests {
 
     #[test]
     fn ideal_gears_in_a_turn_are_their_closed_form() {
-        let case = Case::new(Motion::Turn, Fidelity::Ideal).expect("case");
+        let case = CostCase::new(CaseMotion::Turn, Fidelity::Ideal).expect("case");
         let simulation = case.start(Method::Adaptive, 1e-2, 1.0).expect("starts");
         let (samples, _) = case.samples(simulation, f64::INFINITY).expect("runs");
         let errors = of(&case).expect("reference").errors(&samples);

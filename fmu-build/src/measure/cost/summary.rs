@@ -2,7 +2,10 @@
 
 use bevel_differential::model::Method;
 
-use super::work_precision::{Measured, Row, WorkPrecision, name};
+use crate::tools::numbers::significant;
+use crate::tools::table::Table;
+
+use super::work_precision::{MethodResult, MethodRun, WorkPrecision, name};
 
 /// Errors of speed that are asked for.
 const WANTED: [f64; 3] = [1e-3, 1e-6, 1e-9];
@@ -11,19 +14,29 @@ const WANTED: [f64; 3] = [1e-3, 1e-6, 1e-9];
 const AT_REST: f64 = 1e-12;
 
 /// A table with a title.
-pub struct Table {
-    /// What it shows.
-    pub title: String,
-    /// Its cells, the head first.
-    pub rows: Vec<Vec<String>>,
+pub struct TitledTable {
+    title: String,
+    table: Table,
+}
+
+impl TitledTable {
+    /// For the terminal.
+    pub fn terminal(&self) -> String {
+        format!("{}\n\n{}", self.title, self.table.terminal())
+    }
+
+    /// For a document.
+    pub fn markdown(&self) -> String {
+        format!("{}:\n\n{}", self.title, self.table.markdown())
+    }
 }
 
 /// Both tables.
-pub fn tables(found: &WorkPrecision) -> [Table; 2] {
+pub fn tables(found: &WorkPrecision) -> [TitledTable; 2] {
     [by_tolerance(found), cheapest(found)]
 }
 
-fn measured(row: &Row) -> Option<&Measured> {
+fn measured(row: &MethodRun) -> Option<&MethodResult> {
     row.outcome.as_ref().ok()
 }
 
@@ -34,15 +47,15 @@ fn is_solved(found: &WorkPrecision, case: usize) -> bool {
 }
 
 /// Default method: errors and cost by tolerance.
-fn by_tolerance(found: &WorkPrecision) -> Table {
+fn by_tolerance(found: &WorkPrecision) -> TitledTable {
     let mut tolerances: Vec<f64> = Vec::new();
     for row in found.rows.iter().filter(|row| row.setting.method == Method::Adaptive) {
         if !tolerances.contains(&row.setting.value) {
             tolerances.push(row.setting.value);
         }
     }
-    let mut rows =
-        vec![["case".to_owned()].into_iter().chain(tolerances.iter().map(|t| format!("{t:.0e}"))).collect::<Vec<_>>()];
+    let head = ["case".to_owned()].into_iter().chain(tolerances.iter().map(|t| format!("{t:.0e}")));
+    let mut table = Table::new(head).all_left();
     for (i, (case, _)) in found.cases.iter().enumerate().filter(|(i, _)| is_solved(found, *i)) {
         let cell = |tolerance: &f64| {
             let row = found
@@ -56,17 +69,18 @@ fn by_tolerance(found: &WorkPrecision) -> Table {
                 _ => "failed".into(),
             }
         };
-        rows.push([case.name()].into_iter().chain(tolerances.iter().map(cell)).collect());
+        table.push([case.name()].into_iter().chain(tolerances.iter().map(cell)));
     }
-    Table {
+    TitledTable {
         title: "adaptive, by solver.relative_tolerance: error of speed, error of force, time × that at 1e-6".into(),
-        rows,
+        table,
     }
 }
 
 /// Cheapest method for an error of speed.
-fn cheapest(found: &WorkPrecision) -> Table {
-    let mut rows = vec![["case".to_owned()].into_iter().chain(WANTED.map(|w| format!("{w:.0e}"))).collect::<Vec<_>>()];
+fn cheapest(found: &WorkPrecision) -> TitledTable {
+    let head = ["case".to_owned()].into_iter().chain(WANTED.map(|w| format!("{w:.0e}")));
+    let mut table = Table::new(head).all_left();
     for (i, (case, _)) in found.cases.iter().enumerate().filter(|(i, _)| is_solved(found, *i)) {
         let best = |wanted: f64, of: &dyn Fn(Method) -> bool| {
             let rows = found.rows.iter().filter(|row| row.case == i && of(row.setting.method));
@@ -88,66 +102,15 @@ fn cheapest(found: &WorkPrecision) -> Table {
                 None => format!("{chosen} (adaptive: none)"),
             }
         };
-        rows.push([case.name()].into_iter().chain(WANTED.map(cell)).collect());
+        table.push([case.name()].into_iter().chain(WANTED.map(cell)));
     }
-    Table {
+    TitledTable {
         title: "cheapest for an error of speed of at most …: method, tolerance or step, time × the default's".into(),
-        rows,
+        table,
     }
 }
 
 /// Two significant digits.
-pub fn two(value: f64) -> String {
-    match value {
-        value if !value.is_finite() => "–".into(),
-        value if value >= 9.95 => format!("{value:.0}"),
-        value if value >= 0.995 => format!("{value:.1}"),
-        value => format!("{value:.2}"),
-    }
-}
-
-impl Table {
-    /// For the terminal.
-    pub fn terminal(&self) -> String {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |i: usize| self.rows.iter().filter_map(|row| Some(row.get(i)?.chars().count())).max().unwrap_or(0);
-        let widths: Vec<usize> = (0..columns).map(width).collect();
-        let mut out = format!("{}\n\n", self.title);
-        for row in &self.rows {
-            let cells = row.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}"));
-            out.push_str(cells.collect::<Vec<_>>().join("  ").trim_end());
-            out.push('\n');
-        }
-        out
-    }
-
-    /// For a document.
-    pub fn markdown(&self) -> String {
-        let mut out = format!("{}:\n\n", self.title);
-        for (i, row) in self.rows.iter().enumerate() {
-            out.push_str(&format!("| {} |\n", row.join(" | ")));
-            if i == 0 {
-                out.push_str(&format!("|{}\n", "---|".repeat(row.len())));
-            }
-        }
-        out
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_table_is_aligned() {
-        let rows = [["case", "×1"], ["longer", "2"]].map(|row| row.map(str::to_owned).to_vec()).to_vec();
-        let table = Table { title: "t".into(), rows };
-        assert_eq!(table.terminal(), "t\n\ncase    ×1\nlonger  2\n");
-        assert_eq!(table.markdown(), "t:\n\n| case | ×1 |\n|---|---|\n| longer | 2 |\n");
-    }
-
-    #[test]
-    fn ratios_have_two_digits() {
-        assert_eq!([123.4, 1.26, 0.123, f64::NAN].map(two), ["123", "1.3", "0.12", "–"]);
-    }
+fn two(value: f64) -> String {
+    significant(value, 2)
 }

@@ -1,17 +1,15 @@
 //! Effects with verdict: for a scene, what each effect changes among all others, what it costs, and whether the scene calls
 //! for it at a wanted accuracy; as the command `effects` finds it.
 
-use std::fmt::Write as _;
-
 use anyhow::Result;
 
-use super::measure::number;
-use super::{Form, csv};
+use super::{CostPlan, measured_here};
 use crate::gears::effects::switches::Standing;
 use crate::gears::effects::verdict::Verdict;
 use crate::gears::effects::words::{name, pair};
 use crate::gears::effects::{Finding, Findings, Question, examine};
 use crate::gears::scene;
+use crate::tools::csv_file::{CsvFile, number, number_or_nan};
 
 /// The columns.
 pub const COLUMNS: &str = "scene,accuracy,effect,in_scene,status,message,output,unit,change,limit,cost,cost_spread,\
@@ -23,8 +21,8 @@ const ACCURACY: f64 = 0.01;
 const START: f64 = 0.02;
 
 /// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
-    let mut out = csv::head(
+pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+    let mut out = measured_here(
         COLUMNS,
         &[
             "each effect switched in the scene with all effects on that it allows (among all)",
@@ -32,7 +30,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
             "cost: time with the effect over that without, evaluations: the same of evaluations of the forces",
             "kept: whether the scene reduced to the accuracy has it; limit: what an output may change by",
         ],
-    );
+    )?;
     let all = form.scenes.len() as f64;
     for (i, name) in form.scenes.iter().enumerate() {
         let scene = scene::find(name)?;
@@ -41,41 +39,37 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
         let found =
             examine(&scene, &question, &mut |done, what| tell((i as f64 + done) / all, &format!("{name}: {what}")))?;
         for row in &found.rows {
-            lines(&found, row, &mut out);
+            lines(&found, row, &mut out)?;
         }
     }
-    Ok(out)
+    out.text()
 }
 
-fn lines(found: &Findings, row: &Finding, out: &mut String) {
+fn lines(found: &Findings, row: &Finding, out: &mut CsvFile) -> Result<()> {
     let bench = &found.bench;
     let (status, message) = match (&row.verdict, &row.among.run) {
-        (Verdict::Fails(why), _) => ("failed", csv::text(why)),
-        (Verdict::Refused(why), _) | (_, Err(why)) => ("refused", csv::text(why)),
-        _ => ("ok", "-".into()),
+        (Verdict::Fails(why), _) => ("failed", why.as_str()),
+        (Verdict::Refused(why), _) | (_, Err(why)) => ("refused", why.as_str()),
+        _ => ("ok", ""),
     };
     let pair = pair(row, &row.among);
     let ratio = pair.and_then(|[with, without]| bench.ratio(with, without));
     let evaluations = pair.and_then(|[with, without]| bench.evaluations(with, without));
-    let told = |value: Option<f64>| number(value.unwrap_or(f64::NAN));
     let change = row.among.change(bench);
+    let standing = if row.standing == Standing::On { "on" } else { "off" };
     for (i, output) in found.scene.outputs.iter().enumerate() {
-        let _ = writeln!(
-            out,
-            "{},{},{},{},{status},{message},{},{},{},{},{},{},{},{},{}",
-            found.scene.name,
-            number(found.accuracy),
-            csv::text(&name(row)),
-            if row.standing == Standing::On { "on" } else { "off" },
-            output.name,
-            output.unit.map_or("1", |unit| unit.name),
-            told(change.map(|change| change.outputs[i].by)),
-            number(found.limits[i]),
-            told(ratio.map(|ratio| ratio.median)),
-            told(ratio.map(|ratio| ratio.spread)),
-            told(evaluations),
-            csv::text(&row.verdict.text(row.standing)),
-            row.verdict.is_kept()
-        );
+        let unit = output.unit.map_or("1", |unit| unit.name);
+        let accuracy = number(found.accuracy);
+        let texts = [&found.scene.name, &accuracy, &name(row), standing, status, message, output.name, unit];
+        let numbers = [
+            change.map(|change| change.outputs[i].by),
+            Some(found.limits[i]),
+            ratio.map(|ratio| ratio.median),
+            ratio.map(|ratio| ratio.spread),
+            evaluations,
+        ];
+        let verdict = [row.verdict.text(row.standing), row.verdict.is_kept().to_string()];
+        out.push(texts.map(str::to_owned).into_iter().chain(numbers.map(number_or_nan)).chain(verdict))?;
     }
+    Ok(())
 }

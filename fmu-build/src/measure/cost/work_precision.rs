@@ -1,16 +1,16 @@
 //! Work and precision: every case by every method, over tolerances and steps, against its reference.
 
-use std::fmt::Write as _;
-
 use anyhow::Result;
 use bevel_differential::integrate::Statistics;
 use bevel_differential::model::Method;
 use cpu_time::ThreadTime;
 
-use super::cases::Case;
-use super::measure::{self, Job, Spread, number};
+use super::cases::CostCase;
+use super::measure::{self, TimedJob, cells};
 use super::reference::{self, Reference};
-use super::{Form, csv};
+use super::{CostPlan, measured_here};
+use crate::tools::csv_file::number;
+use crate::tools::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str = "case,motion,fidelity,method,setting,unit,status,message,runs,cpu_s,cpu_s_low,cpu_s_high,\
@@ -22,7 +22,7 @@ pub const DEFAULT_TOLERANCE: f64 = 1e-6;
 
 /// A method with its tolerance, or its step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting {
+pub struct MethodSetting {
     /// The method.
     pub method: Method,
     /// Tolerance, or fixed step [s].
@@ -30,17 +30,17 @@ pub struct Setting {
 }
 
 /// What was found of a case with a setting.
-pub struct Row {
+pub struct MethodRun {
     /// Number of the case.
     pub case: usize,
     /// The setting.
-    pub setting: Setting,
+    pub setting: MethodSetting,
     /// What it took and gave, or why it failed.
-    pub outcome: Result<Measured, String>,
+    pub outcome: Result<MethodResult, String>,
 }
 
 /// A run that came to its end.
-pub struct Measured {
+pub struct MethodResult {
     /// Seconds on the processor.
     pub seconds: Spread,
     /// Errors of speed and force.
@@ -52,9 +52,9 @@ pub struct Measured {
 /// All of it.
 pub struct WorkPrecision {
     /// Cases with their references.
-    pub cases: Vec<(Case, Reference)>,
+    pub cases: Vec<(CostCase, Reference)>,
     /// A row for each case and setting.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MethodRun>,
 }
 
 /// The methods, the default first.
@@ -71,9 +71,9 @@ pub fn name(method: Method) -> &'static str {
     METHODS.iter().find(|(other, _)| *other == method).map_or("", |(_, name)| name)
 }
 
-impl Setting {
+impl MethodSetting {
     /// All settings.
-    pub fn all(form: &Form) -> Vec<Self> {
+    pub fn all(form: &CostPlan) -> Vec<Self> {
         let of = |method: Method| {
             let values = if method == Method::FixedStep { form.fixed_steps } else { form.tolerances };
             values.iter().map(move |&value| Self { method, value })
@@ -86,7 +86,7 @@ impl Setting {
         if self.method == Method::FixedStep { "s" } else { "1" }
     }
 
-    fn start(&self, case: &Case) -> Result<bevel_differential::model::Simulation> {
+    fn start(&self, case: &CostCase) -> Result<bevel_differential::model::Simulation> {
         // the method with fixed steps has no tolerance, nor the others a step
         case.start(
             self.method,
@@ -97,9 +97,9 @@ impl Setting {
 }
 
 /// Does it. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPrecision> {
-    let settings = Setting::all(form);
-    let cases = Case::all()?;
+pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPrecision> {
+    let settings = MethodSetting::all(form);
+    let cases = CostCase::all()?;
     let mut found = WorkPrecision { cases: Vec::new(), rows: Vec::new() };
     let mut firsts = Vec::new();
     // running once, for the errors, takes about as long as a round of measuring times
@@ -113,13 +113,13 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPreci
             let outcome = case.samples(simulation, form.patience).and_then(|(samples, statistics)| {
                 let errors = reference.errors(&samples);
                 if errors.iter().all(|error| error.is_finite()) {
-                    Ok(Measured { seconds: Spread::of(&[]), errors, statistics })
+                    Ok(MethodResult { seconds: Spread::of(&[]), errors, statistics })
                 } else {
                     Err("results are no numbers".into())
                 }
             });
             firsts.push(begun.elapsed().as_secs_f64());
-            found.rows.push(Row { case: i, setting, outcome });
+            found.rows.push(MethodRun { case: i, setting, outcome });
         }
         found.cases.push((case, reference));
     }
@@ -131,7 +131,7 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPreci
             // it has come to its end before
             let _ = case.run(simulation.clone(), f64::INFINITY, |_| {});
         });
-        jobs.push(Job { run, first: *first });
+        jobs.push(TimedJob { run, first: *first });
     }
     let times = measure::time(&mut jobs, form.runs, &mut |done| tell(share + (1.0 - share) * done, "measuring times"));
     drop(jobs);
@@ -143,50 +143,41 @@ pub fn measure(form: &Form, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPreci
 impl WorkPrecision {
     /// Seconds of the default method at its tolerance, in case number `case`.
     pub fn unit(&self, case: usize) -> f64 {
-        let default = Setting { method: Method::Adaptive, value: DEFAULT_TOLERANCE };
+        let default = MethodSetting { method: Method::Adaptive, value: DEFAULT_TOLERANCE };
         let row = self.rows.iter().find(|row| row.case == case && row.setting == default);
         row.and_then(|row| row.outcome.as_ref().ok()).map_or(f64::NAN, |measured| measured.seconds.median)
     }
 
     /// As CSV.
-    pub fn csv(&self) -> String {
-        let mut out = csv::head(
+    pub fn csv(&self) -> Result<String> {
+        let mut out = measured_here(
             COLUMNS,
             &[
                 "speed_error: largest difference over the largest speed; force_error: over the mean force of a mesh",
                 "cost: cpu_s over that of the default, adaptive at 1e-6, in the same case; cpu_s: median, _low and _high quartiles",
                 "setting: relative tolerance, or for fixed_step the step in s",
             ],
-        );
+        )?;
         for row in &self.rows {
             let (case, reference) = &self.cases[row.case];
             let (status, message, numbers) = match &row.outcome {
                 Ok(m) => {
-                    let [median, low, high, count] = m.seconds.cells();
+                    let [median, low, high, count] = cells(&m.seconds);
                     let s = &m.statistics;
                     let rejected = s.rejected_error + s.rejected_invalid + s.rejected_switch;
                     let mut cells = vec![count, median, low, high, number(m.seconds.median / self.unit(row.case))];
                     cells.extend(m.errors.map(number));
                     cells.extend([s.accepted, rejected, s.evaluations, s.jacobians].map(|n| n.to_string()));
-                    ("ok", "-".to_owned(), cells)
+                    ("ok", "", cells)
                 }
-                Err(why) => ("failed", csv::text(why), [vec!["0".to_owned()], vec!["nan".to_owned(); 10]].concat()),
+                Err(why) => ("failed", why.as_str(), [vec!["0".to_owned()], vec!["nan".to_owned(); 10]].concat()),
             };
-            let _ = writeln!(
-                out,
-                "{},{},{},{},{},{},{status},{message},{},{},{},{}",
-                case.name(),
-                case.motion.name(),
-                case.fidelity.name(),
-                name(row.setting.method),
-                number(row.setting.value),
-                row.setting.unit(),
-                numbers.join(","),
-                csv::text(&reference.source),
-                number(reference.error[0]),
-                number(reference.error[1])
-            );
+            let of_case = [&case.name(), case.motion.name(), case.fidelity.name(), name(row.setting.method)];
+            let setting = [&number(row.setting.value), row.setting.unit(), status, message];
+            let reference = [reference.source.clone(), number(reference.error[0]), number(reference.error[1])];
+            let texts = of_case.into_iter().chain(setting).map(str::to_owned);
+            out.push(texts.chain(numbers).chain(reference))?;
         }
-        out
+        out.text()
     }
 }

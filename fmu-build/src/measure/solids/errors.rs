@@ -6,7 +6,7 @@
 
 use std::collections::HashSet;
 
-use super::run::Point;
+use super::run::TeethPoint;
 
 /// Speeds nearer than this to Willis' equation are those of a contact on the path alone [deg/s].
 const EVEN: f64 = 1e-3;
@@ -45,7 +45,7 @@ pub type Errors = [f64; QUANTITIES.len()];
 
 /// What a record shows by itself: of the left side gear.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Look {
+pub struct ForceSummary {
     /// Mean normal force [N].
     pub mean: f64,
     /// Largest [N].
@@ -72,8 +72,8 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 
 /// Stretches of the record of `exact` teeth, of side `s`, in which they run evenly at speeds `willis`: the middle half of
 /// each, as what happens at a corner reaches some way onto the path where contact is spread over a patch.
-fn on_path(exact: &[Point], s: usize, willis: [f64; 2]) -> Vec<Vec<usize>> {
-    let even = |p: &Point| (p.speed[s] - willis[s]).abs() < EVEN;
+fn on_path(exact: &[TeethPoint], s: usize, willis: [f64; 2]) -> Vec<Vec<usize>> {
+    let even = |p: &TeethPoint| (p.speed[s] - willis[s]).abs() < EVEN;
     let mut stretches: Vec<Vec<usize>> = Vec::new();
     for (i, p) in exact.iter().enumerate().filter(|(_, p)| even(p)) {
         match stretches.last_mut() {
@@ -90,9 +90,9 @@ fn on_path(exact: &[Point], s: usize, willis: [f64; 2]) -> Vec<Vec<usize>> {
 }
 
 /// Errors of `points` against `exact`, both with close records from `close` on; `willis` are speeds of gears without play.
-pub fn errors(points: &[Point], exact: &[Point], close: f64, willis: [f64; 2]) -> Errors {
-    let told: Vec<(&Point, &Point)> = points.iter().zip(exact).filter(|(p, _)| p.communicates).collect();
-    let both = |of: &dyn Fn(&Point, usize) -> f64| -> Vec<f64> {
+pub fn errors(points: &[TeethPoint], exact: &[TeethPoint], close: f64, willis: [f64; 2]) -> Errors {
+    let told: Vec<(&TeethPoint, &TeethPoint)> = points.iter().zip(exact).filter(|(p, _)| p.communicates).collect();
+    let both = |of: &dyn Fn(&TeethPoint, usize) -> f64| -> Vec<f64> {
         [0, 1].iter().flat_map(|&s| told.iter().map(move |(p, e)| of(p, s) - of(e, s))).collect()
     };
     let mut apart = [Vec::new(), Vec::new()];
@@ -130,13 +130,13 @@ pub fn errors(points: &[Point], exact: &[Point], close: f64, willis: [f64; 2]) -
 }
 
 /// What the close part of a record shows of the left side gear.
-pub fn look(points: &[Point], close: f64) -> Look {
+pub fn look(points: &[TeethPoint], close: f64) -> ForceSummary {
     let own = || points.iter().filter(|p| p.time > close);
-    let range = |of: fn(&Point) -> f64| {
+    let range = |of: fn(&TeethPoint) -> f64| {
         own().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     };
     let [[low, high], [least, most]] = [range(|p| p.force[0]), range(|p| p.tangential[0])];
-    Look {
+    ForceSummary {
         mean: mean(own().map(|p| p.force[0])),
         peak: high,
         ripple: high - low,
@@ -147,7 +147,7 @@ pub fn look(points: &[Point], close: f64) -> Look {
 
 /// What facets alone make of the left side gear's force: its greatest distance from the mean of the stretch on the path of
 /// contact, where the force of exact teeth stands still [N].
-pub fn path_ripple(points: &[Point], exact: &[Point], close: f64, willis: [f64; 2]) -> f64 {
+pub fn path_ripple(points: &[TeethPoint], exact: &[TeethPoint], close: f64, willis: [f64; 2]) -> f64 {
     let mut worst = 0.0f64;
     for stretch in on_path(exact, 0, willis) {
         let forces: Vec<f64> =
@@ -175,20 +175,20 @@ pub fn fitted(pairs: &[(f64, f64)]) -> f64 {
 mod tests {
     use super::*;
 
-    fn point(i: usize, speed: f64, force: f64) -> Point {
-        Point {
+    fn point(i: usize, speed: f64, force: f64) -> TeethPoint {
+        TeethPoint {
             time: 1.0 + i as f64,
             communicates: true,
             speed: [speed; 2],
             force: [force; 2],
             pairs: [1.0; 2],
-            ..Point::default()
+            ..TeethPoint::default()
         }
     }
 
     #[test]
     fn errors_are_parted_by_where_exact_teeth_run_evenly() {
-        let series = |values: &[(f64, f64)]| -> Vec<Point> {
+        let series = |values: &[(f64, f64)]| -> Vec<TeethPoint> {
             values.iter().enumerate().map(|(i, v)| point(i, v.0, v.1)).collect()
         };
         let exact = series(&[(10.0, 100.0), (10.0, 100.0), (10.0, 100.0), (10.0, 100.0), (10.0, 100.0), (12.0, 100.0)]);

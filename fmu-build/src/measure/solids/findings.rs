@@ -1,7 +1,7 @@
 //! What the numbers say, in sentences.
 
 use super::errors::fitted;
-use super::measured::{Measured, Row};
+use super::results::{SolidsResults, TeethResult};
 use super::tables::three;
 
 /// Facets from which an order is fitted: coarser ones are not yet in the range where one term dominates.
@@ -12,20 +12,20 @@ fn percent(part: f64, whole: f64) -> String {
 }
 
 /// Orders fitted from [`FINE`] on, of the deepest point and of the patch.
-fn orders(found: &Measured, quantity: usize) -> [String; 2] {
+fn orders(found: &SolidsResults, quantity: usize) -> [String; 2] {
     [0, 1].map(|which| {
         let fine: Vec<(f64, f64)> = found.series(quantity, which).into_iter().filter(|(n, _)| *n >= FINE).collect();
         if fine.len() < 2 { "–".into() } else { format!("{:.1}", fitted(&fine)) }
     })
 }
 
-fn ordered(found: &Measured, quantity: usize, what: &str) -> String {
+fn ordered(found: &SolidsResults, quantity: usize, what: &str) -> String {
     let [deepest, patch] = orders(found, quantity);
     format!("{what} {deepest} and {patch}")
 }
 
 /// Sentences for docs/solids.md, each an item of a list.
-pub fn page(found: &Measured) -> String {
+pub fn page(found: &SolidsResults) -> String {
     let parts = [
         ordered(found, 10, "transmission error"),
         ordered(found, 12, "its swing"),
@@ -54,9 +54,9 @@ pub fn page(found: &Measured) -> String {
     out
 }
 
-fn at(found: &Measured, n: i32, both: [&Row; 2]) -> String {
+fn at(found: &SolidsResults, n: i32, both: [&TeethResult; 2]) -> String {
     let mean = found.tooth().look.mean;
-    let tell = |row: &Row| {
+    let tell = |row: &TeethResult| {
         let e = &row.errors[0];
         format!(
             "speed {} °/s at most and {} rms, mean force {} %, transmission error {} µm with {} µm of swing (rms), {} × the time of exact teeth, {} × real time",
@@ -73,7 +73,7 @@ fn at(found: &Measured, n: i32, both: [&Row; 2]) -> String {
 }
 
 /// What is said under the table of README.md.
-pub fn readme(found: &Measured) -> String {
+pub fn readme(found: &SolidsResults) -> String {
     let tooth = &found.tooth().look;
     let mut out = format!(
         "Exact teeth alone swing by {} N, {} % of the mean of {:.0} N, where tip corners take load over or hand it on. \

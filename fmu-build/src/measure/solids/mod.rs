@@ -4,10 +4,10 @@
 //! with the patch; errors, their orders in the number of facets, and times ([`measured`], [`errors`]) become a CSV file
 //! each, figures by python/solids.py, docs/solids.md and a table in README.md.
 
-pub mod csv;
 pub mod errors;
+pub mod files;
 pub mod findings;
-pub mod measured;
+pub mod results;
 pub mod run;
 pub mod tables;
 
@@ -17,12 +17,12 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
-use crate::measure::cost::csv::ensure_whole;
-use crate::measure::cost::measure::machine;
+use crate::tools::machine::machine;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
+use crate::tools::table::{Table, for_terminal};
 use crate::tools::{paths, script, sections};
-use measured::{Form, Measured};
+use results::{SolidsPlan, SolidsResults};
 use run::Window;
 
 const DOCUMENT: &str = "docs/solids.md";
@@ -34,13 +34,14 @@ const PICTURES: [&str; 2] = ["solids_convergence.png", "solids_cycle.png"];
 const BOUNDS: [(i32, f64); 2] = [(32, 1e-2), (128, 1e-3)];
 
 /// From 0.14 s two mesh cycles of 0.18 s each are left.
-const FULL: Form = Form {
+const FULL: SolidsPlan = SolidsPlan {
     facets: &[4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128],
     window: Window { settled: 0.14, close: 0.32, end: 0.5 },
     runs: 5,
 };
 
-const QUICK: Form = Form { facets: &[4, 8, 16, 32], window: Window { settled: 0.02, close: 0.05, end: 0.1 }, runs: 5 };
+const QUICK: SolidsPlan =
+    SolidsPlan { facets: &[4, 8, 16, 32], window: Window { settled: 0.02, close: 0.05, end: 0.1 }, runs: 5 };
 
 /// Measures how the number of facets of solid teeth affects accuracy and time
 ///
@@ -67,9 +68,8 @@ impl SolidsCommand {
         fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
         progress.begin_bar("measuring");
         let form = if self.quick { QUICK } else { FULL };
-        let found = measured::measure(form, &mut |done, what| progress.advance(0.95 * done, what))?;
-        for (name, text) in [("solids.csv", csv::errors(&found)), ("solids_cycle.csv", csv::cycle(&found))] {
-            ensure_whole(name, &text)?;
+        let found = results::measure(form, &mut |done, what| progress.advance(0.95 * done, what))?;
+        for (name, text) in [("solids.csv", files::errors(&found)?), ("solids_cycle.csv", files::cycle(&found)?)] {
             fs::write(folder.join(name), text).with_context(|| format!("{name} cannot be written"))?;
         }
         progress.advance(0.95, "drawing");
@@ -77,11 +77,11 @@ impl SolidsCommand {
         script::run(&environment, &drawing, &[&folder], &progress)?;
         progress.finish();
         let page = page(&found);
-        println!("{page}\nfiles: {}", paths::shown(&folder));
+        println!("{}\nfiles: {}", for_terminal(&page), paths::shown(&folder));
         verdict(&found)?;
         if self.write {
             sections::renew(DOCUMENT, MARKS, &page)?;
-            let table = tables::markdown(&tables::spikes(&found));
+            let table = tables::spikes(&found).markdown();
             sections::renew("README.md", README, &format!("{table}\n{}\n", findings::readme(&found)))?;
             let figures = paths::workspace().join("docs").join("figures");
             for name in PICTURES {
@@ -94,8 +94,8 @@ impl SolidsCommand {
 }
 
 /// What is written into the document.
-fn page(found: &Measured) -> String {
-    let part = |title: &str, rows: Vec<Vec<String>>| format!("{title}\n\n{}\n", tables::markdown(&rows));
+fn page(found: &SolidsResults) -> String {
+    let part = |title: &str, table: Table| format!("{title}\n\n{}\n", table.markdown());
     [
         findings::page(found),
         part("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", tables::errors(found, 1)),
@@ -111,7 +111,7 @@ fn page(found: &Measured) -> String {
 }
 
 /// Whether solids come to exact teeth; whether they are faster than real time is only told, as machines differ.
-fn verdict(found: &Measured) -> Result<()> {
+fn verdict(found: &SolidsResults) -> Result<()> {
     for (facets, bound) in BOUNDS {
         let Some(row) = found.solid(facets, 1) else { continue };
         let (mean, exact) = (row.look.mean, found.tooth().look.mean);

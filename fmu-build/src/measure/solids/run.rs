@@ -38,7 +38,7 @@ pub struct Window {
 
 /// A line of a record. Two values are of the left and the right side gear.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Point {
+pub struct TeethPoint {
     /// Time [s].
     pub time: f64,
     /// Whether the host communicates here every [`STEP`].
@@ -57,9 +57,9 @@ pub struct Point {
 
 /// A record and what it took.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub struct TeethRecord {
     /// All times from the settled state on.
-    pub points: Vec<Point>,
+    pub points: Vec<TeethPoint>,
     /// Steps and evaluations of the whole run.
     pub statistics: Statistics,
 }
@@ -96,7 +96,7 @@ impl Teeth {
     }
 
     /// Runs through `window`, with close records if `close`.
-    pub fn record(self, tolerance: f64, window: Window, close: bool) -> Result<Record> {
+    pub fn record(self, tolerance: f64, window: Window, close: bool) -> Result<TeethRecord> {
         let mut simulation = self.start(tolerance)?;
         let mut points = Vec::new();
         for k in 1..=steps(window.end) {
@@ -106,11 +106,11 @@ impl Teeth {
                 let time = from + STEP * f64::from(part) / f64::from(parts);
                 simulation.advance(time).map_err(|failure| anyhow!("{}: {failure}", self.name()))?;
                 if time > window.settled + 0.5 * STEP / f64::from(CLOSE) {
-                    points.push(Point { communicates: part == parts, ..Point::of(&mut simulation) });
+                    points.push(TeethPoint { communicates: part == parts, ..TeethPoint::of(&mut simulation) });
                 }
             }
         }
-        Ok(Record { points, statistics: simulation.state().statistics })
+        Ok(TeethRecord { points, statistics: simulation.state().statistics })
     }
 }
 
@@ -119,7 +119,7 @@ pub fn steps(end: f64) -> u32 {
     (end / STEP).round() as u32
 }
 
-impl Point {
+impl TeethPoint {
     /// That of the present.
     fn of(simulation: &mut Simulation) -> Self {
         let (time, speed) = (simulation.time(), simulation.motion().side_speed.map(f64::to_degrees));

@@ -5,10 +5,11 @@ use bevel_differential::contact::solid::flank::Flanks;
 use bevel_differential::integrate::Statistics;
 use bevel_differential::model::Simulation;
 
-use super::errors::{self, Errors, Look};
-use super::run::{self, Point, Record, STEP, Solid, Teeth, Window};
+use super::errors::{self, Errors, ForceSummary};
+use super::run::{self, STEP, Solid, Teeth, TeethPoint, TeethRecord, Window};
 use crate::gears::study::published;
-use crate::measure::cost::measure::{self, Job, Spread};
+use crate::measure::cost::measure::{self, TimedJob};
+use crate::tools::numbers::Spread;
 
 /// `solid.smoothing`: nearly the deepest point alone, which is what a general program does with faceted solids, and the
 /// patch that is the default.
@@ -20,7 +21,7 @@ const USUAL: f64 = 1e-6;
 
 /// How much is measured.
 #[derive(Clone, Copy, Debug)]
-pub struct Form {
+pub struct SolidsPlan {
     /// Facet numbers.
     pub facets: &'static [i32],
     /// When runs settle and end.
@@ -30,13 +31,13 @@ pub struct Form {
 }
 
 /// One kind of teeth.
-pub struct Row {
+pub struct TeethResult {
     /// What they are.
     pub teeth: Teeth,
     /// Errors at the tight tolerance and at the usual one; of exact teeth those of integration.
     pub errors: [Errors; 2],
     /// What its record shows.
-    pub look: Look,
+    pub look: ForceSummary,
     /// Greatest distance of the force from its mean while teeth are on the path of contact [N].
     pub path_ripple: f64,
     /// Time of a run at the usual tolerance [s].
@@ -44,38 +45,38 @@ pub struct Row {
     /// Work of a run at the usual tolerance.
     pub statistics: Statistics,
     /// Close record at the tight tolerance.
-    pub close: Vec<Point>,
+    pub close: Vec<TeethPoint>,
 }
 
 /// All of it.
-pub struct Measured {
+pub struct SolidsResults {
     /// Exact teeth first.
-    pub rows: Vec<Row>,
+    pub rows: Vec<TeethResult>,
     /// How much was measured.
-    pub form: Form,
+    pub form: SolidsPlan,
     /// Heights of the flanks' arcs over their facets, planet and side gear together at the mean cone distance, by
-    /// [`Form::facets`] [m].
+    /// [`SolidsPlan::facets`] [m].
     pub arcs: Vec<f64>,
     /// Overlap by the study's K of one pair under the whole load of a mesh [m].
     pub overlap: f64,
 }
 
-impl Row {
+impl TeethResult {
     /// Simulated time over time on the processor.
-    pub fn real_time(&self, form: &Form) -> f64 {
+    pub fn real_time(&self, form: &SolidsPlan) -> f64 {
         form.window.end / self.seconds.median
     }
 }
 
-impl Measured {
+impl SolidsResults {
     /// The row of `facets` at `SMOOTHINGS[which]`.
-    pub fn solid(&self, facets: i32, which: usize) -> Option<&Row> {
+    pub fn solid(&self, facets: i32, which: usize) -> Option<&TeethResult> {
         let teeth = Teeth(Some(Solid { facets, smoothing: SMOOTHINGS[which] }));
         self.rows.iter().find(|row| row.teeth == teeth)
     }
 
     /// Exact teeth.
-    pub fn tooth(&self) -> &Row {
+    pub fn tooth(&self) -> &TeethResult {
         &self.rows[0]
     }
 
@@ -87,12 +88,12 @@ impl Measured {
 }
 
 /// Does it; `tell` hears how much is done.
-pub fn measure(form: Form, tell: &mut dyn FnMut(f64, &str)) -> Result<Measured> {
+pub fn measure(form: SolidsPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<SolidsResults> {
     let solids = SMOOTHINGS
         .iter()
         .flat_map(|&smoothing| form.facets.iter().map(move |&facets| Teeth(Some(Solid { facets, smoothing }))));
     let all: Vec<Teeth> = [Teeth(None)].into_iter().chain(solids).collect();
-    let mut records: Vec<[Record; 2]> = Vec::new();
+    let mut records: Vec<[TeethRecord; 2]> = Vec::new();
     let mut ready: Vec<Simulation> = Vec::new();
     for (i, teeth) in all.iter().enumerate() {
         tell(0.5 * i as f64 / all.len() as f64, &teeth.name());
@@ -100,9 +101,9 @@ pub fn measure(form: Form, tell: &mut dyn FnMut(f64, &str)) -> Result<Measured> 
         ready.push(teeth.start(USUAL)?);
     }
     let end = run::steps(form.window.end);
-    let mut jobs: Vec<Job> = ready
+    let mut jobs: Vec<TimedJob> = ready
         .iter()
-        .map(|simulation| Job {
+        .map(|simulation| TimedJob {
             run: Box::new(move || {
                 let mut simulation = simulation.clone();
                 for k in 1..=end {
@@ -117,13 +118,13 @@ pub fn measure(form: Form, tell: &mut dyn FnMut(f64, &str)) -> Result<Measured> 
     drop(jobs);
     let willis = willis(ready.first());
     let exact = records[0][0].points.clone();
-    let told: Vec<Point> = exact.iter().filter(|p| p.communicates).copied().collect();
+    let told: Vec<TeethPoint> = exact.iter().filter(|p| p.communicates).copied().collect();
     let close = form.window.close;
     let rows = all
         .iter()
         .zip(records)
         .zip(times)
-        .map(|((&teeth, [tight, usual]), seconds)| Row {
+        .map(|((&teeth, [tight, usual]), seconds)| TeethResult {
             teeth,
             errors: [
                 errors::errors(&tight.points, &exact, close, willis),
@@ -137,7 +138,7 @@ pub fn measure(form: Form, tell: &mut dyn FnMut(f64, &str)) -> Result<Measured> 
         })
         .collect();
     let (arcs, overlap) = ready.first().map_or((Vec::new(), f64::NAN), |s| (arcs(s, form.facets), overlap(s)));
-    Ok(Measured { rows, form, arcs, overlap })
+    Ok(SolidsResults { rows, form, arcs, overlap })
 }
 
 /// Speeds of the side gears by Willis' equation [deg/s].

@@ -24,7 +24,7 @@ const GREEK: [(&str, &str); 11] = [
 
 /// What kind of number it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum QuantityKind {
     /// A length [m], shown in mm.
     Length,
     /// An angle, or an arc on the unit sphere [rad], shown in degrees.
@@ -35,7 +35,7 @@ pub enum Kind {
     Count,
 }
 
-impl Kind {
+impl QuantityKind {
     /// Unit that values are shown in.
     pub fn unit(self) -> &'static str {
         match self {
@@ -64,7 +64,7 @@ impl Kind {
 
 /// Whose quantity it is, and its SI value.
 #[derive(Clone, Copy)]
-pub enum Of {
+pub enum DimensionValue {
     /// Of a gear: planet (0) or side gear (1).
     Gear(fn(&Design, usize) -> f64),
     /// Of the pair.
@@ -73,22 +73,22 @@ pub enum Of {
 
 /// A dimension.
 #[derive(Clone, Copy)]
-pub struct Row {
+pub struct Dimension {
     /// Term and symbol in snake case.
     pub key: &'static str,
     /// Symbol; empty where there is none.
     pub symbol: &'static str,
     /// Kind of its number.
-    pub kind: Kind,
+    pub kind: QuantityKind,
     /// Standard that has the term.
     pub standard: Option<&'static str>,
     /// What it means, in a line.
     pub meaning: &'static str,
     /// Its value.
-    pub of: Of,
+    pub of: DimensionValue,
 }
 
-impl Row {
+impl Dimension {
     /// The term in words.
     pub fn term(&self) -> String {
         let symbol = GREEK.iter().fold(self.symbol.to_owned(), |text, (letter, name)| text.replace(letter, name));
@@ -99,30 +99,30 @@ impl Row {
     /// Value for gear `i` in the unit it is shown in; for the pair `i` does not matter.
     pub fn shown(&self, design: &Design, i: usize) -> f64 {
         self.kind.shown(match self.of {
-            Of::Gear(value) => value(design, i),
-            Of::Pair(value) => value(design),
+            DimensionValue::Gear(value) => value(design, i),
+            DimensionValue::Pair(value) => value(design),
         })
     }
 }
 
 /// Rows that belong together.
-pub struct Group {
+pub struct DimensionGroup {
     /// What they are about.
     pub title: &'static str,
     /// The rows.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Dimension>,
 }
 
 /// Declares a group of rows: key, symbol, kind, standard, meaning, value.
-macro_rules! rows {
+macro_rules! dimensions {
     ($title:literal, $of:path,
      $($key:literal $symbol:literal $kind:ident $standard:expr, $meaning:literal, $value:expr;)+) => {
-        $crate::gears::geometry::row::Group {
+        $crate::gears::geometry::dimension::DimensionGroup {
             title: $title,
-            rows: vec![$($crate::gears::geometry::row::Row {
+            rows: vec![$($crate::gears::geometry::dimension::Dimension {
                 key: $key,
                 symbol: $symbol,
-                kind: $crate::gears::geometry::row::Kind::$kind,
+                kind: $crate::gears::geometry::dimension::QuantityKind::$kind,
                 standard: $standard,
                 meaning: $meaning,
                 of: $of($value),
@@ -130,7 +130,7 @@ macro_rules! rows {
         }
     };
 }
-pub(super) use rows;
+pub(super) use dimensions;
 
 #[cfg(test)]
 mod tests {
@@ -138,9 +138,9 @@ mod tests {
 
     #[test]
     fn numbers_are_shown_to_a_tenth_of_a_micrometre_and_without_a_negative_zero() {
-        assert_eq!(Kind::Length.text(Kind::Length.shown(0.045)), "45.0000");
-        assert_eq!(Kind::Count.text(10.0), "10");
-        assert_eq!(Kind::Ratio.text(-1e-9), "0.0000");
-        assert_eq!(Kind::Ratio.text(-0.01), "-0.0100");
+        assert_eq!(QuantityKind::Length.text(QuantityKind::Length.shown(0.045)), "45.0000");
+        assert_eq!(QuantityKind::Count.text(10.0), "10");
+        assert_eq!(QuantityKind::Ratio.text(-1e-9), "0.0000");
+        assert_eq!(QuantityKind::Ratio.text(-0.01), "-0.0100");
     }
 }
