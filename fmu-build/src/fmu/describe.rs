@@ -43,9 +43,24 @@ impl DescribeCommand {
     }
 }
 
-/// The model description as a text.
+/// How variables with named choices are described. FMI sets both by fmi2SetInteger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choices {
+    /// As enumerations.
+    Enumerations,
+    /// As integers whose descriptions name the choices, for hosts without enumerations.
+    Integers,
+}
+
+/// The model description that hosts get unless they need [`Choices::Integers`].
 pub fn model_description() -> Result<String> {
+    described(Choices::Enumerations)
+}
+
+/// The model description as a text.
+pub fn described(choices: Choices) -> Result<String> {
     let table = table();
+    let variables = table.rows.iter().enumerate();
     let root = Element::new("fmiModelDescription")
         .with("fmiVersion", "2.0")
         .with("modelName", MODEL_NAME)
@@ -62,7 +77,7 @@ pub fn model_description() -> Result<String> {
         .child(model_exchange())
         .child(co_simulation())
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
-        .child(Element::new("TypeDefinitions").children(enumerations(table).map(enumeration)))
+        .children((choices == Choices::Enumerations).then(|| type_definitions(table)))
         .child(Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
             Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
         })))
@@ -72,7 +87,7 @@ pub fn model_description() -> Result<String> {
                 .with("stopTime", number(STOP_TIME))
                 .with("stepSize", number(STEP_SIZE)),
         )
-        .child(Element::new("ModelVariables").children(table.rows.iter().enumerate().map(scalar_variable)))
+        .child(Element::new("ModelVariables").children(variables.map(|(i, row)| scalar_variable(i, row, choices))))
         .child(structure(table));
     root.document().context("the model description cannot be written")
 }
@@ -136,6 +151,10 @@ fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
     }
 }
 
+fn type_definitions(table: &'static Table) -> Element {
+    Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))
+}
+
 /// Enumeration types in the order of their first use.
 fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType> {
     let mut seen: Vec<&EnumType> = Vec::new();
@@ -157,7 +176,7 @@ fn enumeration(kind: &EnumType) -> Element {
     Element::new("SimpleType").with("name", kind.name).child(Element::new("Enumeration").children(items))
 }
 
-fn scalar_variable((reference, row): (usize, &Variable)) -> Element {
+fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
     let causality = match row.causality {
         Causality::Parameter => "parameter",
         Causality::Input => "input",
@@ -177,11 +196,22 @@ fn scalar_variable((reference, row): (usize, &Variable)) -> Element {
     Element::new("ScalarVariable")
         .with("name", row.name)
         .with("valueReference", reference)
-        .with("description", row.description)
+        .with("description", description(row, choices))
         .with("causality", causality)
         .with("variability", variability)
         .with_some("initial", initial)
-        .child(variable_type(row, is_velocity(reference)))
+        .child(variable_type(row, is_velocity(reference), choices))
+}
+
+/// The description; of choices that are integers with what each number stands for.
+fn description(row: &Variable, choices: Choices) -> String {
+    match enumeration_of(row) {
+        Some(kind) if choices == Choices::Integers => {
+            let named = kind.choices.iter().map(|choice| format!("{} = {}", choice.value, choice.name));
+            format!("{}: {}", row.description, named.collect::<Vec<_>>().join(", "))
+        }
+        _ => row.description.to_owned(),
+    }
 }
 
 /// Whether it is a state that commands of speeds may set at events.
@@ -190,7 +220,7 @@ fn is_velocity(reference: usize) -> bool {
     states[states.len() / 2..].contains(&reference)
 }
 
-fn variable_type(row: &Variable, is_reset: bool) -> Element {
+fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
     let mut defaults = Parameters::default();
     match row.access {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
@@ -207,6 +237,9 @@ fn variable_type(row: &Variable, is_reset: bool) -> Element {
             .with_some("max", row.range.map(|range| range.max))
             .with("start", *access(&mut defaults)),
         Access::Boolean(access) => Element::new("Boolean").with("start", *access(&mut defaults)),
+        Access::Enumeration(kind, value, _) if choices == Choices::Integers => {
+            Element::new("Integer").with("min", 1).with("max", kind.choices.len()).with("start", value(&defaults))
+        }
         Access::Enumeration(kind, value, _) => {
             Element::new("Enumeration").with("declaredType", kind.name).with("start", value(&defaults))
         }

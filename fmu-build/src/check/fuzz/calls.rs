@@ -5,29 +5,19 @@ use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
-use bevel_differential::variables::{fnv1a, guid};
+use bevel_differential::variables::guid;
 
 use super::arguments::{Flaws, VariableKind, references, row};
 use super::functions::Function;
 use super::random::Random;
-use super::unit::{TestInstance, serialised};
+use super::states::{HELD, HeldStates, a_state, deserialize, get_state};
+use super::unit::Unit;
 
-/// Most states and blobs that are held at a time.
-const HELD: usize = 12;
 /// Room for arrays of states and event indicators, and the largest count announced for it.
 const ROOM: usize = 64;
 
 /// Sizes of communication steps that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
-
-/// States and blobs that are handed between instances.
-#[derive(Default)]
-pub struct HeldStates {
-    /// States, each with its bytes.
-    pub states: Vec<(FmuState, Vec<u8>)>,
-    /// Serialised states.
-    pub blobs: Vec<Vec<u8>>,
-}
 
 /// What a call answered.
 pub struct CallResult {
@@ -44,10 +34,12 @@ pub struct CallResult {
 }
 
 impl CallResult {
-    fn of(status: Status, flaws: &Flaws) -> Self {
+    /// With `status`, for arguments with `flaws`.
+    pub fn of(status: Status, flaws: &Flaws) -> Self {
         Self { status, numbers: Vec::new(), must_fail: flaws.any, restored: None, broken: None }
     }
 
+    /// With the numbers that the call wrote.
     fn with(self, numbers: &[f64]) -> Self {
         Self { numbers: numbers.to_vec(), ..self }
     }
@@ -59,7 +51,7 @@ pub fn call(
     function: Function,
     c: ComponentPointer,
     r: &mut Random,
-    unit: &mut TestInstance,
+    unit: &mut Unit,
     held: &mut HeldStates,
 ) -> CallResult {
     use Function as F;
@@ -291,7 +283,7 @@ fn a_kind(r: &mut Random) -> i32 {
 }
 
 /// Where the instance is [s]; 0 where it does not tell.
-fn time_of(unit: &TestInstance) -> f64 {
+fn time_of(unit: &Unit) -> f64 {
     let mut now = 0.0;
     // SAFETY: a live component and a place
     unsafe { fmi2GetRealStatus(unit.c, LAST_SUCCESSFUL_TIME, &mut now) };
@@ -317,102 +309,9 @@ fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, functi
     CallResult::of(status, f).with(&room[..right])
 }
 
-/// A state of any instance, or none.
-fn a_state(r: &mut Random, f: &mut Flaws, held: &HeldStates) -> (FmuState, Vec<u8>) {
-    if held.states.is_empty() || r.chance(20) {
-        f.any = true;
-        return (if r.chance(2) { ptr::null_mut() } else { ptr::without_provenance_mut(1) }, Vec::new());
-    }
-    held.states[r.below(held.states.len())].clone()
-}
-
-fn get_state(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut HeldStates) -> CallResult {
-    let fresh = held.states.len() < HELD && (held.states.is_empty() || r.chance(2));
-    let mut made = ptr::null_mut();
-    let at = r.below(held.states.len());
-    let place = if fresh { &raw mut made } else { &raw mut held.states[at].0 };
-    let place = f.place(r, place, true);
-    // SAFETY: a live component and a place for a state
-    let mut outcome = CallResult::of(unsafe { fmi2GetFMUstate(c, place) }, f);
-    if outcome.status == Status::Ok {
-        let state = if fresh { made } else { held.states[at].0 };
-        match serialised(c, state) {
-            None => outcome.broken = Some("a state was made that cannot be serialised".into()),
-            Some(bytes) if fresh => held.states.push((state, bytes)),
-            Some(bytes) => held.states[at].1 = bytes,
-        }
-        if let Some((_, bytes)) = held.states.get(at).filter(|_| held.blobs.len() < HELD) {
-            held.blobs.push(bytes.clone());
-        }
-    }
-    outcome
-}
-
-/// How far a blob is from what was serialised.
-enum Damage {
-    None,
-    /// Bits flipped, cut, or lengthened: must be refused.
-    Plain,
-    /// Bits of the payload flipped and the checksum made to fit: refused or taken, as long as what is taken works.
-    Covered,
-}
-
-fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mut HeldStates) -> CallResult {
-    let mut blob = if held.blobs.is_empty() { Vec::new() } else { r.pick_clone(&held.blobs) };
-    let damage = match r.below(4) {
-        _ if blob.is_empty() => Damage::Plain,
-        0 => Damage::None,
-        1 => Damage::Plain,
-        _ => Damage::Covered,
-    };
-    match damage {
-        Damage::None => {}
-        Damage::Plain => match r.below(3) {
-            0 => blob.truncate(r.below(blob.len())),
-            1 => blob.push(r.bits() as u8),
-            _ if blob.is_empty() => {}
-            _ => {
-                let at = r.below(blob.len());
-                blob[at] ^= 1 << r.below(8);
-            }
-        },
-        Damage::Covered => {
-            let end = blob.len() - size_of::<u64>();
-            for _ in 0..=r.below(3) {
-                let at = HEADER + r.below(end - HEADER);
-                blob[at] ^= r.bits() as u8;
-            }
-            let sum = fnv1a(blob[..end].iter().copied());
-            blob[end..].copy_from_slice(&sum.to_le_bytes());
-        }
-    }
-    f.any |= matches!(damage, Damage::Plain);
-    let full = held.states.len() >= HELD;
-    let at = r.below(held.states.len());
-    let mut made = ptr::null_mut();
-    let place = if full { &raw mut held.states[at].0 } else { &raw mut made };
-    let place = f.place(r, place, true);
-    let bytes = f.pointer(r, blob.as_ptr(), true);
-    // SAFETY: a live component, the bytes told, and a place for a state
-    let mut outcome = CallResult::of(unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), blob.len(), place) }, f);
-    if outcome.status == Status::Ok {
-        let state = if full { held.states[at].0 } else { made };
-        let again = serialised(c, state);
-        if matches!(damage, Damage::None) && again.as_ref() != Some(&blob) {
-            outcome.broken = Some("the state that was read is written with other bytes".into());
-        }
-        let entry = (state, again.unwrap_or_default());
-        if full { held.states[at] = entry } else { held.states.push(entry) }
-    }
-    outcome
-}
-
-/// Bytes before the payload of a serialised state.
-const HEADER: usize = 28;
-
 /// fmi2Instantiate with anything; what is made is freed.
 fn instantiate(r: &mut Random) -> CallResult {
-    let lines = super::unit::LogLines::default();
+    let lines = super::unit::Lines::default();
     let callbacks = super::unit::callbacks(&lines);
     let right = CString::new(guid()).unwrap_or_default();
     let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));
@@ -434,11 +333,4 @@ fn instantiate(r: &mut Random) -> CallResult {
     // SAFETY: NULL, or a component that nobody else holds; it goes before its log
     unsafe { fmi2FreeInstance(c) };
     outcome
-}
-
-impl Random {
-    /// A copy of one of `from`, which is not empty.
-    fn pick_clone<T: Clone>(&mut self, from: &[T]) -> T {
-        from[self.below(from.len())].clone()
-    }
 }

@@ -10,6 +10,7 @@ mod functions;
 mod random;
 mod round;
 mod scenes;
+mod states;
 mod tally;
 mod unit;
 mod worker;

@@ -5,12 +5,13 @@ use std::time::Instant;
 
 use bevel_differential::fmi2::*;
 
-use super::calls::{CallResult, HeldStates, call};
+use super::calls::{CallResult, call};
 use super::functions::Function;
 use super::random::Random;
 use super::scenes;
+use super::states::HeldStates;
 use super::tally::Tally;
-use super::unit::TestInstance;
+use super::unit::Unit;
 
 /// Calls of a round.
 pub const CALLS: usize = 500;
@@ -38,12 +39,12 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
     let outside = |what: &str| BrokenPromise { at: 0, function: "start of the round", what: what.to_owned() };
     let mut expected = Vec::new();
     for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
-        let plain = TestInstance::new(kind).ok_or_else(|| outside("no instance was made"))?;
+        let plain = Unit::new(kind).ok_or_else(|| outside("no instance was made"))?;
         expected.push(scenes::study(&plain).ok_or_else(|| outside("the study's scene does not run"))?);
     }
     let mut units = Vec::new();
     for i in 0..UNITS {
-        let unit = TestInstance::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
+        let unit = Unit::new(i as i32 % 2).ok_or_else(|| outside("no instance was made"))?;
         if i > 0 {
             tally.scenes += u64::from(scenes::start(&unit, &mut r));
         }
@@ -77,7 +78,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
 fn one(
     at: usize,
     r: &mut Random,
-    unit: &mut TestInstance,
+    unit: &mut Unit,
     held: &mut HeldStates,
     tally: &mut Tally,
 ) -> Result<(), BrokenPromise> {
@@ -131,7 +132,7 @@ fn check(
     is_foreign: bool,
     is_filtered: bool,
     outcome: &CallResult,
-    lines: &[super::unit::LogLine],
+    lines: &[super::unit::Line],
 ) -> Result<(), String> {
     let status = outcome.status;
     if let Some(what) = &outcome.broken {
@@ -176,7 +177,7 @@ fn looks(function: Function) -> bool {
     name.starts_with("fmi2Get") || name.contains("erialize") || name == "fmi2FreeFMUstate"
 }
 
-fn compare(function: Function, refused: bool, before: &[u8], unit: &mut TestInstance) -> Result<(), String> {
+fn compare(function: Function, refused: bool, before: &[u8], unit: &mut Unit) -> Result<(), String> {
     let holds_still = looks(function) || refused && !may_leave_a_mark(function);
     if !holds_still {
         return Ok(());

@@ -4,7 +4,7 @@ use bevel_differential::fmi2::*;
 use bevel_differential::variables::{Access, table};
 
 use super::random::Random;
-use super::unit::TestInstance;
+use super::unit::Unit;
 
 /// Scenes that are tried before the study's own is taken.
 const TRIES: usize = 4;
@@ -26,7 +26,7 @@ const SOLID: i32 = 4;
 const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
 
 /// Brings a fresh or reset instance to a running simulation; whether that came off.
-pub fn start(unit: &TestInstance, r: &mut Random) -> bool {
+pub fn start(unit: &Unit, r: &mut Random) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
         unsafe { fmi2Reset(unit.c) };
@@ -55,7 +55,7 @@ pub fn start(unit: &TestInstance, r: &mut Random) -> bool {
     false
 }
 
-fn draw(unit: &TestInstance, r: &mut Random) {
+fn draw(unit: &Unit, r: &mut Random) {
     let mut integers: Vec<(&str, i32)> = vec![("geometry.planet_count", 2 + r.below(3) as i32), ("solid.facets", 4)];
     for name in CHOICES {
         let Some(Access::Enumeration(kind, ..)) = find(name).map(|i| table().rows[i].access) else { continue };
@@ -95,7 +95,7 @@ fn find(name: &str) -> Option<usize> {
 }
 
 /// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
-pub fn study(unit: &TestInstance) -> Option<Vec<u64>> {
+pub fn study(unit: &Unit) -> Option<Vec<u64>> {
     // SAFETY, for all: a live component and room for the counts told
     unsafe {
         let mut statuses = vec![

@@ -9,7 +9,7 @@ use bevel_differential::variables::guid;
 
 /// A line of the log.
 #[derive(Clone, Debug)]
-pub struct LogLine {
+pub struct Line {
     /// Status it was sent with.
     pub status: Status,
     /// Text.
@@ -17,19 +17,19 @@ pub struct LogLine {
 }
 
 /// Lines since the last call.
-pub type LogLines = Mutex<Vec<LogLine>>;
+pub type Lines = Mutex<Vec<Line>>;
 
 /// Variadic in C, but no argument ever follows the message.
 unsafe extern "C" fn logger(env: *mut c_void, _instance: Text, status: Status, _category: Text, message: Text) {
-    // SAFETY: `env` is the lines that `TestInstance` keeps alive; the text comes from the FMU and ends with NUL
-    let (lines, message) = unsafe { (&*env.cast::<LogLines>(), CStr::from_ptr(message)) };
+    // SAFETY: `env` is the lines that `Unit` keeps alive; the text comes from the FMU and ends with NUL
+    let (lines, message) = unsafe { (&*env.cast::<Lines>(), CStr::from_ptr(message)) };
     if let Ok(mut lines) = lines.lock() {
-        lines.push(LogLine { status, message: message.to_string_lossy().into_owned() });
+        lines.push(Line { status, message: message.to_string_lossy().into_owned() });
     }
 }
 
 /// Callbacks that log into `lines`.
-pub fn callbacks(lines: &LogLines) -> CallbackFunctions {
+pub fn callbacks(lines: &Lines) -> CallbackFunctions {
     // SAFETY: on the platforms this runs on, fixed arguments reach a plain function as they reach a variadic one
     let logger =
         unsafe { std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(logger) };
@@ -43,13 +43,13 @@ pub fn callbacks(lines: &LogLines) -> CallbackFunctions {
 }
 
 /// An instance of the driver's.
-pub struct TestInstance {
+pub struct Unit {
     /// The instance.
     pub c: ComponentPointer,
     /// What it was made for.
     pub kind: i32,
     /// What it said since the last call.
-    pub lines: Box<LogLines>,
+    pub lines: Box<Lines>,
     /// Whether it was told to keep categories to itself.
     pub is_filtered: bool,
     /// A state to keep the present in, for comparison; NULL until it is needed.
@@ -58,7 +58,7 @@ pub struct TestInstance {
     pub refused: usize,
 }
 
-impl TestInstance {
+impl Unit {
     /// A fresh instance; none if it is refused.
     pub fn new(kind: i32) -> Option<Self> {
         let lines = Box::new(Mutex::new(Vec::new()));
@@ -70,7 +70,7 @@ impl TestInstance {
     }
 
     /// What was said since this was last asked.
-    pub fn said(&self) -> Vec<LogLine> {
+    pub fn said(&self) -> Vec<Line> {
         self.lines.lock().map_or_else(|_| Vec::new(), |mut lines| std::mem::take(&mut *lines))
     }
 
@@ -97,7 +97,7 @@ pub fn serialised(c: ComponentPointer, state: FmuState) -> Option<Vec<u8>> {
     (status == Status::Ok).then_some(bytes)
 }
 
-impl Drop for TestInstance {
+impl Drop for Unit {
     fn drop(&mut self) {
         // SAFETY: component and state are this unit's own
         unsafe {

@@ -1,4 +1,5 @@
-//! The main job: package the FMU, simulate the study's two cases through fmpy, compare with the study and with theory.
+//! The command `study`: packages the FMU, simulates the study's two cases through fmpy, and compares the results with the study
+//! and with theory.
 
 pub mod comparison;
 pub mod evaluation;
@@ -20,7 +21,17 @@ use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::{paths, script, sections};
 
-/// Between these lines of the README stands the table.
+/// The document with the whole comparison.
+const DOCUMENT: &str = "docs/study.md";
+/// The rows of it that README.md has too.
+const EXCERPT: [&str; 5] = [
+    "straight: left, deg/s",
+    "turn: left, deg/s",
+    "turn: right, deg/s",
+    "T/r_p, all planets, outer, N",
+    "straight: mesh frequency, Hz",
+];
+/// The lines between which both documents have their table.
 const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
 
 /// Packages the FMU, simulates the study and compares the results with it (the default command)
@@ -55,9 +66,10 @@ fn run(readme: bool) -> Result<()> {
     print!("{}", report.terminal());
     println!("\nFMU:     {}\nresults: {}", paths::shown(&fmu), paths::shown(&folder));
     if readme {
-        sections::renew("README.md", MARKS, &markdown)?;
+        sections::renew(DOCUMENT, MARKS, &markdown)?;
+        sections::renew("README.md", MARKS, &report.excerpt(&EXCERPT))?;
         copy_pictures(&folder)?;
-        println!("renewed: README.md, docs/images");
+        println!("renewed: README.md, docs/study.md, docs/images");
     }
     Ok(())
 }

@@ -107,3 +107,24 @@ impl ComparisonReport {
         table
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_excerpt_has_the_rows_it_names_and_no_notes() {
+        let row = |quantity, note| ComparisonRow {
+            quantity,
+            study: Cell::Empty,
+            theory: Cell::Number(2.0, 0),
+            program: Cell::Number(3.0, 0),
+            note,
+        };
+        let report = ComparisonReport { rows: vec![row("a", Some(1)), row("b", None)], notes: vec!["why".into()] };
+        assert!(report.markdown().contains("| a [1] ") && report.markdown().ends_with("\n1. why\n"));
+        let excerpt = report.excerpt(&["a"]);
+        assert!(excerpt.contains("| a ") && excerpt.contains("+50 %") && !excerpt.contains("| b "), "{excerpt}");
+        assert_eq!(excerpt.lines().count(), 3, "{excerpt}");
+    }
+}

@@ -72,8 +72,8 @@ fn at(found: &SolidsResults, n: i32, both: [&TeethResult; 2]) -> String {
     format!("- {n} facets. Deepest point: {}. Patch: {}.\n", tell(both[0]), tell(both[1]))
 }
 
-/// What is said under the table of README.md.
-pub fn readme(found: &SolidsResults) -> String {
+/// Sentences under the table of docs/study.md.
+pub fn study(found: &SolidsResults) -> String {
     let tooth = &found.tooth().look;
     let mut out = format!(
         "Exact teeth alone swing by {} N, {} % of the mean of {:.0} N, where tip corners take load over or hand it on. \

@@ -2,7 +2,7 @@
 //!
 //! Solids of 4 to 128 facets a flank run beside teeth on the path of contact ([`run`]), with the deepest point nearly alone and
 //! with the patch; errors, their orders in the number of facets, and times ([`measured`], [`errors`]) become a CSV file
-//! each, figures by python/solids.py, docs/solids.md and a table in README.md.
+//! each, figures by python/solids.py, docs/solids.md and a table in docs/study.md.
 
 pub mod errors;
 pub mod files;
@@ -27,7 +27,9 @@ use run::Window;
 
 const DOCUMENT: &str = "docs/solids.md";
 const MARKS: [&str; 2] = ["<!-- solids:begin -->", "<!-- solids:end -->"];
-const README: [&str; 2] = ["<!-- solids table begin -->", "<!-- solids table end -->"];
+/// The table of ripples stands in the page about the study.
+const STUDY: &str = "docs/study.md";
+const STUDY_MARKS: [&str; 2] = ["<!-- solids table begin -->", "<!-- solids table end -->"];
 const PICTURES: [&str; 2] = ["solids_convergence.png", "solids_cycle.png"];
 
 /// Facets, and how far from that of exact teeth their mean force may be, relative.
@@ -51,7 +53,7 @@ pub struct SolidsCommand {
     /// Only 4 to 32 facets over 0.1 s
     #[arg(long, conflicts_with = "write")]
     quick: bool,
-    /// Also renew docs/solids.md, the table in README.md and the figures
+    /// Also renew docs/solids.md, the table in docs/study.md and the figures
     #[arg(long)]
     write: bool,
     /// Folder for figures and CSV [default: target/solids]
@@ -82,12 +84,12 @@ impl SolidsCommand {
         if self.write {
             sections::renew(DOCUMENT, MARKS, &page)?;
             let table = tables::spikes(&found).markdown();
-            sections::renew("README.md", README, &format!("{table}\n{}\n", findings::readme(&found)))?;
+            sections::renew(STUDY, STUDY_MARKS, &format!("{table}\n{}\n", findings::study(&found)))?;
             let figures = paths::workspace().join("docs").join("figures");
             for name in PICTURES {
                 fs::copy(folder.join(name), figures.join(name)).with_context(|| format!("{name} cannot be copied"))?;
             }
-            println!("renewed: {DOCUMENT}, README.md, docs/figures");
+            println!("renewed: {DOCUMENT}, {STUDY}, docs/figures");
         }
         Ok(())
     }

@@ -1,4 +1,4 @@
-//! The tables for docs/solids.md and README.md.
+//! The tables for docs/solids.md and docs/study.md.
 
 use crate::tools::numbers::significant;
 use crate::tools::table::Table;
