@@ -1,4 +1,4 @@
-//! The scenes of the repository run, and files that are wrong are told what is wrong with them.
+//! The scenes of the repository run, and errors in files are reported.
 
 use std::path::Path;
 
@@ -22,8 +22,8 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
     for file in files {
         let scene = load::load(&file)?;
         assert!(!scene.description.is_empty() && !scene.outputs.is_empty(), "{}", scene.name);
-        let told = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
-        assert!(told.contains("cost class") && told.contains("states"), "{told}");
+        let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
+        assert!(text.contains("cost class") && text.contains("states"), "{text}");
         let outcome = run(&scene, Some(STEPS), None)?;
         for output in &outcome.outputs {
             let finite = [output.min, output.mean, output.max, output.end].iter().all(|x| x.is_finite());

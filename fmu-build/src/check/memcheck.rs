@@ -1,5 +1,4 @@
-//! Memory under a checker: hosts written in C lead instances through their lives, and calls at random beside them; memcheck
-//! must find nothing, nor a leak.
+//! Memory errors and leaks: hosts in C that run whole lives of instances, and calls at random, under memcheck.
 
 use std::env;
 use std::ffi::OsString;
@@ -35,8 +34,8 @@ pub fn arguments(library: &Path) -> Result<Vec<OsString>> {
 /// Compiles tests/c/`name`.c with `options` and returns the program.
 pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
     let folder = paths::target().join("memory");
-    fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    // tests compile at the same time: no one runs what another is writing
+    paths::create_folder(&folder)?;
+    // tests compile at the same time: none runs what another is writing
     let program = folder.join(format!("{name}-{}", std::process::id()));
     let output = Command::new("cc")
         .args(["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror"])
@@ -51,7 +50,7 @@ pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// What a checker said about a program.
+/// What a checker reported about a program.
 struct Checked {
     program: &'static str,
     checker: &'static str,
@@ -75,13 +74,13 @@ fn run() -> Result<()> {
     let progress = Progress::start("building the library and the host");
     let library = package::build_library("bevel-differential")?;
     let life = compiled("life", &[])?;
-    let mut told = arguments(&library)?;
-    told.push(CALLS[0].to_string().into());
-    let this = env::current_exe().context("this program does not know where it is")?;
+    let mut host_arguments = arguments(&library)?;
+    host_arguments.push(CALLS[0].to_string().into());
+    let this = env::current_exe().context("the path of this program is unknown")?;
     let mut checked = Vec::new();
-    progress.tell("memcheck on the host in C");
-    checked.push(memcheck("life of instances, in C", &life, &told)?);
-    progress.tell("memcheck on calls at random");
+    progress.stage("memcheck on the host in C");
+    checked.push(memcheck("life of instances, in C", &life, &host_arguments)?);
+    progress.stage("memcheck on calls at random");
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
@@ -107,7 +106,7 @@ fn memcheck(program: &'static str, path: &Path, arguments: &[OsString]) -> Resul
         .output()
         .context("valgrind checks the memory: install it (apt-get install valgrind)")?;
     let said = success(program, &output)?;
-    let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind told no count of errors")?;
+    let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind reported no count of errors")?;
     let lost = between(&said, "definitely lost: ", " bytes").unwrap_or("0").to_owned();
     Ok(Checked {
         program,

@@ -34,11 +34,11 @@ impl PlatformsCommand {
 
 fn run(write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
-    let environment = Environment::ready(|what| progress.tell(what))?;
+    let environment = Environment::ready(|what| progress.stage(what))?;
     let (Some(_), Some(windows)) = (Environment::old_linux(), WindowsToolchain::found()) else {
-        bail!("the tool chains for other machines are not there; to get them: {}", toolchains::COMMAND);
+        bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };
-    progress.tell("building the library for each platform");
+    progress.stage("building the library for each platform");
     let mut named: Vec<(String, Library)> = vec![("linux64, plain".into(), libraries::for_this_machine()?)];
     let crossed = libraries::build()?.built;
     named.extend(crossed.into_iter().map(|library| {

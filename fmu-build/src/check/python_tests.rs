@@ -21,10 +21,10 @@ impl TestPythonCommand {
     /// Runs pytest and prints its report.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.tell(what))?;
-        progress.tell("packaging the FMU");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        progress.stage("packaging the FMU");
         let fmu = package::package()?;
-        progress.tell("running pytest");
+        progress.stage("running pytest");
         let report = environment.test(&fmu, &self.pytest)?;
         progress.finish();
         print!("{report}");

@@ -1,4 +1,4 @@
-//! What the costliest communication step of the fixed-step method costs beside the median one: instructions, not time.
+//! The costliest communication step of the fixed-step method compared with the median one, in instructions.
 
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ const SIZES: [&str; 3] = ["1e-3", "1e-4", "1e-5"];
 const STEPS: &str = "300";
 /// Most that the costliest step may cost over the median one.
 const MOST: f64 = 2.0;
-/// Where the table stands in docs/cost.md.
+/// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- real-time:begin -->", "<!-- real-time:end -->"];
 
 /// Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)
@@ -48,9 +48,9 @@ fn run(write: bool) -> Result<()> {
     let mut worst = 0.0f64;
     for (scene, options) in SCENES {
         for size in SIZES {
-            progress.tell(&format!("counting {scene} {}, steps of {size} s", options.join(" ")));
+            progress.stage(&format!("counting {scene} {}, steps of {size} s", options.join(" ")));
             let _ = fs::remove_dir_all(&folder);
-            fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+            paths::create_folder(&folder)?;
             let file = format!("--callgrind-out-file={}", folder.join("count").display());
             let each = ["--dump-after=*one_communication_step*", &file];
             let fixed = format!("fixed_step={size}");
@@ -85,9 +85,9 @@ fn counts(folder: &Path) -> Result<Vec<f64>> {
         if part.is_some_and(|part| part > 1) {
             let text = fs::read_to_string(&path)?;
             let count = text.lines().find_map(|line| line.strip_prefix("summary:")?.trim().parse::<f64>().ok());
-            counts.push(count.with_context(|| format!("{} tells no count", path.display()))?);
+            counts.push(count.with_context(|| format!("{} has no count", path.display()))?);
         }
     }
-    ensure!(counts.len() > 1, "callgrind told no step by itself: has the stepping program its symbols?");
+    ensure!(counts.len() > 1, "callgrind found no separate steps: does the stepping program have its symbols?");
     Ok(counts)
 }

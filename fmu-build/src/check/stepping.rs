@@ -33,7 +33,7 @@ pub fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
     Ok(copy)
 }
 
-/// Runs `program` under callgrind with `options`, and returns what callgrind told.
+/// Runs `program` under callgrind with `options`, and returns what callgrind reported.
 pub fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result<String> {
     let out = options.iter().any(|option| option.starts_with("--callgrind-out-file"));
     let output = Command::new("valgrind")
@@ -44,7 +44,7 @@ pub fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result
         .args(arguments)
         .output()
         .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
-    let told = String::from_utf8_lossy(&output.stderr).into_owned();
-    ensure!(output.status.success(), "{arguments:?}: {told}");
-    Ok(told)
+    let report = String::from_utf8_lossy(&output.stderr).into_owned();
+    ensure!(output.status.success(), "{arguments:?}: {report}");
+    Ok(report)
 }

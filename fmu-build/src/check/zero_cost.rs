@@ -1,4 +1,4 @@
-//! Proof that an effect that is off is nothing: builds that leave its file out are compared with the full build, bit by
+//! Proof that an effect that is off costs nothing: builds that leave its file out are compared with the full build, bit by
 //! bit and instruction by instruction.
 
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::tools::progress::Progress;
 use crate::tools::sections;
 use crate::tools::table::{Table, for_terminal};
 
-/// Every effect with a file of its own, by the name of its cargo feature.
+/// Every effect that a build can leave out, by the name of its cargo feature.
 pub const EFFECTS: [&str; 11] = [
     "bearing_drag",
     "final_drive",
@@ -27,7 +27,7 @@ pub const EFFECTS: [&str; 11] = [
     "tooth_friction",
 ];
 
-/// Where the table stands in docs/effects.md.
+/// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];
 
 /// Steps of the two runs whose difference is counted: starting up cancels.
@@ -66,7 +66,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     let mut table = Table::new(["effect", "left out", "off", "on", "on / off"]).left([0]);
     let mut different = Vec::new();
     let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
-        progress.tell(&format!("building without {what}"));
+        progress.stage(&format!("building without {what}"));
         let without = stepping::build(kept, "less")?;
         let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
         if runs != off {
@@ -98,7 +98,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
     );
     println!("{}", for_terminal(&page));
     if !different.is_empty() {
-        bail!("an effect that is off is not nothing:\n{}", different.join("\n"));
+        bail!("effects that are off change results or instructions:\n{}", different.join("\n"));
     }
     if write {
         sections::renew("docs/effects.md", MARKS, &page)?;
@@ -113,11 +113,11 @@ fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<CountedRun> 
     let mut counts = [0.0; 2];
     for (count, steps) in counts.iter_mut().zip(STEPS) {
         let steps = steps.to_string();
-        let told = stepping::callgrind(program, &[], &[&[scene, &steps, "unread"], effects].concat())?;
-        *count = told
+        let report = stepping::callgrind(program, &[], &[&[scene, &steps, "unread"], effects].concat())?;
+        *count = report
             .lines()
             .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
-            .context("valgrind gave no count")?;
+            .context("valgrind reported no count")?;
     }
     Ok(CountedRun { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
 }

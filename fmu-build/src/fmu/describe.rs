@@ -1,4 +1,4 @@
-//! modelDescription.xml of FMI 2.0, all of it from the one table of variables.
+//! modelDescription.xml of FMI 2.0, from the table of variables.
 
 use std::fs;
 use std::path::Path;
@@ -278,11 +278,11 @@ fn structure(table: &Table) -> Element {
         .child(Element::new("InitialUnknowns").children(initial))
 }
 
-/// Ending of names of what depends on the load of its own side alone.
+/// Ending of names of outputs that depend only on the load of their side.
 const BY_OWN_LOAD: &str = ".twist";
-/// Endings of names of what positions alone tell.
+/// Endings of names of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
-/// Parts of names of what follows from positions and speeds, torques apart: of the teeth alone, and of shafts as well.
+/// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
 const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.

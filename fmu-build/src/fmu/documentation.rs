@@ -55,7 +55,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Name of its file beside the page.
+    /// Name of its file next to the page.
     pub fn name(&self) -> &'static str {
         self.file[2]
     }

@@ -1,4 +1,4 @@
-//! The FMU's library, built for this machine or for the users' machines by the tool chains that are there.
+//! The FMU's library, built for this machine or for other machines by the tool chains that are installed.
 
 use std::env;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub struct Library {
     pub ending: &'static str,
     /// What was built.
     pub file: PathBuf,
-    /// What a machine must have, in words.
+    /// What a machine needs, in words.
     pub needs: String,
     /// What the linker adds to the crates and Rust's standard library.
     pub added: Vec<AddedPart>,
@@ -48,7 +48,7 @@ pub struct AddedPart {
     pub text: PathBuf,
 }
 
-/// The libraries that could be built, and what could not with how to get it.
+/// The libraries that were built, and which were not with how to get them.
 #[derive(Clone, Debug)]
 pub struct Libraries {
     /// In the order of the archive.
@@ -57,7 +57,7 @@ pub struct Libraries {
     pub left_out: Vec<String>,
 }
 
-/// Builds the FMU's library with every tool chain that is there.
+/// Builds the FMU's library with every tool chain that is installed.
 pub fn build() -> Result<Libraries> {
     let (mut built, mut left_out) = (Vec::new(), Vec::new());
     let cross = cfg!(all(target_os = "linux", target_arch = "x86_64"));
@@ -100,7 +100,7 @@ pub fn for_this_machine() -> Result<Library> {
     })
 }
 
-/// Builds the dynamic library of `package` for this machine with cargo, quietly, and tells where it is.
+/// Builds the dynamic library of `package` for this machine with cargo and returns its path.
 pub fn build_library(package: &str) -> Result<PathBuf> {
     let mut command = Command::new(cargo());
     command.arg("build").arg("--target-dir").arg(paths::target());
@@ -145,8 +145,8 @@ fn for_windows(tools: &WindowsToolchain) -> Result<Library> {
 
 /// The library for Windows by rustup's own target and the system's MinGW, if both are installed.
 fn rustup_for_windows() -> Result<Option<Library>> {
-    let told = Command::new("rustc").args(["--print", "target-libdir", "--target", WINDOWS_TARGET]).output();
-    let has_target = told.is_ok_and(|told| Path::new(String::from_utf8_lossy(&told.stdout).trim()).is_dir());
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WINDOWS_TARGET]).output();
+    let has_target = output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir());
     let has_linker = Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok();
     if !has_target || !has_linker {
         return Ok(None);
@@ -172,7 +172,7 @@ fn windows_library(command: Command, root: &Path) -> Result<Library> {
             text: text("gcc-mingw-w64-base"),
         },
     ];
-    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, nothing beside it".into(), added })
+    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
 }
 
 /// Built for other machines than this one: in a folder of its own, as the compiler may be another, and without the names of

@@ -35,7 +35,7 @@ pub struct LinkedPart {
     pub files: Vec<String>,
 }
 
-/// All licence files, and to whom they belong.
+/// All licence files, and the parts they belong to.
 pub struct Licences {
     /// The files, sorted by path.
     pub files: Vec<Licence>,
@@ -59,7 +59,7 @@ pub fn collected(libraries: &[Library]) -> Result<Licences> {
         }
         ensure!(
             !files.is_empty(),
-            "{name} ({}) comes without the text of its licence \"{}\": it must not be linked in",
+            "{name} ({}) has no file with the text of its licence \"{}\"; do not link it",
             folder.path.display(),
             folder.licence
         );
@@ -76,10 +76,10 @@ pub fn collected(libraries: &[Library]) -> Result<Licences> {
     Ok(found)
 }
 
-/// Rust's standard library, whose notices rustc brings along.
+/// Rust's standard library, whose notices come with rustc.
 fn standard_library(found: &mut Licences) -> Result<()> {
-    let told = Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc cannot be run")?;
-    let root = PathBuf::from(String::from_utf8_lossy(&told.stdout).trim());
+    let output = Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc cannot be run")?;
+    let root = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
     let folder = root.join("share").join("doc").join("rust");
     let notices = ["COPYRIGHT-library.html", "COPYRIGHT"].map(|name| folder.join(name));
     let Some(notice) = notices.iter().find(|file| file.is_file()) else {
@@ -99,7 +99,7 @@ fn add(found: &mut Licences, name: &str, licence: &str, place: &str, texts: &[(&
     let mut files = Vec::new();
     for (file, source) in texts {
         let text =
-            fs::read(source).with_context(|| format!("the licence of {name}, {}, is not there", source.display()))?;
+            fs::read(source).with_context(|| format!("the licence of {name}, {}, is missing", source.display()))?;
         // extensions that no program opens are text
         let ending = if file.ends_with(".html") { "" } else { ".txt" };
         let path = format!("{place}/{file}{ending}");
@@ -118,7 +118,8 @@ struct CrateSource {
 
 /// The crates linked into the library on any platform, by name and version.
 fn linked_crates() -> Result<BTreeMap<String, CrateSource>> {
-    let tree = told(&["tree", "-p", CRATE, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
+    let tree =
+        cargo_output(&["tree", "-p", CRATE, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
     let mut wanted: Vec<(&str, &str)> = tree
         .lines()
         .filter_map(|line| {
@@ -128,7 +129,7 @@ fn linked_crates() -> Result<BTreeMap<String, CrateSource>> {
         .collect();
     wanted.sort_unstable();
     wanted.dedup();
-    let metadata: Value = serde_json::from_str(&told(&["metadata", "--format-version", "1"])?)?;
+    let metadata: Value = serde_json::from_str(&cargo_output(&["metadata", "--format-version", "1"])?)?;
     let packages = metadata["packages"].as_array().context("cargo metadata names no packages")?;
     let mut crates = BTreeMap::new();
     for (name, version) in wanted {
@@ -158,7 +159,7 @@ fn texts_in(folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
     Ok(texts)
 }
 
-fn told(arguments: &[&str]) -> Result<String> {
+fn cargo_output(arguments: &[&str]) -> Result<String> {
     let output = Command::new(cargo()).current_dir(paths::workspace()).args(arguments).arg("--locked").output();
     let output = output.context("cargo cannot be run")?;
     ensure!(

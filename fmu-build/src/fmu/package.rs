@@ -61,7 +61,7 @@ pub struct PackedFmu {
     pub left_out: Vec<String>,
 }
 
-/// Builds the library with every tool chain that is there and packs the FMU to its usual place.
+/// Builds the library with every installed tool chain and packs the FMU to its usual place.
 pub fn package() -> Result<PathBuf> {
     packed().map(|packed| packed.fmu)
 }
@@ -74,11 +74,11 @@ pub fn packed() -> Result<PackedFmu> {
     Ok(PackedFmu { fmu, left_out: libraries.left_out })
 }
 
-/// Packs the FMU around `libraries` into `target`, which appears at once or not at all.
+/// Packs the FMU around `libraries` into `target`, which is complete or not there.
 pub fn write_archive(libraries: &[Library], target: &Path) -> Result<()> {
-    let bytes = archive(&entries(libraries)?).context("the archive cannot be made")?;
+    let bytes = archive(&entries(libraries)?).context("the archive cannot be created")?;
     let folder = target.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    paths::create_folder(folder)?;
     let partial = target.with_extension(format!("{}.part", std::process::id()));
     fs::write(&partial, bytes)
         .and_then(|()| fs::rename(&partial, target))

@@ -1,5 +1,5 @@
-//! The tool chains for the users' machines, each in a folder of its own beside the system: none is needed for the main
-//! job, and the packager takes what is there.
+//! The tool chains for other machines, each in a separate folder of target/toolchains. None is required: packaging uses those
+//! that are installed.
 
 use std::env;
 use std::ffi::OsString;
@@ -15,7 +15,7 @@ use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 
-/// How to get them, for hints.
+/// The command that installs them, for hints.
 pub const COMMAND: &str = "cargo run --release -- toolchains";
 
 /// Oldest glibc that the library for Linux is linked for.
@@ -49,7 +49,7 @@ fn run(platform: Option<&str>) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let mut made = Vec::new();
     if wanted("linux64") {
-        let linux = Environment::for_old_linux(|what| progress.tell(what))?;
+        let linux = Environment::for_old_linux(|what| progress.stage(what))?;
         made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
     }
     if wanted("win64") {
@@ -67,7 +67,7 @@ pub struct WindowsToolchain {
 }
 
 impl WindowsToolchain {
-    /// The tool chain if it has been made by today's script.
+    /// The tool chain, if the present script installed it.
     pub fn found() -> Option<Self> {
         let windows = Self { folder: paths::toolchains().join("windows") };
         let wanted = stamp().ok()?;
@@ -79,7 +79,7 @@ impl WindowsToolchain {
             return Ok(windows);
         }
         let windows = Self { folder: paths::toolchains().join("windows") };
-        progress.tell("unpacking Rust, MinGW and wine for Windows (280 MB to download)");
+        progress.stage("unpacking Rust, MinGW and wine for Windows (280 MB to download)");
         let output = Command::new("bash")
             .arg(script())
             .arg(&windows.folder)
@@ -87,7 +87,10 @@ impl WindowsToolchain {
             .output()
             .context("bash, which unpacks the tool chain for Windows, cannot be run")?;
         if !output.status.success() {
-            bail!("the tool chain for Windows cannot be made: {}", String::from_utf8_lossy(&output.stderr).trim_end());
+            bail!(
+                "the tool chain for Windows cannot be installed: {}",
+                String::from_utf8_lossy(&output.stderr).trim_end()
+            );
         }
         fs::write(windows.stamp(), stamp()?)?;
         Ok(windows)

@@ -1,4 +1,4 @@
-//! This program beside MuJoCo and Drake on the study's two cases: their own Python environment, one run, one table.
+//! This program and the simulators MuJoCo and Drake on the study's two cases: one run, one table.
 
 use std::ffi::OsString;
 use std::fs;
@@ -12,7 +12,7 @@ use crate::tools::python::Environment;
 use crate::tools::table::for_terminal;
 use crate::tools::{paths, script, sections};
 
-/// The document with the table, the table's place, and the picture beside it.
+/// The document, the marks of its table, and its picture.
 const DOCUMENT: &str = "docs/compare.md";
 const MARKS: [&str; 2] = ["<!-- peers:begin -->", "<!-- peers:end -->"];
 const PICTURE: &str = "peers.png";
@@ -37,8 +37,8 @@ impl CompareSimulatorsCommand {
 
 fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
-    let environment = Environment::for_peers(|what| progress.tell(what))?;
-    progress.tell("packaging the FMU");
+    let environment = Environment::for_simulators(|what| progress.stage(what))?;
+    progress.stage("packaging the FMU");
     let fmu = package::package()?;
     let folder = paths::target().join("peers");
     let mut arguments: Vec<OsString> = vec![fmu.into(), folder.clone().into()];
@@ -46,7 +46,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
         arguments.push("--quick".into());
     }
     progress.begin_bar("comparing");
-    let table = script::run(&environment, &paths::peers().join("run.py"), &arguments, &progress)?;
+    let table = script::run(&environment, &paths::simulators_benchmark().join("run.py"), &arguments, &progress)?;
     progress.finish();
     print!("{}", for_terminal(&table));
     println!("\nresults: {}", paths::shown(&folder));

@@ -1,4 +1,4 @@
-//! The program's method beside solvers that others wrote, on the same equations: one run, one table.
+//! This program's method and other solvers on the same equations: one run, one table.
 
 use std::ffi::OsString;
 
@@ -35,8 +35,8 @@ impl CompareSolversCommand {
 
 fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
-    let environment = Environment::for_foreign(|what| progress.tell(what))?;
-    progress.tell("building the equations as a library");
+    let environment = Environment::for_solvers(|what| progress.stage(what))?;
+    progress.stage("building the equations as a library");
     let library = package::build_library("foreign-solvers")?;
     let folder = paths::target().join("cost");
     let mut arguments: Vec<OsString> = vec![library.into(), folder.clone().into()];
@@ -44,7 +44,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
         arguments.push("--quick".into());
     }
     progress.begin_bar("comparing");
-    let table = script::run(&environment, &paths::foreign().join("compare.py"), &arguments, &progress)?;
+    let table = script::run(&environment, &paths::solvers_benchmark().join("compare.py"), &arguments, &progress)?;
     progress.finish();
     print!("{}", for_terminal(&table));
     println!("\nresults: {}", paths::shown(&folder.join("foreign.csv")));

@@ -1,4 +1,4 @@
-//! The whole drivetrain of examples/drivetrain, coupled from FMUs: their own Python environment, one run, its tables.
+//! The whole drivetrain of examples/drivetrain, coupled from FMUs: one run and its tables.
 
 use std::ffi::OsString;
 use std::fs;
@@ -37,11 +37,11 @@ impl DrivetrainCommand {
 
 fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
-    let environment = Environment::for_drivetrain(|what| progress.tell(what))?;
-    progress.tell("packaging the FMU");
+    let environment = Environment::for_drivetrain(|what| progress.stage(what))?;
+    progress.stage("packaging the FMU");
     // libcosim sets no enumerations, and the scene is made of them
     let fmu = plain_types::package(&package::package()?)?;
-    progress.tell("building the equations as a library");
+    progress.stage("building the equations as a library");
     let library = package::build_library("foreign-solvers")?;
     let folder = paths::target().join("drivetrain");
     let mut arguments: Vec<OsString> = vec![fmu.into(), library.into(), folder.clone().into()];

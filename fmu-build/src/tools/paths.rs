@@ -1,9 +1,12 @@
-//! Where things lie in the workspace and in the target directory.
+//! Folders and files of the workspace and of the target directory.
 
 use std::env;
+use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Root of the workspace. The tool belongs to its workspace, so the place known at compile time will do.
+use anyhow::{Context, Result};
+
+/// Root of the workspace, known at compile time: this program belongs to its workspace.
 pub fn workspace() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     here.parent().unwrap_or(here).to_path_buf()
@@ -18,6 +21,11 @@ pub fn target() -> PathBuf {
     built_into
         .or_else(|| env::var_os("CARGO_TARGET_DIR").map(|folder| workspace().join(folder)))
         .unwrap_or_else(|| workspace().join("target"))
+}
+
+/// Makes `folder` and its parents unless they exist.
+pub fn create_folder(folder: &Path) -> Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", shown(folder)))
 }
 
 /// The packaged FMU.
@@ -35,13 +43,13 @@ pub fn study() -> PathBuf {
     target().join("study")
 }
 
-/// The comparison with other programs.
-pub fn peers() -> PathBuf {
+/// The comparison with other simulators.
+pub fn simulators_benchmark() -> PathBuf {
     workspace().join("benches").join("peers")
 }
 
 /// The comparison with solvers written by others.
-pub fn foreign() -> PathBuf {
+pub fn solvers_benchmark() -> PathBuf {
     workspace().join("benches").join("foreign")
 }
 
@@ -70,7 +78,7 @@ pub fn model_description() -> PathBuf {
     workspace().join("modelDescription").join("modelDescription.xml")
 }
 
-/// `path` as a reader standing in the workspace would write it.
+/// `path` relative to the current folder or to the workspace, for messages.
 pub fn shown(path: &Path) -> String {
     let from = env::current_dir().unwrap_or_else(|_| workspace());
     path.strip_prefix(&from).or_else(|_| path.strip_prefix(workspace())).unwrap_or(path).display().to_string()

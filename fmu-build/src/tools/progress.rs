@@ -1,4 +1,4 @@
-//! What is going on, on the terminal; a line per stage where there is no terminal.
+//! Progress on the terminal; without a terminal, a line per stage.
 
 use std::time::Duration;
 
@@ -20,12 +20,12 @@ impl Progress {
         let progress = Self { bar: ProgressBar::new(FULL) };
         progress.style("{spinner} {msg}");
         progress.bar.enable_steady_tick(TICK);
-        progress.tell(stage);
+        progress.stage(stage);
         progress
     }
 
     /// Next stage.
-    pub fn tell(&self, stage: &str) {
+    pub fn stage(&self, stage: &str) {
         if self.bar.is_hidden() {
             eprintln!("{stage}");
         }
@@ -35,7 +35,7 @@ impl Progress {
     /// A stage of known length begins.
     pub fn begin_bar(&self, stage: &str) {
         self.style("{spinner} [{bar:40}] {percent:>3} % {msg}");
-        self.tell(stage);
+        self.stage(stage);
     }
 
     /// A part of the stage is done: `fraction` from 0 to 1.
@@ -44,13 +44,13 @@ impl Progress {
         self.bar.set_message(what.to_owned());
     }
 
-    /// Everything is done; the line disappears.
+    /// Ends the display.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }
 
     fn style(&self, template: &str) {
-        // a template that does not parse costs the looks only
+        // a template that does not parse only changes the looks
         if let Ok(style) = ProgressStyle::with_template(template) {
             self.bar.set_style(style.progress_chars("=> "));
         }

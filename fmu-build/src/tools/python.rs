@@ -1,5 +1,5 @@
-//! The Python environments, each made once, from pinned versions: one for fmpy, matplotlib and pytest, and one for
-//! each comparison with what others wrote, which nothing else needs.
+//! The Python environments, each made once from pinned versions: one for fmpy, matplotlib and pytest, and one for each
+//! comparison with other programs.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -25,36 +25,37 @@ pub struct Environment {
 }
 
 impl Environment {
-    /// The environment of all commands but one, made if it does not exist yet; `tell` hears what takes time.
-    pub fn ready(tell: impl Fn(&str)) -> Result<Self> {
+    /// The environment of all commands but one, made if it does not exist; `report` receives the current stage.
+    pub fn ready(report: impl Fn(&str)) -> Result<Self> {
         let requirements = paths::workspace().join("fmu-build").join("python").join("requirements.txt");
         Self { folder: paths::target().join("python"), requirements, holds: "fmpy, numpy, scipy, matplotlib, pytest" }
-            .made(tell)
+            .made(report)
     }
 
-    /// The environment with the programs to compare with; it lies where the comparison's results are.
-    pub fn for_peers(tell: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::peers().join("requirements.txt");
+    /// The environment with the programs to compare with; it lies next to the results of the comparison.
+    pub fn for_simulators(report: impl Fn(&str)) -> Result<Self> {
+        let requirements = paths::simulators_benchmark().join("requirements.txt");
         let folder = paths::target().join("peers").join("venv");
-        Self { folder, requirements, holds: "MuJoCo, Drake, fmpy" }.made(tell)
+        Self { folder, requirements, holds: "MuJoCo, Drake, fmpy" }.made(report)
     }
 
-    /// The environment with solvers written by others.
-    pub fn for_foreign(tell: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::foreign().join("requirements.txt");
-        Self { folder: paths::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(tell)
+    /// The environment with other solvers.
+    pub fn for_solvers(report: impl Fn(&str)) -> Result<Self> {
+        let requirements = paths::solvers_benchmark().join("requirements.txt");
+        Self { folder: paths::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(report)
     }
 
-    /// The environment with FMI hosts; it lies where their results are.
-    pub fn for_hosts(tell: impl Fn(&str)) -> Result<Self> {
+    /// The environment with FMI hosts; it lies next to their results.
+    pub fn for_hosts(report: impl Fn(&str)) -> Result<Self> {
         let requirements = paths::hosts().join("requirements.txt");
         let folder = paths::target().join("hosts").join("venv");
-        Self { folder, requirements, holds: "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox" }.made(tell)
+        Self { folder, requirements, holds: "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox" }
+            .made(report)
     }
 
     /// The environment with the linker for old Linux systems.
-    pub fn for_old_linux(tell: impl Fn(&str)) -> Result<Self> {
-        Self::of_old_linux().made(tell)
+    pub fn for_old_linux(report: impl Fn(&str)) -> Result<Self> {
+        Self::of_old_linux().made(report)
     }
 
     /// The same if it has been made, for these requirements.
@@ -77,26 +78,26 @@ impl Environment {
     /// The folder with its packages.
     pub fn packages(&self) -> Result<PathBuf> {
         let mut command = self.command();
-        let told = command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output()?;
-        Ok(PathBuf::from(String::from_utf8_lossy(&told.stdout).trim()))
+        let output = command.args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output()?;
+        Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim()))
     }
 
-    /// The environment with what makes the other parts of a drivetrain, and with the hosts that couple them.
-    pub fn for_drivetrain(tell: impl Fn(&str)) -> Result<Self> {
+    /// The environment that builds the other parts of a drivetrain and couples them.
+    pub fn for_drivetrain(report: impl Fn(&str)) -> Result<Self> {
         let requirements = paths::drivetrain().join("requirements.txt");
         let folder = paths::target().join("drivetrain").join("venv");
-        Self { folder, requirements, holds: "pythonfmu, fmpy, libcosim" }.made(tell)
+        Self { folder, requirements, holds: "pythonfmu, fmpy, libcosim" }.made(report)
     }
 
-    /// Itself, made if it does not exist yet or has other requirements.
-    fn made(self, tell: impl Fn(&str)) -> Result<Self> {
+    /// This environment, made if it does not exist or has other requirements.
+    fn made(self, report: impl Fn(&str)) -> Result<Self> {
         let stamp = self.wanted_stamp()?;
         fs::create_dir_all(self.folder.parent().unwrap_or(&self.folder))?;
         // released when the file is closed, be it by a crash
         let lock = File::create(self.folder.with_extension("lock")).context("the environment cannot be locked")?;
         lock.lock().context("the environment cannot be locked")?;
         if !self.is_stamped(&stamp) {
-            self.make(tell)?;
+            self.make(report)?;
             fs::write(self.stamp(), stamp)?;
         }
         Ok(self)
@@ -118,19 +119,19 @@ impl Environment {
         fs::read_to_string(self.stamp()).is_ok_and(|found| found == stamp) && version_of(&self.interpreter()).is_some()
     }
 
-    fn make(&self, tell: impl Fn(&str)) -> Result<()> {
+    fn make(&self, report: impl Fn(&str)) -> Result<()> {
         let python = find_python()?;
-        tell("making the Python environment");
+        report("making the Python environment");
         run(
             python.command().args(["-m", "venv", "--clear"]).arg(&self.folder),
-            "the Python environment cannot be made",
+            "the Python environment cannot be created",
         )?;
-        tell(&format!("installing {}", self.holds));
+        report(&format!("installing {}", self.holds));
         run(
             self.command()
                 .args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"])
                 .arg(&self.requirements),
-            "the Python packages cannot be installed (is the network there?)",
+            "the Python packages cannot be installed (check the network)",
         )
     }
 
@@ -139,7 +140,7 @@ impl Environment {
         Python { program: inside.iter().fold(self.folder.clone(), |path, part| path.join(part)).into(), arguments: &[] }
     }
 
-    /// A command that runs the environment's Python, shielded from the user's own settings and files.
+    /// A command that runs the environment's Python, isolated from the user's settings and files.
     pub fn command(&self) -> Command {
         let mut command = self.interpreter().command();
         command

@@ -1,4 +1,4 @@
-//! Python scripts that take a while: what they say about it goes to the progress bar.
+//! Python scripts whose progress is shown.
 
 use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read};
@@ -12,7 +12,7 @@ use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 
 /// Runs `script` to its end and returns what it printed. Its lines "progress <fraction> <what>" on standard error move
-/// the bar; what else it says there is the error if it fails.
+/// the bar; other lines there are the error if it fails.
 pub fn run(
     environment: &Environment,
     script: &Path,
@@ -38,14 +38,14 @@ pub fn run(
     let mut remarks = Vec::new();
     if let Some(pipe) = child.stderr.take() {
         for line in BufReader::new(pipe).lines() {
-            let line = line.with_context(|| format!("{name} does not speak UTF-8"))?;
+            let line = line.with_context(|| format!("{name} does not write UTF-8"))?;
             match progress_in(&line) {
                 Some((fraction, what)) => progress.advance(fraction, what),
                 None => remarks.push(line),
             }
         }
     }
-    let status = child.wait().with_context(|| format!("{name} got lost"))?;
+    let status = child.wait().with_context(|| format!("{name} was lost"))?;
     if !status.success() {
         bail!("{name} failed: {}", remarks.join("\n").trim_end());
     }

@@ -1,4 +1,4 @@
-//! What commands write into documents: text between two marks.
+//! Marked sections of documents, which commands renew.
 
 use std::fs;
 
@@ -11,7 +11,7 @@ pub fn renew(document: &str, marks: [&str; 2], text: &str) -> Result<()> {
     let file = paths::workspace().join(document);
     let old = fs::read_to_string(&file).with_context(|| format!("{document} cannot be read"))?;
     let renewed = replaced(&old, marks, text).with_context(|| {
-        format!("{document} has no place for the table: put the lines \"{}\" and \"{}\" into it", marks[0], marks[1])
+        format!("{document} has no marked section; add the lines \"{}\" and \"{}\"", marks[0], marks[1])
     })?;
     fs::write(&file, renewed).with_context(|| format!("{document} cannot be written"))
 }

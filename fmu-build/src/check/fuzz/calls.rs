@@ -1,4 +1,4 @@
-//! One call of one function, with arguments at random: the driver's half of each C function.
+//! One call of one function with arguments at random.
 
 use std::ffi::CString;
 use std::ptr;
@@ -173,7 +173,7 @@ pub fn call(
             let place = f.place(r, &raw mut size, true);
             let mut outcome = CallResult::of(run!(fmi2SerializedFMUstateSize(c, state, place)), f);
             if outcome.status == Status::Ok && size != bytes.len() {
-                outcome.broken = Some(format!("{size} bytes told, {} before", bytes.len()));
+                outcome.broken = Some(format!("{size} bytes, {} before", bytes.len()));
             }
             outcome
         }
@@ -282,7 +282,7 @@ fn a_kind(r: &mut Random) -> i32 {
     if r.chance(8) { r.bits() as i32 } else { r.below(4) as i32 }
 }
 
-/// Where the instance is [s]; 0 where it does not tell.
+/// Time of the instance [s]; 0 where it does not report it.
 fn time_of(unit: &Unit) -> f64 {
     let mut now = 0.0;
     // SAFETY: a live component and a place
@@ -330,7 +330,7 @@ fn instantiate(r: &mut Random) -> CallResult {
     if c.is_null() && silent && !told.is_null() {
         outcome.broken = Some("refused without a line in the log".into());
     }
-    // SAFETY: NULL, or a component that nobody else holds; it goes before its log
+    // SAFETY: NULL, or a component that nothing else holds; it is freed before its log
     unsafe { fmi2FreeInstance(c) };
     outcome
 }

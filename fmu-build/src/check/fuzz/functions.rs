@@ -16,7 +16,7 @@ macro_rules! functions {
                 match self { $(Self::$function => stringify!($function)),+ }
             }
 
-            /// How often it is called beside the others.
+            /// How often it is called, relative to the others.
             pub fn weight(self) -> usize {
                 match self { $(Self::$function => $weight),+ }
             }

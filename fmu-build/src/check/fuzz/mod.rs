@@ -1,8 +1,8 @@
 //! The C functions called at random, in any order, with arguments right and wrong, on several instances of both kinds;
-//! every answer is held against what the FMU promises.
+//! every result is checked against what the FMU promises.
 //!
-//! Rounds are independent: the round with the seed S is what `fuzz --seed S --calls 500` runs. Workers are processes of
-//! their own, so that a crash or a hang is told with its seed.
+//! Rounds are independent: the round with the seed S is what `fuzz --seed S --calls 500` runs. Workers are separate
+//! processes, so that a crash or a hang is reported with its seed.
 
 mod arguments;
 mod calls;

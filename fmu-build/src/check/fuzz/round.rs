@@ -1,4 +1,4 @@
-//! A round: a few instances of both kinds, and calls at random on them, each held against what the FMU promises.
+//! A round: a few instances of both kinds, and calls at random on them, each checked against what the FMU promises.
 
 use std::ptr;
 use std::time::Instant;
@@ -19,7 +19,7 @@ pub const CALLS: usize = 500;
 const UNITS: usize = 4;
 /// One call in so many has the instance's state compared before and after.
 const COMPARED: usize = 6;
-/// Refusals in a row after which an instance starts anew.
+/// Refusals in a row after which an instance is started again.
 const PATIENCE: usize = 10;
 
 /// A promise that was not kept.
@@ -158,8 +158,8 @@ fn check(
         let bad = outcome.numbers.iter().position(|x| !x.is_finite());
         return bad.map_or(Ok(()), |i| Err(format!("fmi2OK, but number {i} is {}", outcome.numbers[i])));
     }
-    let told = lines.iter().any(|line| line.status == status && line.message.starts_with(function.name()));
-    if told || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message of its own: {lines:?}")) }
+    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(function.name()));
+    if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 
 /// Calls that may move the instance although they are refused: what could not be begun or completed leaves its mark.

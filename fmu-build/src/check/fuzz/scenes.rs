@@ -25,7 +25,7 @@ const SOLID: i32 = 4;
 /// The explicit method.
 const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
 
-/// Brings a fresh or reset instance to a running simulation; whether that came off.
+/// Brings a fresh or reset instance to a running simulation; whether that succeeded.
 pub fn start(unit: &Unit, r: &mut Random) -> bool {
     for attempt in 0..=TRIES {
         // SAFETY: a live component
@@ -96,7 +96,7 @@ fn find(name: &str) -> Option<usize> {
 
 /// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
 pub fn study(unit: &Unit) -> Option<Vec<u64>> {
-    // SAFETY, for all: a live component and room for the counts told
+    // SAFETY, for all: a live component and room for the counts passed
     unsafe {
         let mut statuses = vec![
             fmi2Reset(unit.c),

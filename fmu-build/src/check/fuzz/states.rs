@@ -98,7 +98,7 @@ pub fn deserialize(c: ComponentPointer, r: &mut Random, f: &mut Flaws, held: &mu
     let place = if full { &raw mut held.states[at].0 } else { &raw mut made };
     let place = f.place(r, place, true);
     let bytes = f.pointer(r, blob.as_ptr(), true);
-    // SAFETY: a live component, the bytes told, and a place for a state
+    // SAFETY: a live component, the bytes passed, and a place for a state
     let mut outcome = CallResult::of(unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), blob.len(), place) }, f);
     if outcome.status == Status::Ok {
         let state = if full { held.states[at].0 } else { made };

@@ -1,4 +1,4 @@
-//! What was called, how it was answered, how long it took.
+//! Calls by function: counts, statuses and times.
 
 use std::fmt::Write as _;
 use std::time::Duration;
@@ -8,7 +8,7 @@ use bevel_differential::fmi2::Status;
 use super::functions::Function;
 use crate::tools::table::{Table, wrapped};
 
-/// Statuses that are told apart, as the table heads them.
+/// Statuses that are counted, as heads of the table.
 const HEADS: [&str; 4] = ["OK", "warning", "discard", "error"];
 
 /// Counts, by function in the order of the list.

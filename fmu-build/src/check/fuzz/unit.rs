@@ -50,7 +50,7 @@ pub struct Unit {
     pub kind: i32,
     /// What it said since the last call.
     pub lines: Box<Lines>,
-    /// Whether it was told to keep categories to itself.
+    /// Whether its log is filtered by category.
     pub is_filtered: bool,
     /// A state to keep the present in, for comparison; NULL until it is needed.
     pub kept: FmuState,

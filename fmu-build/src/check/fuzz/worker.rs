@@ -1,4 +1,4 @@
-//! Rounds in a process of their own: it tells each round before it begins, so that its end, however sudden, has a seed.
+//! Rounds in a separate process: it reports each round before it begins, so that a crash can be reproduced.
 
 use std::env;
 use std::io::{BufRead, BufReader};
@@ -49,7 +49,7 @@ pub struct Worker {
 impl Worker {
     /// Starts one on `calls` calls from `seed` on.
     pub fn start(seed: u64, calls: usize) -> Result<Self> {
-        let mut child = Command::new(env::current_exe().context("this program does not know where it is")?)
+        let mut child = Command::new(env::current_exe().context("the path of this program is unknown")?)
             .args(["fuzz", "--worker", "--seed", &seed.to_string(), "--calls", &calls.to_string()])
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
@@ -79,7 +79,7 @@ impl Worker {
                 Ok(line) => self.hear(&line),
                 Err(TryRecvError::Empty) if self.since.elapsed() > PATIENCE => {
                     self.hangs = true;
-                    // it may have ended by itself meanwhile
+                    // it may have ended meanwhile
                     let _ = self.child.kill();
                     break;
                 }
@@ -108,7 +108,7 @@ impl Worker {
         }
     }
 
-    /// Whether it has nothing more to say.
+    /// Whether its output has ended.
     pub fn is_over(&self) -> bool {
         self.is_over
     }
@@ -118,7 +118,7 @@ impl Worker {
         self.is_over && self.counts.is_none()
     }
 
-    /// Ends it, unless it has ended by itself.
+    /// Ends it, unless it has ended.
     pub fn stop(&mut self) {
         if !self.is_over && !self.is_stopped {
             self.is_stopped = self.child.kill().is_ok();
@@ -128,7 +128,7 @@ impl Worker {
     /// What it counted, or how it ended; nothing if it was stopped.
     pub fn end(self) -> Result<Option<Tally>> {
         let again = self.round.map_or_else(String::new, again);
-        let output = self.child.wait_with_output().context("a worker got lost")?;
+        let output = self.child.wait_with_output().context("a worker was lost")?;
         if self.is_stopped {
             return Ok(None);
         }
@@ -136,11 +136,11 @@ impl Worker {
             bail!("a round took more than {} s\nagain: {again}", PATIENCE.as_secs());
         }
         if !output.status.success() {
-            let told = String::from_utf8_lossy(&output.stderr);
+            let messages = String::from_utf8_lossy(&output.stderr);
             let crash = output.status.code().is_none();
             let what = if crash { format!("crashed ({})\nagain: {again}\n", output.status) } else { String::new() };
-            return Err(anyhow!("{what}{}", told.trim_end().trim_start_matches("error: ")));
+            return Err(anyhow!("{what}{}", messages.trim_end().trim_start_matches("error: ")));
         }
-        self.counts.as_deref().and_then(Tally::read).context("a worker told no counts").map(Some)
+        self.counts.as_deref().and_then(Tally::read).context("a worker reported no counts").map(Some)
     }
 }

@@ -1,9 +1,9 @@
-//! The hosts, and what is told of them.
+//! The hosts and their properties.
 
 /// How a host is started.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HostStart {
-    /// A script in tests/hosts, with arguments of its own.
+    /// A script in tests/hosts, with its arguments.
     Script(&'static str, &'static [&'static str]),
     /// The program of tests/hosts/rust with the host's name.
     Rust(&'static str),
@@ -81,7 +81,7 @@ pub const HOSTS: [Host; 9] = [
         import: "fmi4c, proxyfmu",
         enumerations: false,
         reads_start: true,
-        sets: "the same; the FMU in a process of its own",
+        sets: "the same; the FMU in a separate process",
         hint: "apt install libtbb12",
     },
     Host {

@@ -47,8 +47,8 @@ impl HostsCommand {
     /// Runs all hosts on all scenes, prints the table, and with `write` puts it into docs/hosts.md.
     pub fn run(self) -> Result<()> {
         let progress = Progress::start("looking for Python");
-        let bench = HostBench::ready(self.with_rust, |what| progress.tell(what))?;
-        progress.tell("packaging the FMU");
+        let bench = HostBench::ready(self.with_rust, |what| progress.stage(what))?;
+        progress.stage("packaging the FMU");
         let fmu = package::package()?;
         let plain = plain_types::package(&fmu)?;
         let scenes = run::scenes()?;
@@ -62,7 +62,7 @@ impl HostsCommand {
                 let out = bench.folder.join(format!("{}_{}.csv", scene.name, host.name.replace(", ", "_")));
                 let fmu = if host.enumerations { &fmu } else { &plain };
                 let ran = match bench.run(host, scene, fmu, &out)? {
-                    HostOutcome::HostRun(ran) => ran,
+                    HostOutcome::Ran(ran) => ran,
                     HostOutcome::Absent(why) => {
                         absent.push((host, why));
                         break;

@@ -1,4 +1,4 @@
-//! One host on one scene, in a process of its own.
+//! One host on one scene, in a separate process.
 
 use std::collections::BTreeMap;
 use std::env;
@@ -15,7 +15,7 @@ use crate::tools::python::Environment;
 
 /// Status of a script whose host cannot be loaded; common.py has the same.
 const CANNOT_LOAD: i32 = 3;
-/// The crate fmi-sim, which is a program of its own.
+/// The crate fmi-sim, which is a separate program.
 const FMI_SIM: [&str; 2] = ["fmi-sim", "0.7.0"];
 
 /// A scene of tests/hosts/scenes.
@@ -51,7 +51,7 @@ pub struct HostRun {
 /// How a run ended.
 pub enum HostOutcome {
     /// With a table.
-    HostRun(HostRun),
+    Ran(HostRun),
     /// Not at all: the host cannot be loaded here, and why.
     Absent(String),
 }
@@ -84,17 +84,17 @@ pub fn scenes() -> Result<Vec<HostScene>> {
 }
 
 impl HostBench {
-    /// With the Python environment and, if `with_rust`, the hosts in Rust; `tell` hears what takes time.
-    pub fn ready(with_rust: bool, tell: impl Fn(&str)) -> Result<Self> {
+    /// With the Python environment and, if `with_rust`, the hosts in Rust; `report` receives the current stage.
+    pub fn ready(with_rust: bool, report: impl Fn(&str)) -> Result<Self> {
         let folder = paths::target().join("hosts");
-        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-        let environment = Environment::for_hosts(&tell)?;
+        paths::create_folder(&folder)?;
+        let environment = Environment::for_hosts(&report)?;
         let left_out = || Err("left out without --with-fmi-sim, as its build takes minutes".to_owned());
         let (mut rust, mut fmi_sim) = (left_out(), left_out());
         if with_rust {
-            tell("building fmu-runner and fmi-rs");
+            report("building fmu-runner and fmi-rs");
             rust = build_rust(&folder);
-            tell("building fmi-sim (many minutes)");
+            report("building fmi-sim (many minutes)");
             fmi_sim = install_fmi_sim(&folder);
         }
         Ok(Self { environment, folder, rust, fmi_sim })
@@ -132,7 +132,7 @@ impl HostBench {
         if let HostStart::Script(_, arguments) = host.start {
             command.args(arguments);
         }
-        // some write logs where they stand
+        // some write logs into the current folder
         command.current_dir(out.parent().unwrap_or(out));
         let ended = command.output().with_context(|| format!("{} cannot be run", host.name))?;
         let (printed, remarks) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
@@ -142,8 +142,8 @@ impl HostBench {
         if !ended.status.success() {
             bail!("{} fails on {} ({}):\n{}", host.name, scene.name, ended.status, remarks.trim_end());
         }
-        let told = serde_json::from_str(last_line(&printed));
-        Ok(HostOutcome::HostRun(told.with_context(|| format!("{} tells nothing of its run", host.name))?))
+        let run = serde_json::from_str(last_line(&printed));
+        Ok(HostOutcome::Ran(run.with_context(|| format!("{} reports nothing of its run", host.name))?))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::gears::scene::set::{real, value, variable};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 
-/// Facets per flank unless told otherwise.
+/// Default of facets per flank.
 const FACETS: usize = 32;
 /// Fewest and most facets per flank: fewer show no involute, more make files that no CAD program wants.
 const FACETS_RANGE: (usize, usize) = (2, 1000);
@@ -48,11 +48,11 @@ impl GeometryCommand {
         };
         let progress = Progress::start("turning the gears through a tooth pitch");
         let check = InterferenceCheck::new(&design, thicken)?;
-        progress.tell("making curves and solids");
+        progress.stage("making curves and solids");
         let made = files(&design, &check, facets)?;
         progress.finish();
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("geometry"));
-        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        paths::create_folder(&folder)?;
         for file in &made {
             let path = folder.join(&file.name);
             fs::write(&path, &file.content).with_context(|| format!("{} cannot be written", path.display()))?;

@@ -8,7 +8,7 @@ use bevel_differential::variables::{Variable, table};
 
 use crate::gears::scene::set::{Setting, value};
 
-/// What may be set beside `geometry.*`: it takes the play out of the teeth.
+/// What may be set in addition to `geometry.*`: it removes the backlash.
 const PLAY: &str = "effects.backlash";
 /// Parameters that one value of [`SYSTEM`] reads and the others do not.
 const COEFFICIENTS: [&str; 4] =
@@ -84,13 +84,13 @@ fn settings<T: AsRef<str>>(assignments: &[T]) -> Result<Vec<Setting>, Vec<String
 
 fn setting(assignment: &str) -> Result<Setting, String> {
     let Some((name, text)) = assignment.split_once('=') else {
-        return Err(format!("\"{assignment}\" is no name=value, such as geometry.module=4mm"));
+        return Err(format!("\"{assignment}\" is not of the form name=value, such as geometry.module=4mm"));
     };
     let setting = Setting::new(name.trim(), &value(text.trim()))?;
     if counts(setting.row.name) {
         Ok(setting)
     } else {
-        Err(format!("{} does not shape the gears; what does: {}", setting.row.name, names().join(", ")))
+        Err(format!("{} does not change the geometry; parameters that do: {}", setting.row.name, names().join(", ")))
     }
 }
 

@@ -16,7 +16,7 @@ use crate::tools::table::wrapped;
 
 const MM: f64 = 1e3;
 const GEARS: [&str; 2] = ["planet", "side gear"];
-/// Approaches farther than this share of the module are not told in JSON.
+/// Approaches farther than this share of the module are left out of the JSON.
 const NEAR: f64 = 0.25;
 
 /// The check of a design.
@@ -190,7 +190,7 @@ impl InterferenceCheck {
     }
 
     /// For a program.
-    pub fn told(&self) -> InterferenceReport {
+    pub fn report(&self) -> InterferenceReport {
         let [middle, driving] = &self.stances;
         let [planets, sides] = middle.between_tips.map(f64::to_degrees);
         InterferenceReport {

@@ -66,7 +66,7 @@ pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String
         side_gear: dimensions(of_gears(), design, 1),
         pair: dimensions(of_pair(), design, 0),
         tredgold: Ordered(comparisons(design).iter().map(|found| (found.key, comparison(found))).collect()),
-        interference: check.map(InterferenceCheck::told),
+        interference: check.map(InterferenceCheck::report),
         warnings: warnings.map(|found| json!({"variable": found.variable, "message": found.message})).collect(),
     };
     Ok(serde_json::to_string_pretty(&document)? + "\n")

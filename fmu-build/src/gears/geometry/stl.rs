@@ -127,13 +127,14 @@ mod tests {
         let whole: f64 = bodies.iter().map(|b| solids[b.gear].volume() * 1e9).sum();
         assert!((volume(&triangles) / whole - 1.0).abs() < 1e-5);
         for (chunk, triangle) in bytes[HEADER_LENGTH + 4..].chunks_exact(TRIANGLE_LENGTH).zip(&triangles) {
-            let told = [0, 4, 8].map(|k| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]));
-            let length: f32 = told.iter().map(|v| v * v).sum();
+            let normal_read =
+                [0, 4, 8].map(|k| f32::from_le_bytes([chunk[k], chunk[k + 1], chunk[k + 2], chunk[k + 3]]));
+            let length: f32 = normal_read.iter().map(|v| v * v).sum();
             assert!((length - 1.0).abs() < 1e-5);
             let corners = triangle.map(|p| p.map(f64::from));
             let (a, b) = (corners[0], corners[1]);
-            let along: f64 = (0..3).map(|i| f64::from(told[i]) * (b[i] - a[i])).sum();
-            assert!(along.abs() < 1e-4, "{along} {told:?}");
+            let along: f64 = (0..3).map(|i| f64::from(normal_read[i]) * (b[i] - a[i])).sum();
+            assert!(along.abs() < 1e-4, "{along} {normal_read:?}");
         }
     }
 

@@ -1,4 +1,4 @@
-//! The dimensions for a reader: aligned tables, the planar approximation beside them, and the warnings.
+//! The dimensions for a reader: aligned tables, the planar approximation, and the warnings.
 
 use super::design::Design;
 use super::dimensions::{Dimension, DimensionGroup, of_gears, of_pair};

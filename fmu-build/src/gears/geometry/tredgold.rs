@@ -1,4 +1,4 @@
-//! The planar approximation beside the exact geometry: what a drawing made of virtual spur gears gets wrong.
+//! The planar approximation compared with the exact geometry: the errors of a drawing made of virtual spur gears.
 //!
 //! On the back cones, developed into the plane, the line of action is straight: with r_b = r cos α and legs
 //! √(r_a² − r_b²), it has the length a sin α between both base circles. Lengths are at the heel.

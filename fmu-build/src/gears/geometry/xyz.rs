@@ -10,7 +10,7 @@ use bevel_differential::geometry::involute::{Gear, direction};
 use bevel_differential::geometry::solid::Outline;
 use bevel_differential::geometry::{GearSpec, Pair};
 
-/// Points of a flank's curve unless told otherwise.
+/// Default of points of a flank's curve.
 pub const POINTS: usize = 101;
 
 /// Names of the gears of a pair in files.

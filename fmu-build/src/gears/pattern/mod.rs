@@ -25,7 +25,7 @@ use envelope::Envelope;
 use findings::PatternFindings;
 use sample::Engagement;
 
-/// Where the findings stand.
+/// The document or the marks of the findings.
 const DOCUMENT: &str = "docs/pattern.md";
 const MARKS: [&str; 2] = ["<!-- pattern:begin -->", "<!-- pattern:end -->"];
 /// Share of the bar that belongs to simulating.
@@ -54,9 +54,9 @@ impl PatternCommand {
             self.scenes.iter().map(|name| find(name).map(PatternCase::of)).collect::<Result<_>>()?
         };
         let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.tell(what))?;
+        let environment = Environment::ready(|what| progress.stage(what))?;
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("pattern"));
-        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        paths::create_folder(&folder)?;
         progress.begin_bar("simulating");
         let (mut envelopes, mut contacts, mut found) = (Envelope::file()?, Engagement::file()?, Vec::new());
         let mut outline = envelope::outline_file()?;

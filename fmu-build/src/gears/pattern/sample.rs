@@ -5,8 +5,8 @@
 //!
 //!   ρ = R / (cot ψ_p + cot ψ_s)
 //!
-//! A tip corner is no cylinder; it counts with the radii that the flanks have at the end of the path, which tells less than
-//! the edge sees. Aligned teeth have one section for all, which is spread evenly over the face here.
+//! A tip corner is no cylinder; it counts with the radii that the flanks have at the end of the path, which is less than the
+//! pressure at the edge. Aligned teeth have one section for all, which is spread evenly over the face here.
 
 use std::collections::HashMap;
 

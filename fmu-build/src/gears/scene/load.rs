@@ -1,4 +1,4 @@
-//! A scene from its TOML file. All that is wrong with it is told at once, by key, value, unit and range.
+//! A scene from its TOML file. All errors are reported at once, by key, value, unit and range.
 //!
 //! ```toml
 //! description = "what it shows"
@@ -18,7 +18,7 @@
 //! input = "carrier.speed_command"
 //! time = [0.0, 0.05]
 //! value = ["0 deg/s", "100 deg/s"]
-//! period = 0.1                           # begins anew; without it the last value stays
+//! period = 0.1                           # repeats; without it the last value stays
 //! ```
 
 use std::path::Path;
@@ -33,7 +33,7 @@ use super::set::{Setting, closest, real, variable, written};
 use super::{Event, InputTable, Scene};
 use crate::tools::paths;
 
-/// What stands in a file.
+/// The contents of a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -152,7 +152,7 @@ fn event(mut table: Table, stop: &f64, problems: &mut Vec<String>) -> Option<Eve
         }
     };
     if !(0.0..=*stop).contains(&time) {
-        problems.push(format!("[[at]] time = {time} s lies outside the scene's [0, {stop}] s"));
+        problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop}] s"));
     }
     let place = format!("[[at]] time = {time}:");
     let settings = settings(&place, &table, problems);
@@ -169,7 +169,7 @@ fn input_table(entry: InputTableEntry, problems: &mut Vec<String>) -> Option<Inp
     let row: &'static Variable = match variable(&entry.input) {
         Ok(row) if matches!(row.access, Access::Input(_)) => row,
         Ok(_) => {
-            wrong("is no input".into());
+            wrong("is not an input".into());
             return None;
         }
         Err(problem) => {
@@ -207,7 +207,7 @@ fn outputs(names: &[String], problems: &mut Vec<String>) -> Vec<&'static Variabl
     for name in names {
         match variable(name) {
             Ok(row) if matches!(row.access, Access::Output(_)) => rows.push(row),
-            Ok(_) => problems.push(format!("outputs: {name} is no output")),
+            Ok(_) => problems.push(format!("outputs: {name} is not an output")),
             Err(problem) => {
                 let all = bevel_differential::variables::table();
                 let names = all.outputs.iter().map(|&i| all.rows[i].name);

@@ -46,8 +46,8 @@ pub fn on_gears(action: &Action, pair: &Pair, load: &ToothLoad) -> [OnGear; 2] {
     })
 }
 
-/// Writes the history of `scene` to `out`, a record every `every` seconds (its communication step unless told);
-/// gives the number of lines.
+/// Writes the history of `scene` to `out`, a record every `every` seconds (by default its communication step);
+/// returns the number of lines.
 pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write) -> Result<u64> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
         bail!("scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load", scene.name);

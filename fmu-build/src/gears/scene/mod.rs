@@ -62,7 +62,7 @@ pub struct InputTable {
     pub times: Vec<f64>,
     /// Values there, in the unit of the interface.
     pub values: Vec<f64>,
-    /// Time after which it begins anew [s]; none = the last value stays.
+    /// Time after which it repeats [s]; none = the last value stays.
     pub period: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What a scene will simulate, told from its parameters before the first step.
+//! The plan of a scene: what it will simulate, from its parameters before the first step.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ fn meaning(cost: CostClass) -> &'static str {
         CostClass::ClosedForm => "closed form: no teeth, a step is a formula, whatever its length",
         CostClass::Rigid => "effects without teeth: integrated, with no motion faster than the effects' own",
         CostClass::Teeth => "plain teeth: stiff, integrated step by step; nothing is evaluated but the tooth pairs",
-        CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth with torques beside them",
+        CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
         CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",
     }
 }
@@ -119,10 +119,10 @@ fn row(name: &str) -> Option<&'static Variable> {
     table().rows.iter().find(|row| row.name == name)
 }
 
-/// What a switch switches, with the parameters of its own that differ from their start values left to the file.
+/// The effect of a switch.
 fn description(name: &str) -> String {
     let text = row(name).filter(|row| row.causality == Causality::Parameter).map_or("", |row| row.description);
-    // what follows the semicolon tells what happens without it
+    // the text after the semicolon says what happens without it
     let on = text.split(';').next().unwrap_or(text);
     let mut defaults = Parameters::default();
     let usual = row(name).is_some_and(|row| match row.access {

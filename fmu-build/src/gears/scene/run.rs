@@ -1,4 +1,4 @@
-//! Runs a scene with the library's own simulation, and sums up what it gave.
+//! Runs a scene with the library's simulation and summarises its outputs.
 
 use std::io::Write;
 use std::time::{Duration, Instant};
@@ -37,7 +37,7 @@ impl<'a> SceneRun<'a> {
         Self::attempt(scene, step).map_err(|found| anyhow!("{}", problem::list(&found))).with_context(|| refused(scene))
     }
 
-    /// The same; what does not go together is told by variable.
+    /// The same; contradictions are returned by variable.
     pub fn attempt(scene: &'a Scene, step: f64) -> Result<Self, Vec<Problem>> {
         let out_of_range = check_ranges(&scene.parameters);
         if !out_of_range.is_empty() {
@@ -139,7 +139,7 @@ pub struct Summary {
 pub struct SceneResult {
     /// One for each output of the scene.
     pub outputs: Vec<Summary>,
-    /// What the solver did.
+    /// Steps and evaluations of the solver, in words.
     pub account: String,
     /// Energy balance at the end [J].
     pub residual: f64,

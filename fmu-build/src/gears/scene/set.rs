@@ -143,7 +143,7 @@ pub fn value(text: &str) -> Value {
     }
 }
 
-/// A value as it stands in a file.
+/// A value as a file has it.
 pub fn written(value: &Value) -> String {
     match value {
         Value::String(text) => format!("\"{text}\""),

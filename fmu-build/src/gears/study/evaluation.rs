@@ -118,7 +118,7 @@ impl SimulationRequest {
     }
 }
 
-/// What the FMU starts with unless told otherwise: carrier speed [deg/s], load [N·m], stiffness [N/mm^1.5].
+/// Default inputs of the FMU: carrier speed [deg/s], load [N·m], stiffness [N/mm^1.5].
 pub fn defaults() -> [f64; 3] {
     let (parameters, inputs) = (Parameters::default(), Inputs::default());
     [inputs.carrier_speed.to_degrees(), inputs.load_torque[0], parameters.contact.stiffness / 1e3f64.powf(1.5)]

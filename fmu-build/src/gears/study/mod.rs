@@ -52,11 +52,11 @@ impl StudyCommand {
 fn run(readme: bool) -> Result<()> {
     // Python first: what the user has to install should not come out after minutes of building
     let progress = Progress::start("looking for Python");
-    let environment = Environment::ready(|what| progress.tell(what))?;
-    progress.tell("packaging the FMU");
+    let environment = Environment::ready(|what| progress.stage(what))?;
+    progress.stage("packaging the FMU");
     let fmu = package::package()?;
     let folder = paths::study();
-    fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+    paths::create_folder(&folder)?;
     let theory = Theory::new(&Parameters::default());
     let results = simulate(&environment, &fmu, &folder, &SimulationRequest::new(&theory), &progress)?;
     progress.finish();

@@ -188,7 +188,7 @@ impl CostCase {
     }
 
     /// Runs to the end, for at most `patience` seconds on the processor, and hands the simulation over at each time; or
-    /// tells why it does not come to its end.
+    /// returns why it does not run to its end.
     pub fn run(
         &self,
         mut simulation: Simulation,

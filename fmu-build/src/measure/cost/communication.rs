@@ -44,14 +44,14 @@ struct CouplingResult {
     counts: [u64; 2],
 }
 
-/// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+/// Measures, and returns the CSV file. `report` receives the fraction done and the current job.
+pub fn measure(form: &CostPlan, report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let mut rows = Vec::new();
     let mut firsts = Vec::new();
     let starts: Vec<CoupledSystem> =
         RUNS.iter().map(|(_, fidelity, _)| CoupledSystem::start(*fidelity, TOLERANCE)).collect::<Result<_>>()?;
     let share = 1.0 / (1.0 + form.runs as f64);
-    tell(0.0, "coupled run in one piece");
+    report(0.0, "coupled run in one piece");
     let references: Vec<Vec<Sample>> = RUNS
         .iter()
         .map(|(coupling, fidelity, _)| match coupling {
@@ -63,7 +63,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
         })
         .collect::<Result<_>>()?;
     for (run, (coupling, ..)) in RUNS.iter().enumerate() {
-        tell(share * run as f64 / RUNS.len() as f64, "coupled runs: errors");
+        report(share * run as f64 / RUNS.len() as f64, "coupled runs: errors");
         for &h in form.communication_steps {
             let begun = ThreadTime::now();
             let outcome = starts[run].clone().samples(h, *coupling).and_then(|(samples, counts)| {
@@ -81,13 +81,13 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
     for (row, first) in rows.iter().zip(&firsts).filter(|(row, _)| row.outcome.is_ok()) {
         let (start, coupling, h) = (&starts[row.run], RUNS[row.run].0, row.h);
         let run = Box::new(move || {
-            // it has come to its end before
+            // it has run to its end before
             let _ = start.clone().run(h, coupling, |_| {});
         });
         jobs.push(TimedJob { run, first: *first });
     }
     let times = measure::time(&mut jobs, form.runs, &mut |done| {
-        tell(share + (1.0 - share) * done, "coupled runs: times");
+        report(share + (1.0 - share) * done, "coupled runs: times");
     });
     drop(jobs);
     let measured = rows.iter_mut().filter_map(|row| row.outcome.as_mut().ok());

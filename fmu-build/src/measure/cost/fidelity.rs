@@ -1,4 +1,4 @@
-//! The ladder of fidelities: what each rung gets right, held against the richest, and what it costs.
+//! The ladder of fidelities: the error of each rung against the richest, and what it costs.
 
 use anyhow::Result;
 use bevel_differential::contact::ContactLaw;
@@ -107,8 +107,8 @@ struct LadderPoint {
     heat: f64,
 }
 
-/// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+/// Measures, and returns the CSV file. `report` receives the fraction done and the current job.
+pub fn measure(form: &CostPlan, report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let rungs: Vec<Rung> = RUNGS.into_iter().filter(|rung| rung.quick || !form.short).collect();
     let mut found = Vec::new();
     let mut jobs = Vec::new();
@@ -117,7 +117,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
         let mut parameters = case.parameters;
         for (j, rung) in rungs.iter().enumerate() {
             let done = (i * rungs.len() + j) as f64 / (SCENES.len() * rungs.len()) as f64;
-            tell(0.2 * done, &format!("ladder: {}, {}", scene.name, rung.name));
+            report(0.2 * done, &format!("ladder: {}, {}", scene.name, rung.name));
             (rung.add)(&mut parameters);
             let started = start(&parameters, &case.inputs, &case.then);
             let values =
@@ -126,7 +126,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
                 let run = Box::new(move || {
                     let mut simulation = simulation.clone();
                     for k in 1..=(scene.end / STEP).round() as u32 {
-                        // it has come to its end before
+                        // it has run to its end before
                         let _ = simulation.advance(f64::from(k) * STEP);
                     }
                 });
@@ -136,7 +136,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
         }
     }
     let mut times =
-        measure::time(&mut jobs, form.runs, &mut |done| tell(0.2 + 0.8 * done, "ladder: times")).into_iter();
+        measure::time(&mut jobs, form.runs, &mut |done| report(0.2 + 0.8 * done, "ladder: times")).into_iter();
     let spreads: Vec<Option<Spread>> =
         found.iter().map(|values| if values.is_ok() { times.next() } else { None }).collect();
     text(&rungs, &found, &spreads)

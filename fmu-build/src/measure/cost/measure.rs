@@ -1,6 +1,6 @@
-//! Times on the processor, and what is made of repeated ones.
+//! Times on the processor, from repeated runs.
 //!
-//! Jobs are run in turn, each once in a round, so that what else the machine does hits all alike. A number is the median
+//! Jobs are run in turn, each once in a round, so that other load of the machine affects all alike. A number is the median
 //! of its runs with the quartiles around it.
 
 use cpu_time::ThreadTime;
@@ -29,8 +29,8 @@ pub struct TimedJob<'a> {
     pub first: f64,
 }
 
-/// Times `jobs` in `rounds` rounds, long ones in fewer. `tell` hears how much of the work is done, a fraction.
-pub fn time(jobs: &mut [TimedJob], rounds: usize, tell: &mut dyn FnMut(f64)) -> Vec<Spread> {
+/// Times `jobs` in `rounds` rounds, long ones in fewer. `report` receives the fraction done.
+pub fn time(jobs: &mut [TimedJob], rounds: usize, report: &mut dyn FnMut(f64)) -> Vec<Spread> {
     let rounds = rounds.max(FEWEST);
     let is_due = |job: &TimedJob, round: usize| job.first < LONG || round < FEWEST;
     let all: f64 = (0..rounds)
@@ -52,7 +52,7 @@ pub fn time(jobs: &mut [TimedJob], rounds: usize, tell: &mut dyn FnMut(f64)) -> 
             }
             seconds.push(begun.elapsed().as_secs_f64() / times);
             done += job.first.max(SHORTEST);
-            tell(done / all);
+            report(done / all);
         }
     }
     seconds.iter().map(|seconds| Spread::of(seconds)).collect()
@@ -85,9 +85,9 @@ mod tests {
             let count = &counts[i];
             TimedJob { run: Box::new(move || count.set(count.get() + 1)), first }
         };
-        let mut told = 0.0;
-        let spreads = time(&mut [job(0, 0.0), job(1, 1.0)], 7, &mut |done| told = done);
+        let mut last = 0.0;
+        let spreads = time(&mut [job(0, 0.0), job(1, 1.0)], 7, &mut |done| last = done);
         assert_eq!(spreads.iter().map(|s| s.count).collect::<Vec<_>>(), [7, 5]);
-        assert!(counts[0].get() > counts[1].get() && told > 0.999);
+        assert!(counts[0].get() > counts[1].get() && last > 0.999);
     }
 }

@@ -1,8 +1,8 @@
-//! What accuracy costs: figures that the program measures of itself.
+//! What accuracy costs, measured on this machine.
 //!
 //! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
 //! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
-//! 3. Effects: what each changes in a scene, what it costs, and which the scene calls for ([`switched`]).
+//! 3. Effects: what each changes in a scene, what it costs, and which the scene needs ([`switched`]).
 //! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
 //!
 //! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
@@ -32,7 +32,7 @@ use crate::tools::python::Environment;
 use crate::tools::{paths, script, sections};
 use summary::TitledTable;
 
-/// Where the summary stands.
+/// The document or the marks of the summary.
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 /// Share of the bar that belongs to each figure, and to drawing.
@@ -96,25 +96,25 @@ impl CostCommand {
         let form = if self.quick { QUICK } else { FULL };
         // Python first: what the user has to install should not come out after minutes of measuring
         let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.tell(what))?;
+        let environment = Environment::ready(|what| progress.stage(what))?;
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("cost"));
-        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        paths::create_folder(&folder)?;
         let begun = Instant::now();
         progress.begin_bar("measuring");
-        let tell = |part: usize, done: f64, what: &str| {
+        let report = |part: usize, done: f64, what: &str| {
             let done = SHARES[..part].iter().sum::<f64>() + SHARES[part] * done;
             progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
         };
-        let found = work_precision::measure(&form, &mut |done, what| tell(0, done, what))?;
+        let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
         save(&folder, "work_precision.csv", &found.csv()?)?;
         save(
             &folder,
             "communication_step.csv",
-            &communication::measure(&form, &mut |done, what| tell(1, done, what))?,
+            &communication::measure(&form, &mut |done, what| report(1, done, what))?,
         )?;
-        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| tell(2, done, what))?)?;
-        save(&folder, "effects.csv", &switched::measure(&form, &mut |done, what| tell(3, done, what))?)?;
-        tell(4, 0.0, "drawing");
+        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| report(2, done, what))?)?;
+        save(&folder, "effects.csv", &switched::measure(&form, &mut |done, what| report(3, done, what))?)?;
+        report(4, 0.0, "drawing");
         let script = paths::workspace().join("fmu-build").join("python").join("cost.py");
         script::run(&environment, &script, &[&folder], &progress)?;
         progress.finish();
@@ -137,7 +137,7 @@ impl CostCommand {
     }
 }
 
-/// How long it will take, once that can be told.
+/// The time left, once it can be estimated.
 fn left(seconds: f64, done: f64) -> String {
     if seconds < 2.0 || done < 0.01 {
         return String::new();

@@ -2,7 +2,7 @@
 //!
 //! A reference should come from equations and a solver that are not the program's: the files tests/data/reference_*.csv
 //! are a plain model in Python as scipy integrates it at 1e-12. Where there is none, two methods of this program that
-//! share no code but the equations stand in, at 1e-11; the source is told, and so is how far it strays.
+//! share no code but the equations stand in, at 1e-11; the source is recorded with its error.
 
 use std::fs;
 
@@ -13,7 +13,7 @@ use super::cases::{CaseMotion, CostCase, Fidelity, Sample};
 use super::measure::largest_error;
 use crate::tools::paths;
 
-/// Tolerance of the methods that stand in.
+/// Tolerance of the methods that replace a reference.
 const TOLERANCE: f64 = 1e-11;
 /// Times that differ by less are the same [s].
 const SAME: f64 = 1e-9;
@@ -26,7 +26,7 @@ pub struct Reference {
     pub samples: Vec<Sample>,
     /// Where it comes from.
     pub source: String,
-    /// How far it may be off itself, as errors are told.
+    /// Its own error, in the same measure.
     pub error: [f64; 2],
 }
 
@@ -66,7 +66,7 @@ fn from_file(case: &CostCase, name: String) -> Result<Reference> {
     let path = paths::workspace().join("tests").join("data").join(&name);
     let text = fs::read_to_string(&path).with_context(|| format!("{name} cannot be read"))?;
     let samples = parse(&text, &case.times).with_context(|| name.clone())?;
-    // the file tells how far scipy's Radau is from its DOP853, by column
+    // the file states how far scipy's Radau is from its DOP853, by column
     let stray = |column: &str| -> Option<f64> {
         let (_, rest) = text
             .lines()
@@ -97,7 +97,7 @@ fn parse(text: &str, times: &[f64]) -> Result<Vec<Sample>> {
         .map(|&time| {
             let row = rows.iter().find(|row| (row[0] - time).abs() < SAME);
             let row = row.with_context(|| {
-                format!("has no row for {time} s: make it anew with tests/python/make_reference.py")
+                format!("has no row for {time} s: renew the file with tests/python/make_reference.py")
             })?;
             ensure!(row.len() == names.len(), "the row for {time} s is not complete");
             let [left, right, left_force, right_force] = columns.map(|column| row[column]);

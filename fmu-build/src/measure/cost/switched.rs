@@ -1,5 +1,5 @@
-//! Effects with verdict: for a scene, what each effect changes among all others, what it costs, and whether the scene calls
-//! for it at a wanted accuracy; as the command `effects` finds it.
+//! Effects with verdict: for a scene, what each effect changes among all others, what it costs, and whether the scene
+//! needs it at an accuracy; as the command `effects` finds it.
 
 use anyhow::Result;
 
@@ -20,8 +20,8 @@ const ACCURACY: f64 = 0.01;
 /// The part of a scene that is its start, which does not count.
 const START: f64 = 0.02;
 
-/// Does it: the CSV file. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<String> {
+/// Measures, and returns the CSV file. `report` receives the fraction done and the current job.
+pub fn measure(form: &CostPlan, report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let mut out = measured_here(
         COLUMNS,
         &[
@@ -37,7 +37,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Strin
         let question =
             Question { accuracy: ACCURACY, from: START * scene.stop_time, as_written: false, timed: form.runs > 5 };
         let found =
-            examine(&scene, &question, &mut |done, what| tell((i as f64 + done) / all, &format!("{name}: {what}")))?;
+            examine(&scene, &question, &mut |done, what| report((i as f64 + done) / all, &format!("{name}: {what}")))?;
         for row in &found.rows {
             lines(&found, row, &mut out)?;
         }

@@ -96,8 +96,8 @@ impl MethodSetting {
     }
 }
 
-/// Does it. `tell` hears how much of the work is done, and what is going on.
-pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkPrecision> {
+/// Measures. `report` receives the fraction done and the current job.
+pub fn measure(form: &CostPlan, report: &mut dyn FnMut(f64, &str)) -> Result<WorkPrecision> {
     let settings = MethodSetting::all(form);
     let cases = CostCase::all()?;
     let mut found = WorkPrecision { cases: Vec::new(), rows: Vec::new() };
@@ -105,7 +105,7 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkP
     // running once, for the errors, takes about as long as a round of measuring times
     let share = 1.0 / (1.0 + form.runs as f64);
     for (i, case) in cases.into_iter().enumerate() {
-        tell(share * i as f64 / 11.0, &format!("{}: errors", case.name()));
+        report(share * i as f64 / 11.0, &format!("{}: errors", case.name()));
         let reference = reference::of(&case)?;
         for &setting in &settings {
             let simulation = setting.start(&case)?;
@@ -128,12 +128,13 @@ pub fn measure(form: &CostPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<WorkP
         let case = &found.cases[row.case].0;
         let simulation = row.setting.start(case)?;
         let run = Box::new(move || {
-            // it has come to its end before
+            // it has run to its end before
             let _ = case.run(simulation.clone(), f64::INFINITY, |_| {});
         });
         jobs.push(TimedJob { run, first: *first });
     }
-    let times = measure::time(&mut jobs, form.runs, &mut |done| tell(share + (1.0 - share) * done, "measuring times"));
+    let times =
+        measure::time(&mut jobs, form.runs, &mut |done| report(share + (1.0 - share) * done, "measuring times"));
     drop(jobs);
     let measured = found.rows.iter_mut().filter_map(|row| row.outcome.as_mut().ok());
     measured.zip(times).for_each(|(measured, seconds)| measured.seconds = seconds);

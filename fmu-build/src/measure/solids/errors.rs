@@ -1,4 +1,4 @@
-//! What facets make wrong: a record held against that of teeth on the path of contact.
+//! What facets make wrong: a record compared with that of teeth on the path of contact.
 //!
 //! On the path of contact, away from tip corners, involutes turn each other evenly: speed and force stand still, and what
 //! moves there is of the facets alone. Where a tip corner takes load over, the teeth themselves move, and facets
@@ -11,7 +11,7 @@ use super::run::TeethPoint;
 /// Speeds nearer than this to Willis' equation are those of a contact on the path alone [deg/s].
 const EVEN: f64 = 1e-3;
 
-/// Quantities whose error is told: name in files, unit, and the order in 1/facets expected with the deepest point alone and
+/// Quantities whose error is reported: name in files, unit, and the order in 1/facets expected with the deepest point alone and
 /// with the patch.
 pub const QUANTITIES: [Quantity; 13] = [
     Quantity { name: "speed_max", unit: "deg/s", expected: [1.0, 1.0] },
@@ -43,7 +43,7 @@ pub struct Quantity {
 /// Errors of one record, in the order of [`QUANTITIES`].
 pub type Errors = [f64; QUANTITIES.len()];
 
-/// What a record shows by itself: of the left side gear.
+/// Forces and deflection of the left side gear in a record.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ForceSummary {
     /// Mean normal force [N].
@@ -91,9 +91,9 @@ fn on_path(exact: &[TeethPoint], s: usize, willis: [f64; 2]) -> Vec<Vec<usize>> 
 
 /// Errors of `points` against `exact`, both with close records from `close` on; `willis` are speeds of gears without play.
 pub fn errors(points: &[TeethPoint], exact: &[TeethPoint], close: f64, willis: [f64; 2]) -> Errors {
-    let told: Vec<(&TeethPoint, &TeethPoint)> = points.iter().zip(exact).filter(|(p, _)| p.communicates).collect();
+    let at_points: Vec<(&TeethPoint, &TeethPoint)> = points.iter().zip(exact).filter(|(p, _)| p.communicates).collect();
     let both = |of: &dyn Fn(&TeethPoint, usize) -> f64| -> Vec<f64> {
-        [0, 1].iter().flat_map(|&s| told.iter().map(move |(p, e)| of(p, s) - of(e, s))).collect()
+        [0, 1].iter().flat_map(|&s| at_points.iter().map(move |(p, e)| of(p, s) - of(e, s))).collect()
     };
     let mut apart = [Vec::new(), Vec::new()];
     for s in 0..2 {

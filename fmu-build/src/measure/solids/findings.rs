@@ -56,7 +56,7 @@ pub fn page(found: &SolidsResults) -> String {
 
 fn at(found: &SolidsResults, n: i32, both: [&TeethResult; 2]) -> String {
     let mean = found.tooth().look.mean;
-    let tell = |row: &TeethResult| {
+    let report = |row: &TeethResult| {
         let e = &row.errors[0];
         format!(
             "speed {} °/s at most and {} rms, mean force {} %, transmission error {} µm with {} µm of swing (rms), {} × the time of exact teeth, {} × real time",
@@ -69,7 +69,7 @@ fn at(found: &SolidsResults, n: i32, both: [&TeethResult; 2]) -> String {
             three(row.real_time(&found.form)),
         )
     };
-    format!("- {n} facets. Deepest point: {}. Patch: {}.\n", tell(both[0]), tell(both[1]))
+    format!("- {n} facets. Deepest point: {}. Patch: {}.\n", report(both[0]), report(both[1]))
 }
 
 /// Sentences under the table of docs/study.md.

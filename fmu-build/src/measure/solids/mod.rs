@@ -1,6 +1,6 @@
-//! What facets cost in accuracy and in time: solid teeth in the study's turn, held against exact ones.
+//! What facets cost in accuracy and in time: solid teeth in the study's turn, compared with exact teeth.
 //!
-//! Solids of 4 to 128 facets a flank run beside teeth on the path of contact ([`run`]), with the deepest point nearly alone and
+//! Solids of 4 to 128 facets a flank run together with teeth on the path of contact ([`run`]), with the deepest point nearly alone and
 //! with the patch; errors, their orders in the number of facets, and times ([`measured`], [`errors`]) become a CSV file
 //! each, figures by python/solids.py, docs/solids.md and a table in docs/study.md.
 
@@ -27,7 +27,7 @@ use run::Window;
 
 const DOCUMENT: &str = "docs/solids.md";
 const MARKS: [&str; 2] = ["<!-- solids:begin -->", "<!-- solids:end -->"];
-/// The table of ripples stands in the page about the study.
+/// The page about the study has the table of ripples.
 const STUDY: &str = "docs/study.md";
 const STUDY_MARKS: [&str; 2] = ["<!-- solids table begin -->", "<!-- solids table end -->"];
 const PICTURES: [&str; 2] = ["solids_convergence.png", "solids_cycle.png"];
@@ -65,9 +65,9 @@ impl SolidsCommand {
     /// Measures, draws and prints the tables.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.tell(what))?;
+        let environment = Environment::ready(|what| progress.stage(what))?;
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("solids"));
-        fs::create_dir_all(&folder).with_context(|| format!("{} cannot be made", folder.display()))?;
+        paths::create_folder(&folder)?;
         progress.begin_bar("measuring");
         let form = if self.quick { QUICK } else { FULL };
         let found = results::measure(form, &mut |done, what| progress.advance(0.95 * done, what))?;
@@ -112,7 +112,7 @@ fn page(found: &SolidsResults) -> String {
     .join("\n")
 }
 
-/// Whether solids come to exact teeth; whether they are faster than real time is only told, as machines differ.
+/// Whether solids come to exact teeth; whether they are faster than real time is only reported, as machines differ.
 fn verdict(found: &SolidsResults) -> Result<()> {
     for (facets, bound) in BOUNDS {
         let Some(row) = found.solid(facets, 1) else { continue };

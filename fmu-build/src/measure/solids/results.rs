@@ -87,8 +87,8 @@ impl SolidsResults {
     }
 }
 
-/// Does it; `tell` hears how much is done.
-pub fn measure(form: SolidsPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<SolidsResults> {
+/// Measures; `report` receives the fraction done and the current job.
+pub fn measure(form: SolidsPlan, report: &mut dyn FnMut(f64, &str)) -> Result<SolidsResults> {
     let solids = SMOOTHINGS
         .iter()
         .flat_map(|&smoothing| form.facets.iter().map(move |&facets| Teeth(Some(Solid { facets, smoothing }))));
@@ -96,7 +96,7 @@ pub fn measure(form: SolidsPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Soli
     let mut records: Vec<[TeethRecord; 2]> = Vec::new();
     let mut ready: Vec<Simulation> = Vec::new();
     for (i, teeth) in all.iter().enumerate() {
-        tell(0.5 * i as f64 / all.len() as f64, &teeth.name());
+        report(0.5 * i as f64 / all.len() as f64, &teeth.name());
         records.push([teeth.record(TIGHT, form.window, true)?, teeth.record(USUAL, form.window, false)?]);
         ready.push(teeth.start(USUAL)?);
     }
@@ -107,18 +107,18 @@ pub fn measure(form: SolidsPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Soli
             run: Box::new(move || {
                 let mut simulation = simulation.clone();
                 for k in 1..=end {
-                    // it has come to its end before
+                    // it has run to its end before
                     let _ = simulation.advance(f64::from(k) * STEP);
                 }
             }),
             first: 0.1,
         })
         .collect();
-    let times = measure::time(&mut jobs, form.runs, &mut |done| tell(0.5 + 0.5 * done, "times"));
+    let times = measure::time(&mut jobs, form.runs, &mut |done| report(0.5 + 0.5 * done, "times"));
     drop(jobs);
     let willis = willis(ready.first());
     let exact = records[0][0].points.clone();
-    let told: Vec<TeethPoint> = exact.iter().filter(|p| p.communicates).copied().collect();
+    let at_points: Vec<TeethPoint> = exact.iter().filter(|p| p.communicates).copied().collect();
     let close = form.window.close;
     let rows = all
         .iter()
@@ -128,7 +128,7 @@ pub fn measure(form: SolidsPlan, tell: &mut dyn FnMut(f64, &str)) -> Result<Soli
             teeth,
             errors: [
                 errors::errors(&tight.points, &exact, close, willis),
-                errors::errors(&usual.points, &told, close, willis),
+                errors::errors(&usual.points, &at_points, close, willis),
             ],
             look: errors::look(&tight.points, close),
             path_ripple: errors::path_ripple(&tight.points, &exact, close, willis),
