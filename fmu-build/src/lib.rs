@@ -1,40 +1,17 @@
-//! Tools around the FMU: its model description, its archive, and the study and tests run on it by fmpy.
+//! Commands around the FMU, in rooms by reader. Arrows point down this list and never back: a check may use everything
+//! above it, a tool uses no other room. [`command_line`] joins the commands of all rooms.
+//!
+//! - [`tools`]: shared tools without gears in them
+//! - [`fmu`]: builds the FMU
+//! - [`gears`]: what a user of gears runs
+//! - [`measure`]: what accuracy, solids and couplings cost, also in other programs
+//! - [`check`]: what must hold before a change lands
 
 #![warn(missing_docs)]
 
-pub mod columns;
-pub mod comparison;
-pub mod cost;
-pub mod describe;
-pub mod documentation;
-pub mod drivetrain;
-pub mod effects;
-pub mod evaluation;
-pub mod foreign;
-pub mod fuzz;
-pub mod geometry;
-pub mod hosts;
-pub mod libraries;
-pub mod licences;
-pub mod marked;
-pub mod memory;
-pub mod off;
-pub mod package;
-pub mod pattern;
-pub mod peers;
-pub mod places;
-pub mod plain_types;
-pub mod platforms;
-pub mod progress;
-pub mod published;
-pub mod python;
-pub mod real_time;
-pub mod report;
-pub mod scene;
-pub mod script;
-pub mod solids;
-pub mod stepping;
-pub mod study;
-pub mod theory;
-pub mod toolchains;
-pub mod xml;
+pub mod check;
+pub mod command_line;
+pub mod fmu;
+pub mod gears;
+pub mod measure;
+pub mod tools;

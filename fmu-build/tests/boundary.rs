@@ -3,8 +3,9 @@
 use std::ffi::OsString;
 use std::process::Command;
 
-use fmu_build::fuzz::{self, Function, Tally};
-use fmu_build::{memory, package};
+use fmu_build::check::fuzz::{self, Function, Tally};
+use fmu_build::check::memcheck;
+use fmu_build::fmu::package;
 
 /// Calls of the short run.
 const CALLS: usize = 4000;
@@ -66,8 +67,8 @@ fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
 #[cfg(target_os = "linux")]
 fn host(name: &str, further: &[OsString]) -> String {
     let library = package::build_library("bevel-differential").unwrap();
-    let program = memory::compiled(name, &[]).unwrap();
-    let output = Command::new(&program).args(memory::arguments(&library).unwrap()).args(further).output().unwrap();
+    let program = memcheck::compiled(name, &[]).unwrap();
+    let output = Command::new(&program).args(memcheck::arguments(&library).unwrap()).args(further).output().unwrap();
     std::fs::remove_file(&program).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
@@ -82,7 +83,7 @@ fn a_host_in_c_leads_instances_of_both_kinds_through_their_lives() {
 #[test]
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 fn what_belongs_to_the_host_stays_as_it_was() {
-    let said = host("surroundings", &[memory::reference("inertia.left_end").unwrap()]);
+    let said = host("surroundings", &[memcheck::reference("inertia.left_end").unwrap()]);
     // numbers too small to be normal play no part
     assert!(said.contains("flush_to_zero 0\n"), "{said}");
     // other ways to round move the speed by less than the solver's tolerance

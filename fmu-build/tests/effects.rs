@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::effects::bench::FULL;
-use fmu_build::effects::switches::{self, Standing};
-use fmu_build::effects::verdict::Verdict;
-use fmu_build::effects::{Finding, Findings, Question, csv, examine, reduced, table};
-use fmu_build::scene::run::run;
-use fmu_build::scene::{Scene, load};
+use fmu_build::gears::effects::bench::FULL;
+use fmu_build::gears::effects::switches::{self, Standing};
+use fmu_build::gears::effects::verdict::Verdict;
+use fmu_build::gears::effects::{Finding, Findings, Question, csv, examine, reduced, table};
+use fmu_build::gears::scene::run::run;
+use fmu_build::gears::scene::{Scene, load};
 
 /// No teeth, 50 rad/s, 99 N.m on each side.
 const IDEAL: &str = r#"
@@ -198,7 +198,7 @@ fn the_reduced_scene_is_the_file_with_other_switches_and_runs_to_the_same_bits()
 
 #[test]
 fn a_reduced_scene_goes_to_a_file_that_is_not_there_yet() -> Result<()> {
-    let folder = fmu_build::places::target().join("test-effects").join(std::process::id().to_string());
+    let folder = fmu_build::tools::paths::target().join("test-effects").join(std::process::id().to_string());
     std::fs::create_dir_all(&folder)?;
     let original = folder.join("drag.toml");
     std::fs::write(&original, format!("{IDEAL}{DRAG}"))?;

@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
-use fmu_build::geometry::command::{Geometry, files};
-use fmu_build::geometry::design::{Design, parameters};
-use fmu_build::geometry::dimensions::{Group, of_gears, of_pair};
-use fmu_build::geometry::interference::Check;
-use fmu_build::geometry::{json, text, tredgold};
+use fmu_build::gears::geometry::command::{GeometryCommand, files};
+use fmu_build::gears::geometry::design::{Design, parameters};
+use fmu_build::gears::geometry::dimensions::{DimensionGroup, of_gears, of_pair};
+use fmu_build::gears::geometry::interference::InterferenceCheck;
+use fmu_build::gears::geometry::{json, text, tredgold};
 use serde_json::Value;
 
 fn workspace() -> PathBuf {
@@ -192,7 +192,7 @@ fn text_and_json_have_the_same_rows_with_the_same_numbers() -> Result<()> {
     let (text, document) = (text::text(&design), document(&design)?);
     let lines: Vec<&str> = text.lines().collect();
     let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let check = |groups: &[Group], parts: &[&str]| {
+    let check = |groups: &[DimensionGroup], parts: &[&str]| {
         for row in groups.iter().flat_map(|group| &group.rows) {
             let values = parts.iter().map(|part| {
                 let entry = &document[part][row.key];
@@ -262,18 +262,18 @@ fn refused(settings: &[&str]) -> String {
 }
 
 #[test]
-fn what_is_wrong_is_told_at_once_with_name_range_and_unit() {
+fn errors_are_reported_at_once_with_name_range_and_unit() {
     let told =
         refused(&["geometry.modul=4mm", "geometry.backlash=60mm", "geometry.planet_teeth=ten", "geometry.module"]);
     assert!(told.contains("no variable \"geometry.modul\"; did you mean geometry.module?"), "{told}");
     assert!(told.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"), "{told}");
     assert!(told.contains("geometry.planet_teeth = \"ten\": must be a whole number"), "{told}");
-    assert!(told.contains("\"geometry.module\" is no name=value"), "{told}");
+    assert!(told.contains("\"geometry.module\" is not of the form name=value"), "{told}");
     assert!(refused(&["module=4mm"]).contains("did you mean geometry.module?"));
     assert!(refused(&["geometry.module=4"]).contains("did you mean 4 mm"));
     assert!(refused(&["geometry.module=4mm", "geometry.module=5mm"]).contains("geometry.module is set twice"));
     assert!(refused(&["geometry.planet_addendum=1.2"]).contains("changes nothing without"));
-    assert!(refused(&["contact.law=line"]).contains("does not shape the gears"));
+    assert!(refused(&["contact.law=line"]).contains("does not change the geometry"));
     assert!(refused(&["geometry.shaft_angle=80deg"]).contains("only at 90 deg"));
 }
 
@@ -281,11 +281,11 @@ fn what_is_wrong_is_told_at_once_with_name_range_and_unit() {
 fn gears_that_cannot_be_built_are_refused_with_all_reasons_and_nothing_is_written() {
     let folder = std::env::temp_dir().join(format!("geometry-refused-{}", std::process::id()));
     let set = ["geometry.face_width=41mm", "geometry.planet_count=3", "geometry.planet_bore=60mm"];
-    let command = Geometry {
+    let command = GeometryCommand {
         set: set.map(str::to_owned).to_vec(),
         facets: Some("0".into()),
         out: Some(folder.clone()),
-        ..Geometry::default()
+        ..GeometryCommand::default()
     };
     let told = command.run().err().map_or_else(String::new, |error| format!("{error:#}"));
     for reason in ["no teeth at the toe", "cannot be assembled", "root circle at the toe", "--facets 0: must be"] {
@@ -297,9 +297,9 @@ fn gears_that_cannot_be_built_are_refused_with_all_reasons_and_nothing_is_writte
 #[test]
 fn the_command_writes_what_it_makes() -> Result<()> {
     let folder = std::env::temp_dir().join(format!("geometry-written-{}", std::process::id()));
-    Geometry { out: Some(folder.clone()), ..Geometry::default() }.run()?;
+    GeometryCommand { out: Some(folder.clone()), ..GeometryCommand::default() }.run()?;
     let design = Design::new::<&str>(&[])?;
-    let made = files(&design, &Check::new(&design, 0.0)?, 32)?;
+    let made = files(&design, &InterferenceCheck::new(&design, 0.0)?, 32)?;
     assert!(made.iter().any(|file| file.name == "dimensions.txt"));
     for file in made {
         assert_eq!(fs::read(folder.join(&file.name))?, file.content, "{}", file.name);
@@ -316,42 +316,5 @@ fn the_excerpt_in_the_documentation_is_what_the_program_prints() -> Result<()> {
     for line in excerpt.lines().filter(|line| line.trim() != "...") {
         assert!(text.lines().any(|printed| printed == line), "not printed: {line}");
     }
-    Ok(())
-}
-
-/// The text of a check without its line breaks.
-fn words(check: &Check) -> String {
-    check.text().split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-#[test]
-fn the_gears_of_the_study_turn_freely_and_thicker_ones_are_told_where_and_how_deep() -> Result<()> {
-    let design = Design::new::<&str>(&[])?;
-    let told = |check: &Check| -> Result<Value> { Ok(serde_json::from_str(&json::text(&design, Some(check))?)?) };
-    let free = Check::new(&design, 0.0)?;
-    assert!(!free.any() && free.text().contains("no interference"), "{}", free.text());
-    assert_eq!(told(&free)?["interference"]["found"], Value::Bool(false));
-    let documentation = fs::read_to_string(workspace().join("docs").join("geometry.md"))?;
-    assert!(documentation.contains(&free.text()), "docs/geometry.md should have\n{}", free.text());
-    // 0.1 mm of backlash, less 0.2 mm: half of 0.1 mm cos α at the heel
-    let thick = Check::new(&design, 2e-4)?;
-    let depth = 0.05 * 20f64.to_radians().cos();
-    assert!(thick.any() && words(&thick).contains(&format!("by {depth:.4} mm at the heel")), "{}", thick.text());
-    let middle = &told(&thick)?["interference"]["middle"];
-    let worst = &middle["approaches"][0];
-    assert_eq!((&worst["planet"], &worst["side_gear"]), (&Value::from("flank"), &Value::from("flank")));
-    let gap = worst["at_heel"].as_f64().context("a number")?;
-    assert!((gap + depth).abs() < middle["resolution"].as_f64().context("a number")?, "{worst}");
-    Ok(())
-}
-
-#[test]
-fn a_tip_beyond_its_limit_is_told_by_gear_and_part() -> Result<()> {
-    let check = Check::new(&Design::new(&["geometry.addendum_system=standard"])?, 0.0)?;
-    let text = words(&check);
-    assert!(text.contains("the side gear's tip enters the planet's flank below the base circle by 0.0"), "{text}");
-    let mitre = ["geometry.planet_teeth=14", "geometry.side_teeth=14", "geometry.planet_count=4"];
-    let check = Check::new(&Design::new(&mitre)?, 0.0)?;
-    assert!(check.any() && words(&check).contains("tip cones of neighbouring planets overlap"), "{}", check.text());
     Ok(())
 }

@@ -3,23 +3,20 @@
 use std::fs;
 
 use anyhow::Result;
-use fmu_build::{describe, libraries, package, places};
+use fmu_build::fmu::{describe, libraries, package};
+use fmu_build::tools::paths;
 
 #[test]
 fn the_model_description_in_the_repository_is_the_table_s() -> Result<()> {
-    let file = places::model_description();
-    assert!(
-        !describe::is_stale(&file)?,
-        "{} is stale; renew it: cargo run --release -- describe",
-        places::shown(&file)
-    );
+    let file = paths::model_description();
+    assert!(!describe::is_stale(&file)?, "{} is stale; renew it: cargo run --release -- describe", paths::shown(&file));
     Ok(())
 }
 
 #[test]
 fn packing_twice_gives_the_same_bytes() -> Result<()> {
     let libraries = libraries::build()?.built;
-    let folder = places::target().join("same-bytes");
+    let folder = paths::target().join("same-bytes");
     let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
     for archive in &archives {
         package::write_archive(&libraries, archive)?;

@@ -2,18 +2,17 @@
 
 use bevel_differential::contact::errors::ToothErrorSpec;
 use bevel_differential::model::GearContact;
-use fmu_build::cost::csv;
-use fmu_build::pattern::cases::{Case, turn};
-use fmu_build::pattern::envelope::Envelope;
-use fmu_build::pattern::findings::{Findings, centroid, markdown};
-use fmu_build::pattern::sample::{Contact, Record};
+use fmu_build::gears::pattern::cases::{PatternCase, turn};
+use fmu_build::gears::pattern::envelope::Envelope;
+use fmu_build::gears::pattern::findings::{PatternFindings, centroid, markdown};
+use fmu_build::gears::pattern::sample::{Engagement, LoadedSection};
 
-fn record(errors: &ToothErrorSpec) -> Record {
-    Record::new(&turn(errors).expect("a scene")).expect("an engagement")
+fn record(errors: &ToothErrorSpec) -> Engagement {
+    Engagement::new(&turn(errors).expect("a scene")).expect("an engagement")
 }
 
-fn case(errors: &ToothErrorSpec) -> Case {
-    Case { name: "case".into(), title: "a case, shown".into(), scene: turn(errors).expect("a scene") }
+fn case(errors: &ToothErrorSpec) -> PatternCase {
+    PatternCase { name: "case".into(), title: "a case, shown".into(), scene: turn(errors).expect("a scene") }
 }
 
 #[test]
@@ -21,13 +20,13 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
     let errors = ToothErrorSpec::default();
     let record = record(&errors);
     let gear = &record.pair.gears[0];
-    let all: Vec<&Contact> = record.engagement().collect();
+    let all: Vec<&LoadedSection> = record.engagement().collect();
     let (first, last) = (all[0], all[all.len() - 1]);
     assert!(first.corner && last.corner && first.s < record.pair.path.low && last.s > record.pair.path.high);
     assert!(first.polar[0] < gear.pitch && (last.polar[0] - gear.tip).abs() < 0.01);
     // light at both ends, and one pair bears all of the mesh at the pitch point
     let pitch = record.at_pitch_point();
-    let force = |line: &[Contact]| line.iter().map(Contact::force).sum::<f64>();
+    let force = |line: &[LoadedSection]| line.iter().map(LoadedSection::force).sum::<f64>();
     assert!(first.line_load < 0.1 * pitch[0].line_load && last.line_load < 0.1 * pitch[0].line_load);
     let torque = force(&pitch) * record.pair.mean_cone * record.pair.lever()[1];
     assert!((torque / (835.0 / 2.0) - 1.0).abs() < 0.01, "{torque}");
@@ -40,7 +39,7 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
         let arcs: f64 = (0..2).map(|i| record.pair.gears[i].action_arc(c.polar[i])).sum();
         assert!((arcs - record.pair.line_of_action()).abs() < 2e-3, "{arcs}");
     }
-    let found = Findings::new(&case(&errors), &record).expect("findings");
+    let found = PatternFindings::new(&case(&errors), &record).expect("findings");
     assert!(found.drive && found.bearing > 0.999 && (found.ends[0] / found.ends[1] - 1.0).abs() < 1e-9);
     assert!(markdown(&[found]).contains("| a case, shown | drive |"));
     let envelope = Envelope::new(&record);
@@ -55,26 +54,32 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
 fn a_pin_moved_forward_takes_load_to_the_toe_and_files_are_whole() {
     let errors = ToothErrorSpec { axis_offset: 3e-5, ..ToothErrorSpec::default() };
     let record = record(&errors);
-    let found = Findings::new(&case(&errors), &record).expect("findings");
+    let found = PatternFindings::new(&case(&errors), &record).expect("findings");
     assert!(found.drive && found.centroid < -2e-4 && found.ends[0] > 1.1 * found.ends[1], "{found:?}");
     // e = −ε cosα on planet 1 and +ε cosα on planet 2 under one approach a: (a + e)^1.5 shares the torque
     let record = &record;
     let pitch = record.at_pitch_point();
-    let line = pitch.iter().map(Contact::force).sum::<f64>();
+    let line = pitch.iter().map(LoadedSection::force).sum::<f64>();
     assert!(line > 1.35 * 16.0e3 && line < 1.6 * 16.0e3, "{line}");
-    let (mut contacts, mut envelope) = (Record::head(), Envelope::head());
-    record.rows("case", &mut contacts);
-    Envelope::new(record).rows("case", &mut envelope);
-    csv::ensure_whole("contacts.csv", &contacts).expect("whole");
-    csv::ensure_whole("pattern.csv", &envelope).expect("whole");
-    csv::ensure_whole("summary.csv", &fmu_build::pattern::findings::csv(&[found])).expect("whole");
+    let (mut contacts, mut envelope) = (Engagement::file().expect("a file"), Envelope::file().expect("a file"));
+    record.rows("case", &mut contacts).expect("rows");
+    Envelope::new(record).rows("case", &mut envelope).expect("rows");
+    let summary = fmu_build::gears::pattern::findings::csv(&[found]);
+    for text in [contacts.text(), envelope.text(), summary] {
+        let text = text.expect("a file");
+        let mut rows = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+        let rows: Vec<csv::StringRecord> = rows.records().collect::<Result<_, _>>().expect("rows of one length");
+        assert!(!rows.is_empty());
+        let is_hole = |cell: &str| ["", "-", "NaN", "inf"].contains(&cell);
+        assert!(!rows.iter().any(|row| row.iter().any(is_hole)), "{text}");
+    }
 }
 
 #[test]
 fn scenes_without_solid_teeth_and_scenes_too_short_are_refused() {
     let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
     scene.stop_time = 0.1;
-    assert!(Record::new(&scene).expect_err("too short").to_string().contains("parted again"));
+    assert!(Engagement::new(&scene).expect_err("too short").to_string().contains("parted again"));
     scene.parameters.scene.gear_contact = GearContact::Tooth;
-    assert!(Record::new(&scene).expect_err("no solids").to_string().contains("scene.gear_contact"));
+    assert!(Engagement::new(&scene).expect_err("no solids").to_string().contains("scene.gear_contact"));
 }

@@ -1,8 +1,8 @@
 //! The packaged FMU in a host that the project did not write.
 
 use anyhow::Result;
-use fmu_build::package;
-use fmu_build::python::Environment;
+use fmu_build::fmu::package;
+use fmu_build::tools::python::Environment;
 
 #[test]
 fn the_fmu_passes_its_python_tests() -> Result<()> {

@@ -1,17 +1,17 @@
-//! The scenes of the repository run, and files that are wrong are told what is wrong with them.
+//! The scenes of the repository run, and errors in files are reported.
 
 use std::path::Path;
 
 use anyhow::Result;
-use fmu_build::scene::run::{Outcome, Run, run};
-use fmu_build::scene::{Scene, Track, files, find, load, loads, plan};
+use fmu_build::gears::scene::run::{SceneResult, SceneRun, run};
+use fmu_build::gears::scene::{InputTable, Scene, files, find, load, loads, plan};
 
 /// Communication steps that every scene has to take here.
 const STEPS: u64 = 20;
 /// Energy residual over the energy that goes through; solvers run at their start tolerance.
 const BALANCE: f64 = 1e-6;
 
-fn named(outcome: &Outcome, name: &str) -> fmu_build::scene::run::Summary {
+fn named(outcome: &SceneResult, name: &str) -> fmu_build::gears::scene::run::Summary {
     *outcome.outputs.iter().find(|output| output.row.name == name).expect(name)
 }
 
@@ -22,8 +22,8 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
     for file in files {
         let scene = load::load(&file)?;
         assert!(!scene.description.is_empty() && !scene.outputs.is_empty(), "{}", scene.name);
-        let told = plan::text(&scene, &Run::start(&scene, scene.step)?.simulation);
-        assert!(told.contains("cost class") && told.contains("states"), "{told}");
+        let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
+        assert!(text.contains("cost class") && text.contains("states"), "{text}");
         let outcome = run(&scene, Some(STEPS), None)?;
         for output in &outcome.outputs {
             let finite = [output.min, output.mean, output.max, output.end].iter().all(|x| x.is_finite());
@@ -68,7 +68,7 @@ fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
 #[test]
 fn half_shafts_start_wound_up_by_what_accelerates_their_wheels() -> Result<()> {
     let scene = find("split_friction")?;
-    let mut run = Run::start(&scene, scene.step)?;
+    let mut run = SceneRun::start(&scene, scene.step)?;
     // carrier imposed: both wheels part with a = (T_R - T_L)/(J_L + J_R), but for the light gears
     let ([left, right], [j_left, j_right]) = ([700.0, 835.0], [0.9, 1.1]);
     let wanted = left + j_left * (right - left) / (j_left + j_right);
@@ -116,8 +116,8 @@ fn scenes_without_teeth_have_no_loads() -> Result<()> {
 
 #[test]
 fn the_documentation_lists_the_scenes_as_the_command_does() -> Result<()> {
-    let page = std::fs::read_to_string(fmu_build::places::workspace().join("docs").join("scenes.md"))?;
-    assert!(page.contains(&fmu_build::scene::list()?), "docs/scenes.md: renew the list by `fmu-build scene`");
+    let page = std::fs::read_to_string(fmu_build::tools::paths::workspace().join("docs").join("scenes.md"))?;
+    assert!(page.contains(&fmu_build::gears::scene::list()?), "docs/scenes.md: renew the list by `fmu-build scene`");
     Ok(())
 }
 
@@ -168,13 +168,13 @@ fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
     let outputs = load::parse("test", Path::new("t"), &FRAME.replace("left.speed", "left.sped")).err().expect("wrong");
     assert!(format!("{outputs:#}").contains("did you mean left.speed?"));
     let missing = find("study_strait").err().expect("no such scene").to_string();
-    assert!(missing.contains("did you mean study_straight?"), "{missing}");
+    assert!(missing.contains("did you mean 'study_straight'?"), "{missing}");
 }
 
 #[test]
 fn contradictions_are_told_at_the_start_by_name() -> Result<()> {
     let scene = parsed("[set]\nscene.gear_contact = \"ideal\"\neffects.tooth_friction = true")?;
-    let problem = Run::start(&scene, scene.step).err().map(|error| format!("{error:#}")).expect("a contradiction");
+    let problem = SceneRun::start(&scene, scene.step).err().map(|error| format!("{error:#}")).expect("a contradiction");
     assert!(problem.contains("effects.tooth_friction"), "{problem}");
     Ok(())
 }
@@ -182,7 +182,7 @@ fn contradictions_are_told_at_the_start_by_name() -> Result<()> {
 #[test]
 fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Result<()> {
     let scene = parsed("[[at]]\ntime = 0.0105\ncarrier.speed_command = 40.0\n")?;
-    let mut run = Run::start(&scene, scene.step)?;
+    let mut run = SceneRun::start(&scene, scene.step)?;
     let mut times = Vec::new();
     while !run.is_over() {
         run.advance()?;
@@ -197,15 +197,15 @@ fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Re
 #[test]
 fn tables_go_straight_from_point_to_point_and_begin_anew() -> Result<()> {
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0.1, 0.3]\nvalue = [1.0, \"5 N.m\"]\n";
-    let at = |track: &Track, time| (track.at(time) * 1e6).round() / 1e6;
+    let at = |input_table: &InputTable, time| (input_table.at(time) * 1e6).round() / 1e6;
     let scene = parsed(table)?;
-    let track = &scene.tracks[0];
+    let input_table = &scene.input_tables[0];
     assert_eq!(
-        [at(track, 0.0), at(track, 0.1), at(track, 0.2), at(track, 0.3), at(track, 9.0)],
+        [at(input_table, 0.0), at(input_table, 0.1), at(input_table, 0.2), at(input_table, 0.3), at(input_table, 9.0)],
         [1.0, 1.0, 3.0, 5.0, 5.0]
     );
     let again = parsed(&format!("{table}period = 0.4\n"))?;
-    assert_eq!([at(&again.tracks[0], 0.6), at(&again.tracks[0], 0.85)], [3.0, 1.0]);
+    assert_eq!([at(&again.input_tables[0], 0.6), at(&again.input_tables[0], 0.85)], [3.0, 1.0]);
     assert_eq!(scene.inputs.load_torque[0], 1.0);
     Ok(())
 }

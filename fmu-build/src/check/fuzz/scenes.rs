@@ -1,0 +1,122 @@
+//! Instances brought to where steps happen: scenes and effects at random.
+
+use bevel_differential::fmi2::*;
+use bevel_differential::variables::{Access, table};
+
+use super::random::Random;
+use super::unit::Unit;
+
+/// Scenes that are tried before the study's own is taken.
+const TRIES: usize = 4;
+/// Integers and choices that make a scene.
+const CHOICES: [&str; 9] = [
+    "scene.gear_contact",
+    "scene.carrier_drive",
+    "scene.left_drive",
+    "scene.right_drive",
+    "scene.planet_spin",
+    "scene.start",
+    "contact.law",
+    "contact.damping_model",
+    "solver.method",
+];
+/// Level of solid teeth, which cost most.
+const SOLID: i32 = 4;
+/// The explicit method.
+const EXPLICIT: i32 = bevel_differential::model::Method::DormandPrince as i32;
+
+/// Brings a fresh or reset instance to a running simulation; whether that succeeded.
+pub fn start(unit: &Unit, r: &mut Random) -> bool {
+    for attempt in 0..=TRIES {
+        // SAFETY: a live component
+        unsafe { fmi2Reset(unit.c) };
+        if attempt < TRIES {
+            draw(unit, r);
+        }
+        // SAFETY: a live component
+        let statuses = unsafe {
+            [
+                fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
+                fmi2EnterInitializationMode(unit.c),
+                fmi2ExitInitializationMode(unit.c),
+            ]
+        };
+        if statuses == [Status::Ok; 3] {
+            if unit.kind == MODEL_EXCHANGE {
+                // SAFETY: a live component and a place for the answer
+                unsafe {
+                    fmi2NewDiscreteStates(unit.c, &mut EventInfo::default());
+                    fmi2EnterContinuousTimeMode(unit.c);
+                }
+            }
+            return true;
+        }
+    }
+    false
+}
+
+fn draw(unit: &Unit, r: &mut Random) {
+    let mut integers: Vec<(&str, i32)> = vec![("geometry.planet_count", 2 + r.below(3) as i32), ("solid.facets", 4)];
+    for name in CHOICES {
+        let Some(Access::Enumeration(kind, ..)) = find(name).map(|i| table().rows[i].access) else { continue };
+        if r.chance(2) {
+            let value = r.pick(kind.choices).value;
+            let dear = name == "scene.gear_contact" && value == SOLID && !r.chance(8);
+            integers.push((name, if dear { 1 } else { value }));
+        }
+    }
+    // an explicit method may take all attempts that it is granted for a step, which is seconds, and on solids minutes
+    let solid = integers.contains(&("scene.gear_contact", SOLID));
+    if solid || integers.contains(&("solver.method", EXPLICIT)) && !r.chance(10) {
+        integers.retain(|(name, _)| *name != "solver.method");
+    }
+    for (name, value) in integers {
+        if let Some(i) = find(name) {
+            // SAFETY: a live component and one value
+            unsafe { fmi2SetInteger(unit.c, &(i as u32), 1, &value) };
+        }
+    }
+    for (i, row) in table().rows.iter().enumerate().filter(|(_, row)| row.name.starts_with("effects.")) {
+        if matches!(row.access, Access::Boolean(_)) && r.chance(4) {
+            // SAFETY: a live component and one value
+            unsafe { fmi2SetBoolean(unit.c, &(i as u32), 1, &(r.below(2) as i32)) };
+        }
+    }
+    for (name, value) in [("inertia.left_end", 0.5), ("inertia.right_end", 0.5), ("lock.command", 1.0)] {
+        if let (true, Some(i)) = (r.chance(2), find(name)) {
+            // SAFETY: a live component and one value
+            unsafe { fmi2SetReal(unit.c, &(i as u32), 1, &value) };
+        }
+    }
+}
+
+fn find(name: &str) -> Option<usize> {
+    table().rows.iter().position(|row| row.name == name)
+}
+
+/// What the study's own scene gives after a reset, bit by bit: three steps, or rates and indicators at the start.
+pub fn study(unit: &Unit) -> Option<Vec<u64>> {
+    // SAFETY, for all: a live component and room for the counts passed
+    unsafe {
+        let mut statuses = vec![
+            fmi2Reset(unit.c),
+            fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
+            fmi2EnterInitializationMode(unit.c),
+            fmi2ExitInitializationMode(unit.c),
+        ];
+        let mut numbers = vec![f64::NAN; bevel_differential::model::STATES + EVENT_INDICATORS];
+        if unit.kind == MODEL_EXCHANGE {
+            let (rates, indicators) = numbers.split_at_mut(bevel_differential::model::STATES);
+            statuses.push(fmi2GetDerivatives(unit.c, rates.as_mut_ptr(), rates.len()));
+            statuses.push(fmi2GetEventIndicators(unit.c, indicators.as_mut_ptr(), indicators.len()));
+        } else {
+            statuses.extend([0.0, 1e-3, 2e-3].map(|t| fmi2DoStep(unit.c, t, 1e-3, 1)));
+            let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
+            numbers.resize(outputs.len(), f64::NAN);
+            statuses.push(fmi2GetReal(unit.c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
+        }
+        unit.said();
+        let fine = statuses.iter().all(|&status| status == Status::Ok);
+        fine.then(|| numbers.into_iter().map(f64::to_bits).collect())
+    }
+}

@@ -1,0 +1,44 @@
+//! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
+//! time, other hosts or other platforms.
+
+pub mod fuzz;
+pub mod hosts;
+pub mod memcheck;
+pub mod platforms;
+pub mod python_tests;
+pub mod real_time;
+pub mod stepping;
+pub mod zero_cost;
+
+use anyhow::Result;
+use clap::Subcommand;
+
+/// A command that checks.
+#[derive(Subcommand)]
+#[allow(missing_docs)] // each command describes itself
+pub enum CheckCommand {
+    TestPython(python_tests::TestPythonCommand),
+    #[command(alias = "off")]
+    ZeroCost(zero_cost::ZeroCostCommand),
+    RealTime(real_time::RealTimeCommand),
+    Fuzz(fuzz::FuzzCommand),
+    #[command(alias = "memory")]
+    Memcheck(memcheck::MemcheckCommand),
+    Hosts(hosts::HostsCommand),
+    Platforms(platforms::PlatformsCommand),
+}
+
+impl CheckCommand {
+    /// Runs the command.
+    pub fn run(self) -> Result<()> {
+        match self {
+            Self::TestPython(command) => command.run(),
+            Self::ZeroCost(command) => command.run(),
+            Self::RealTime(command) => command.run(),
+            Self::Fuzz(command) => command.run(),
+            Self::Memcheck(command) => command.run(),
+            Self::Hosts(command) => command.run(),
+            Self::Platforms(command) => command.run(),
+        }
+    }
+}

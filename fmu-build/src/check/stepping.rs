@@ -1,0 +1,50 @@
+//! The program that takes communication steps and nothing else, and the instructions it executes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+
+use crate::tools::paths;
+
+/// Builds the stepping program with the effects `kept` alone and returns a copy of it.
+pub fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
+    let target = paths::target().join("off");
+    let output = Command::new(env!("CARGO"))
+        .current_dir(paths::workspace())
+        .args(["build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench", "--quiet"])
+        .args(["--no-default-features", "--features", &kept.join(","), "--message-format", "json"])
+        .arg("--target-dir")
+        .arg(&target)
+        .output()
+        .context("cargo did not start")?;
+    ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let executable = String::from_utf8_lossy(&output.stdout)
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok())
+        .filter(|message| message["target"]["name"] == "steps")
+        .find_map(|message| message["executable"].as_str().map(PathBuf::from))
+        .context("cargo named no executable")?;
+    // the next build takes the place of this one; names are of one length, as they move the stack and with it what
+    // filling memory costs
+    let copy = target.join(name);
+    fs::copy(executable, &copy)?;
+    Ok(copy)
+}
+
+/// Runs `program` under callgrind with `options`, and returns what callgrind reported.
+pub fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result<String> {
+    let out = options.iter().any(|option| option.starts_with("--callgrind-out-file"));
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind"])
+        .args((!out).then_some("--callgrind-out-file=/dev/null"))
+        .args(options)
+        .arg(program)
+        .args(arguments)
+        .output()
+        .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
+    let report = String::from_utf8_lossy(&output.stderr).into_owned();
+    ensure!(output.status.success(), "{arguments:?}: {report}");
+    Ok(report)
+}

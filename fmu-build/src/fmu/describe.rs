@@ -1,0 +1,338 @@
+//! modelDescription.xml of FMI 2.0, from the table of variables.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
+use bevel_differential::model::Parameters;
+use bevel_differential::variables::units::{self, DisplayUnit, Unit};
+use bevel_differential::variables::{
+    Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, real_start, table,
+};
+use clap::Args;
+
+use crate::fmu::xml::Element;
+use crate::tools::paths;
+
+/// Fixed, so that the same sources give the same bytes.
+const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
+/// The study's duration and output interval [s].
+const STOP_TIME: f64 = 0.5;
+const STEP_SIZE: f64 = 0.001;
+
+/// Writes modelDescription/modelDescription.xml
+#[derive(Args, Clone, Debug)]
+pub struct DescribeCommand {
+    /// Only check whether the file is up to date
+    #[arg(long)]
+    check: bool,
+}
+
+impl DescribeCommand {
+    /// Writes or checks the file.
+    pub fn run(&self) -> Result<()> {
+        let file = paths::model_description();
+        if !self.check {
+            write(&file)?;
+        } else if is_stale(&file)? {
+            bail!("{} is out of date; renew it: cargo run --release -- describe", paths::shown(&file));
+        }
+        println!("{} is up to date", paths::shown(&file));
+        Ok(())
+    }
+}
+
+/// How variables with named choices are described. FMI sets both by fmi2SetInteger.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Choices {
+    /// As enumerations.
+    Enumerations,
+    /// As integers whose descriptions name the choices, for hosts without enumerations.
+    Integers,
+}
+
+/// The model description that hosts get unless they need [`Choices::Integers`].
+pub fn model_description() -> Result<String> {
+    described(Choices::Enumerations)
+}
+
+/// The model description as a text.
+pub fn described(choices: Choices) -> Result<String> {
+    let table = table();
+    let variables = table.rows.iter().enumerate();
+    let root = Element::new("fmiModelDescription")
+        .with("fmiVersion", "2.0")
+        .with("modelName", MODEL_NAME)
+        .with("guid", guid())
+        .with("description", "Dynamics of a bevel gear differential with tooth contact, pair by pair")
+        .with("author", "The bevel-differential project")
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("copyright", "The BevelDifferential authors")
+        .with("license", "MIT OR Apache-2.0")
+        .with("generationTool", concat!("fmu-build ", env!("CARGO_PKG_VERSION")))
+        .with("generationDateAndTime", GENERATION_TIME)
+        .with("variableNamingConvention", "structured")
+        .with("numberOfEventIndicators", EVENT_INDICATORS)
+        .child(model_exchange())
+        .child(co_simulation())
+        .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
+        .children((choices == Choices::Enumerations).then(|| type_definitions(table)))
+        .child(Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
+            Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
+        })))
+        .child(
+            Element::new("DefaultExperiment")
+                .with("startTime", number(0.0))
+                .with("stopTime", number(STOP_TIME))
+                .with("stepSize", number(STEP_SIZE)),
+        )
+        .child(Element::new("ModelVariables").children(variables.map(|(i, row)| scalar_variable(i, row, choices))))
+        .child(structure(table));
+    root.document().context("the model description cannot be written")
+}
+
+/// Whether `file` holds something else than the present model description.
+pub fn is_stale(file: &Path) -> Result<bool> {
+    Ok(fs::read_to_string(file).ok() != Some(model_description()?))
+}
+
+/// Writes the model description to `file`.
+pub fn write(file: &Path) -> Result<()> {
+    if let Some(folder) = file.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    fs::write(file, model_description()?).with_context(|| format!("{} cannot be written", file.display()))
+}
+
+fn model_exchange() -> Element {
+    let kind = Element::new("ModelExchange").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
+    for_both_kinds(kind.with("completedIntegratorStepNotNeeded", false))
+}
+
+fn co_simulation() -> Element {
+    let kind = Element::new("CoSimulation").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
+    for_both_kinds(
+        kind.with("canHandleVariableCommunicationStepSize", true)
+            .with("canInterpolateInputs", true)
+            .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
+            .with("canRunAsynchronuously", false),
+    )
+}
+
+fn for_both_kinds(kind: Element) -> Element {
+    kind.with("canBeInstantiatedOnlyOncePerProcess", false)
+        .with("canNotUseMemoryManagementFunctions", true)
+        .with("canGetAndSetFMUstate", true)
+        .with("canSerializeFMUstate", true)
+        .with("providesDirectionalDerivative", true)
+}
+
+fn units_in_use(table: &'static Table) -> impl Iterator<Item = &'static Unit> {
+    let used = |unit: &Unit| table.rows.iter().any(|row| row.unit.is_some_and(|u| u.name == unit.name));
+    units::ALL.iter().filter(move |unit| used(unit))
+}
+
+fn unit(unit: &Unit) -> Element {
+    let base = unit.base.map(|base| {
+        let exponents = [("kg", base.kg), ("m", base.m), ("s", base.s), ("rad", base.rad)];
+        let given = exponents.into_iter().filter(|(_, exponent)| *exponent != 0);
+        given.fold(Element::new("BaseUnit"), |element, (name, exponent)| element.with(name, exponent))
+    });
+    let display =
+        |shown: &DisplayUnit| Element::new("DisplayUnit").with("name", shown.name).with("factor", number(shown.factor));
+    Element::new("Unit").with("name", unit.name).children(base).children(unit.display.iter().map(display))
+}
+
+fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
+    match row.access {
+        Access::Enumeration(kind, ..) => Some(kind),
+        _ => None,
+    }
+}
+
+fn type_definitions(table: &'static Table) -> Element {
+    Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))
+}
+
+/// Enumeration types in the order of their first use.
+fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType> {
+    let mut seen: Vec<&EnumType> = Vec::new();
+    for kind in table.rows.iter().filter_map(enumeration_of) {
+        if !seen.iter().any(|k| k.name == kind.name) {
+            seen.push(kind);
+        }
+    }
+    seen.into_iter()
+}
+
+fn enumeration(kind: &EnumType) -> Element {
+    let items = kind.choices.iter().map(|choice| {
+        Element::new("Item")
+            .with("name", choice.name)
+            .with("value", choice.value)
+            .with("description", choice.description)
+    });
+    Element::new("SimpleType").with("name", kind.name).child(Element::new("Enumeration").children(items))
+}
+
+fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
+    let causality = match row.causality {
+        Causality::Parameter => "parameter",
+        Causality::Input => "input",
+        Causality::Output => "output",
+        Causality::Local => "local",
+    };
+    let variability = match row.variability {
+        Variability::Fixed => "fixed",
+        Variability::Tunable => "tunable",
+        Variability::Continuous => "continuous",
+    };
+    let initial = match row.causality {
+        Causality::Parameter => Some("exact"),
+        Causality::Input => None,
+        Causality::Output | Causality::Local => Some("calculated"),
+    };
+    Element::new("ScalarVariable")
+        .with("name", row.name)
+        .with("valueReference", reference)
+        .with("description", description(row, choices))
+        .with("causality", causality)
+        .with("variability", variability)
+        .with_some("initial", initial)
+        .child(variable_type(row, is_velocity(reference), choices))
+}
+
+/// The description; of choices that are integers with what each number stands for.
+fn description(row: &Variable, choices: Choices) -> String {
+    match enumeration_of(row) {
+        Some(kind) if choices == Choices::Integers => {
+            let named = kind.choices.iter().map(|choice| format!("{} = {}", choice.value, choice.name));
+            format!("{}: {}", row.description, named.collect::<Vec<_>>().join(", "))
+        }
+        _ => row.description.to_owned(),
+    }
+}
+
+/// Whether it is a state that commands of speeds may set at events.
+fn is_velocity(reference: usize) -> bool {
+    let states = &table().states;
+    states[states.len() / 2..].contains(&reference)
+}
+
+fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
+    let mut defaults = Parameters::default();
+    match row.access {
+        Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
+            .with_some("unit", row.unit.map(|unit| unit.name))
+            .with_some("displayUnit", row.display.map(|shown| shown.name))
+            .with_some("min", row.range.map(|range| number(range.min)))
+            .with_some("max", row.range.map(|range| number(range.max)))
+            .with_some("nominal", row.nominal.map(number))
+            .with_some("reinit", is_reset.then_some(true))
+            .with_some("derivative", row.derivative_of.map(|index| index + 1))
+            .with_some("start", real_start(row).map(number)),
+        Access::Integer(access) => Element::new("Integer")
+            .with_some("min", row.range.map(|range| range.min))
+            .with_some("max", row.range.map(|range| range.max))
+            .with("start", *access(&mut defaults)),
+        Access::Boolean(access) => Element::new("Boolean").with("start", *access(&mut defaults)),
+        Access::Enumeration(kind, value, _) if choices == Choices::Integers => {
+            Element::new("Integer").with("min", 1).with("max", kind.choices.len()).with("start", value(&defaults))
+        }
+        Access::Enumeration(kind, value, _) => {
+            Element::new("Enumeration").with("declaredType", kind.name).with("start", value(&defaults))
+        }
+    }
+}
+
+/// Outputs and rates of states with what they depend on at an instant, and what has to be computed at the start.
+fn structure(table: &Table) -> Element {
+    let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
+    let outputs = table.outputs.iter().map(|&index| {
+        let mut known = dependencies(table, index);
+        if !is_of_books(&table.rows[index]) {
+            known.extend(table.states);
+            known.sort_unstable();
+        }
+        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
+    });
+    let mut every_state = table.states;
+    every_state.sort_unstable();
+    let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
+        let is_position = k < table.states.len() / 2;
+        let mut known: Vec<usize> = inputs_where(table, |input| is_speed(input) || is_torque(input) && !is_position);
+        known.extend(every_state);
+        known.sort_unstable();
+        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
+    });
+    // at the start everything may depend on everything, which is what no list means
+    let mut initial: Vec<usize> =
+        table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied().collect();
+    initial.sort_unstable();
+    initial.dedup();
+    let initial = initial.into_iter().map(|index| Element::new("Unknown").with("index", index + 1));
+    Element::new("ModelStructure")
+        .child(Element::new("Outputs").children(outputs))
+        .child(Element::new("Derivatives").children(derivatives))
+        .child(Element::new("InitialUnknowns").children(initial))
+}
+
+/// Ending of names of outputs that depend only on the load of their side.
+const BY_OWN_LOAD: &str = ".twist";
+/// Endings of names of outputs that depend only on positions.
+const BY_POSITION: [&str; 1] = ["transmission_error"];
+/// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
+const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
+const BY_MOTION: [&str; 1] = ["power.loss"];
+/// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
+const FOLLOWERS: [(&str, &[&str]); 2] = [
+    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+    ("planet.spin_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+];
+
+fn is_torque(input: &Variable) -> bool {
+    input.unit == Some(units::NEWTON_METRE)
+}
+
+fn is_speed(input: &Variable) -> bool {
+    input.unit == Some(units::RAD_PER_S)
+}
+
+fn is_of_books(row: &Variable) -> bool {
+    matches!(row.access, Access::Output(OutputSource::Books(_)))
+}
+
+fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
+    table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
+}
+
+/// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
+///
+/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
+/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the books
+/// follow with time alone.
+pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
+    let row = &table.rows[index];
+    let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
+    match row.access {
+        Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
+            FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
+        }),
+        Access::Output(OutputSource::Forces(_)) if !named(&BY_POSITION) => {
+            if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
+                return inputs_where(table, |input| is_torque(input) && input.name.starts_with(side));
+            }
+            if named(&BY_MOTION_OF_TEETH) {
+                return inputs_where(table, |input| FOLLOWERS.iter().any(|(command, _)| *command == input.name));
+            }
+            inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// A number such that reading it gives the same bits again.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}

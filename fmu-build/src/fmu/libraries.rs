@@ -1,0 +1,229 @@
+//! The FMU's library, built for this machine or for other machines by the tool chains that are installed.
+
+use std::env;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+
+use crate::fmu::toolchains::{self, GLIBC, WINDOWS_TARGET, WindowsToolchain};
+use crate::tools::paths;
+use crate::tools::python::Environment;
+
+/// The crate that is the FMU.
+pub const CRATE: &str = "bevel-differential";
+
+/// FMI's name of this machine's platform and the ending of its libraries.
+const HOST: (&str, &str) = if cfg!(target_os = "windows") {
+    ("win64", "dll")
+} else if cfg!(target_os = "macos") {
+    ("darwin64", "dylib")
+} else {
+    ("linux64", "so")
+};
+
+/// The library for one platform.
+#[derive(Clone, Debug)]
+pub struct Library {
+    /// FMI's name of the platform.
+    pub platform: &'static str,
+    /// Ending of the file, without the dot.
+    pub ending: &'static str,
+    /// What was built.
+    pub file: PathBuf,
+    /// What a machine needs, in words.
+    pub needs: String,
+    /// What the linker adds to the crates and Rust's standard library.
+    pub added: Vec<AddedPart>,
+}
+
+/// A part of a compiler's runtime that is linked in.
+#[derive(Clone, Debug)]
+pub struct AddedPart {
+    /// Its name.
+    pub name: &'static str,
+    /// Its licence by its SPDX name.
+    pub licence: &'static str,
+    /// The file with the text.
+    pub text: PathBuf,
+}
+
+/// The libraries that were built, and which were not with how to get them.
+#[derive(Clone, Debug)]
+pub struct Libraries {
+    /// In the order of the archive.
+    pub built: Vec<Library>,
+    /// A sentence each.
+    pub left_out: Vec<String>,
+}
+
+/// Builds the FMU's library with every tool chain that is installed.
+pub fn build() -> Result<Libraries> {
+    let (mut built, mut left_out) = (Vec::new(), Vec::new());
+    let cross = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+    match Environment::old_linux().filter(|_| cross) {
+        Some(tools) => built.push(for_old_linux(&tools)?),
+        None => {
+            built.push(for_this_machine()?);
+            if cross {
+                left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
+            }
+        }
+    }
+    match WindowsToolchain::found() {
+        Some(tools) => built.push(for_windows(&tools)?),
+        None if cross => match rustup_for_windows()? {
+            Some(library) => built.push(library),
+            None => left_out.push("win64 is left out".to_owned()),
+        },
+        None => left_out.push(format!("the FMU holds {} alone", HOST.0)),
+    }
+    if cross && let Some(last) = left_out.last_mut() {
+        last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
+    }
+    Ok(Libraries { built, left_out })
+}
+
+/// The library as this machine's tools build it.
+pub fn for_this_machine() -> Result<Library> {
+    let needs = match HOST.0 {
+        "linux64" => "Linux on x86-64 as new as the machine that the library was built on",
+        "win64" => "Windows on x86-64",
+        _ => "macOS",
+    };
+    Ok(Library {
+        platform: HOST.0,
+        ending: HOST.1,
+        file: build_library(CRATE)?,
+        needs: needs.into(),
+        added: Vec::new(),
+    })
+}
+
+/// Builds the dynamic library of `package` for this machine with cargo and returns its path.
+pub fn build_library(package: &str) -> Result<PathBuf> {
+    let mut command = Command::new(cargo());
+    command.arg("build").arg("--target-dir").arg(paths::target());
+    built_by(command, package, HOST.1)
+}
+
+fn for_old_linux(tools: &Environment) -> Result<Library> {
+    let programs = tools.programs();
+    let mut command = Command::new(programs.join("cargo-zigbuild"));
+    command
+        .args(["zigbuild", "--target", &format!("x86_64-unknown-linux-gnu.{GLIBC}")])
+        .env("CARGO", cargo())
+        .env("PATH", toolchains::path_with(&programs)?)
+        .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
+    let file = crossed(command, "linux64", "so")?;
+    let unwinder = AddedPart {
+        name: "LLVM libunwind",
+        licence: "Apache-2.0 WITH LLVM-exception",
+        text: tools.packages()?.join("ziglang").join("lib").join("libunwind").join("LICENSE.TXT"),
+    };
+    Ok(Library {
+        platform: "linux64",
+        ending: "so",
+        file,
+        needs: format!("Linux on x86-64 with glibc {GLIBC} or newer"),
+        added: vec![unwinder],
+    })
+}
+
+fn for_windows(tools: &WindowsToolchain) -> Result<Library> {
+    let programs = tools.programs();
+    let mut command = Command::new(cargo());
+    command
+        .args(["build", "--target", WINDOWS_TARGET, "-Zbuild-std=std,panic_unwind"])
+        .env("PATH", toolchains::path_with(&programs)?)
+        .env("RUSTC", programs.join("rustc"))
+        // Debian's Rust is a stable one, and building the standard library is not yet
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", programs.join("x86_64-w64-mingw32-gcc"));
+    windows_library(command, &tools.root())
+}
+
+/// The library for Windows by rustup's own target and the system's MinGW, if both are installed.
+fn rustup_for_windows() -> Result<Option<Library>> {
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WINDOWS_TARGET]).output();
+    let has_target = output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir());
+    let has_linker = Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok();
+    if !has_target || !has_linker {
+        return Ok(None);
+    }
+    let mut command = Command::new(cargo());
+    command.args(["build", "--target", WINDOWS_TARGET]);
+    windows_library(command, Path::new("/")).map(Some)
+}
+
+/// The library that `command` builds with the MinGW under `root`.
+fn windows_library(command: Command, root: &Path) -> Result<Library> {
+    let file = crossed(command, "win64", "dll")?;
+    let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
+    let added = vec![
+        AddedPart {
+            name: "MinGW-w64 runtime",
+            licence: "MIT, ZPL-2.1 and public domain",
+            text: text("mingw-w64-common"),
+        },
+        AddedPart {
+            name: "libgcc",
+            licence: "GPL-3.0-or-later WITH GCC-exception-3.1",
+            text: text("gcc-mingw-w64-base"),
+        },
+    ];
+    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
+}
+
+/// Built for other machines than this one: in a folder of its own, as the compiler may be another, and without the names of
+/// inner functions and this machine's folders, which no user needs.
+fn crossed(mut command: Command, platform: &str, ending: &str) -> Result<PathBuf> {
+    command
+        .arg("--target-dir")
+        .arg(paths::target().join("cross").join(platform))
+        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
+        .env("CARGO_ENCODED_RUSTFLAGS", without_folders().join("\u{1f}"));
+    built_by(command, CRATE, ending).with_context(|| format!("the library for {platform}"))
+}
+
+/// Options that replace the folders of this machine in messages of panics.
+fn without_folders() -> Vec<String> {
+    let home = env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
+    let folders = [
+        (home.map(|home| home.join("registry").join("src")), "crates"),
+        (Some(paths::toolchains()), "toolchains"),
+        (Some(paths::workspace()), "."),
+    ];
+    let known = folders.into_iter().filter_map(|(folder, name)| Some((folder?, name)));
+    known.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()
+}
+
+/// The library that `command`, cargo with a target, builds of `package`.
+fn built_by(mut command: Command, package: &str, ending: &str) -> Result<PathBuf> {
+    let output = command
+        .current_dir(paths::workspace())
+        .args(["--release", "-p", package, "--lib", "--quiet", "--message-format", "json-render-diagnostics"])
+        .output()
+        .with_context(|| format!("{} cannot be run", command.get_program().display()))?;
+    if !output.status.success() {
+        bail!("the library does not build:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
+    }
+    let artifacts = String::from_utf8_lossy(&output.stdout);
+    let library = artifacts.lines().filter_map(|line| library_in(line, ending)).next_back();
+    library.with_context(|| format!("cargo built no .{ending} file"))
+}
+
+/// The dynamic library named in one line of cargo's messages.
+fn library_in(line: &str, ending: &str) -> Option<PathBuf> {
+    let message: serde_json::Value = serde_json::from_str(line).ok()?;
+    let is_cdylib = message["target"]["kind"].as_array()?.iter().any(|kind| kind == "cdylib");
+    let files = message["filenames"].as_array()?.iter().filter_map(|name| name.as_str()).map(Path::new);
+    let mut libraries = files.filter(|file| file.extension().is_some_and(|found| found == ending));
+    if is_cdylib { libraries.next().map(Path::to_path_buf) } else { None }
+}
+
+/// The cargo that runs this program, or the one in PATH.
+pub fn cargo() -> std::ffi::OsString {
+    env::var_os("CARGO").unwrap_or_else(|| "cargo".into())
+}

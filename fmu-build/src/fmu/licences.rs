@@ -1,0 +1,172 @@
+//! Licences of everything that is linked into the library: the project's own, those of its crates, read where cargo keeps
+//! their sources, and those of what the compilers add.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail, ensure};
+use serde_json::Value;
+
+use crate::fmu::libraries::{CRATE, Library, cargo};
+use crate::tools::paths;
+
+/// Beginnings of the names of files that hold licences, in small letters.
+const NAMES: [&str; 6] = ["license", "licence", "copying", "copyright", "notice", "unlicense"];
+/// A licence whose text is the same for all that use it, and the file with it.
+const COMMON: (&str, &str) = ("Apache-2.0", "LICENSE-APACHE");
+
+/// A file of documentation/licenses.
+pub struct Licence {
+    /// Its path there.
+    pub path: String,
+    /// Its text.
+    pub text: Vec<u8>,
+}
+
+/// What is linked in, and under which licence.
+pub struct LinkedPart {
+    /// Name and version.
+    pub name: String,
+    /// The licence by its SPDX name.
+    pub licence: String,
+    /// Paths of its texts.
+    pub files: Vec<String>,
+}
+
+/// All licence files, and the parts they belong to.
+pub struct Licences {
+    /// The files, sorted by path.
+    pub files: Vec<Licence>,
+    /// What is linked in.
+    pub linked: Vec<LinkedPart>,
+}
+
+/// Collects the licences of `libraries`. A part without a text is an error.
+pub fn collected(libraries: &[Library]) -> Result<Licences> {
+    let mut found = Licences { files: Vec::new(), linked: Vec::new() };
+    for (name, folder) in linked_crates()? {
+        let own = folder.path == paths::workspace();
+        let place = if own { String::new() } else { format!("{name}/") };
+        let mut texts = texts_in(&folder.path)?;
+        let mut files: Vec<String> = texts.iter().map(|(file, _)| format!("{place}{file}")).collect();
+        for (file, text) in texts.drain(..) {
+            found.files.push(Licence { path: format!("{place}{file}"), text });
+        }
+        if files.is_empty() && folder.licence.contains(COMMON.0) {
+            files.push(COMMON.1.to_owned());
+        }
+        ensure!(
+            !files.is_empty(),
+            "{name} ({}) has no file with the text of its licence \"{}\"; do not link it",
+            folder.path.display(),
+            folder.licence
+        );
+        found.linked.push(LinkedPart { name, licence: folder.licence, files });
+    }
+    standard_library(&mut found)?;
+    for library in libraries {
+        for part in &library.added {
+            let file = part.name.replace(' ', "-");
+            add(&mut found, part.name, part.licence, library.platform, &[(&file, part.text.clone())])?;
+        }
+    }
+    found.files.sort_by(|a, b| a.path.cmp(&b.path));
+    Ok(found)
+}
+
+/// Rust's standard library, whose notices come with rustc.
+fn standard_library(found: &mut Licences) -> Result<()> {
+    let output = Command::new("rustc").args(["--print", "sysroot"]).output().context("rustc cannot be run")?;
+    let root = PathBuf::from(String::from_utf8_lossy(&output.stdout).trim());
+    let folder = root.join("share").join("doc").join("rust");
+    let notices = ["COPYRIGHT-library.html", "COPYRIGHT"].map(|name| folder.join(name));
+    let Some(notice) = notices.iter().find(|file| file.is_file()) else {
+        // a compiler packed by others keeps them elsewhere; the licences themselves are those of this project
+        found.linked.push(LinkedPart {
+            name: "Rust standard library".into(),
+            licence: "MIT OR Apache-2.0".into(),
+            files: vec![COMMON.1.into()],
+        });
+        return Ok(());
+    };
+    let name = notice.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    add(found, "Rust standard library", "MIT OR Apache-2.0", "std", &[(&name, notice.clone())])
+}
+
+fn add(found: &mut Licences, name: &str, licence: &str, place: &str, texts: &[(&str, PathBuf)]) -> Result<()> {
+    let mut files = Vec::new();
+    for (file, source) in texts {
+        let text =
+            fs::read(source).with_context(|| format!("the licence of {name}, {}, is missing", source.display()))?;
+        // extensions that no program opens are text
+        let ending = if file.ends_with(".html") { "" } else { ".txt" };
+        let path = format!("{place}/{file}{ending}");
+        found.files.push(Licence { path: path.clone(), text });
+        files.push(path);
+    }
+    found.linked.push(LinkedPart { name: name.into(), licence: licence.into(), files });
+    Ok(())
+}
+
+/// A crate's sources.
+struct CrateSource {
+    path: PathBuf,
+    licence: String,
+}
+
+/// The crates linked into the library on any platform, by name and version.
+fn linked_crates() -> Result<BTreeMap<String, CrateSource>> {
+    let tree =
+        cargo_output(&["tree", "-p", CRATE, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
+    let mut wanted: Vec<(&str, &str)> = tree
+        .lines()
+        .filter_map(|line| {
+            let mut words = line.split(' ');
+            Some((words.next()?, words.next()?.strip_prefix('v')?))
+        })
+        .collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    let metadata: Value = serde_json::from_str(&cargo_output(&["metadata", "--format-version", "1"])?)?;
+    let packages = metadata["packages"].as_array().context("cargo metadata names no packages")?;
+    let mut crates = BTreeMap::new();
+    for (name, version) in wanted {
+        let package = packages.iter().find(|p| p["name"] == name && p["version"] == version);
+        let manifest = package.and_then(|p| p["manifest_path"].as_str());
+        let Some(folder) = manifest.and_then(|manifest| Path::new(manifest).parent()) else {
+            bail!("cargo metadata does not know {name} {version}")
+        };
+        let licence = package.and_then(|p| p["license"].as_str()).unwrap_or("not named").replace('/', " OR ");
+        crates.insert(format!("{name}-{version}"), CrateSource { path: folder.to_path_buf(), licence });
+    }
+    ensure!(crates.len() > 1, "cargo tree names no crates that the library links");
+    Ok(crates)
+}
+
+/// Licence files in `folder`, by name.
+fn texts_in(folder: &Path) -> Result<Vec<(String, Vec<u8>)>> {
+    let mut texts = Vec::new();
+    for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", folder.display()))? {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_file() && NAMES.iter().any(|begin| name.to_lowercase().starts_with(begin)) {
+            texts.push((name, fs::read(entry.path())?));
+        }
+    }
+    texts.sort();
+    Ok(texts)
+}
+
+fn cargo_output(arguments: &[&str]) -> Result<String> {
+    let output = Command::new(cargo()).current_dir(paths::workspace()).args(arguments).arg("--locked").output();
+    let output = output.context("cargo cannot be run")?;
+    ensure!(
+        output.status.success(),
+        "cargo {} failed: {}",
+        arguments[0],
+        String::from_utf8_lossy(&output.stderr).trim_end()
+    );
+    Ok(String::from_utf8(output.stdout)?)
+}

@@ -1,0 +1,34 @@
+//! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
+//! and the archive. Commands: `package`, `describe`, `toolchains`.
+
+pub mod describe;
+pub mod documentation;
+pub mod libraries;
+pub mod licences;
+pub mod package;
+pub mod plain_types;
+pub mod toolchains;
+pub mod xml;
+
+use anyhow::Result;
+use clap::Subcommand;
+
+/// A command that builds the FMU or its parts.
+#[derive(Subcommand)]
+#[allow(missing_docs)] // each command describes itself
+pub enum BuildCommand {
+    Package(package::PackageCommand),
+    Describe(describe::DescribeCommand),
+    Toolchains(toolchains::ToolchainsCommand),
+}
+
+impl BuildCommand {
+    /// Runs the command.
+    pub fn run(self) -> Result<()> {
+        match self {
+            Self::Package(command) => command.run(),
+            Self::Describe(command) => command.run(),
+            Self::Toolchains(command) => command.run(),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The gears on paper and in CAD: derived dimensions with the terms of ISO 23509, curves, solids, interference.
+
+pub mod assembly;
+pub mod command;
+pub mod design;
+pub mod dimension;
+pub mod dimensions;
+mod gear_rows;
+pub mod geometry_file;
+pub mod gltf;
+pub mod interference;
+pub mod json;
+pub mod models;
+mod pair_rows;
+pub mod stl;
+pub mod text;
+mod tooth_rows;
+pub mod tredgold;
+pub mod xyz;

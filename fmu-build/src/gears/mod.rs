@@ -1,0 +1,37 @@
+//! What a user of gears runs: the study, scenes and their tooth loads, which effects matter, dimensions and solids, contact
+//! patterns. Commands: `study`, `scene`, `loads`, `effects`, `geometry`, `pattern`.
+
+pub mod effects;
+pub mod geometry;
+pub mod pattern;
+pub mod scene;
+pub mod study;
+
+use anyhow::Result;
+use clap::Subcommand;
+
+/// A command for users of the gears.
+#[derive(Subcommand)]
+#[allow(missing_docs)] // each command describes itself
+pub enum GearsCommand {
+    Study(study::StudyCommand),
+    Scene(scene::command::SceneCommand),
+    Loads(scene::command::LoadsCommand),
+    Effects(effects::job::EffectsCommand),
+    Geometry(geometry::command::GeometryCommand),
+    Pattern(pattern::PatternCommand),
+}
+
+impl GearsCommand {
+    /// Runs the command.
+    pub fn run(self) -> Result<()> {
+        match self {
+            Self::Study(command) => command.run(),
+            Self::Scene(command) => command.run(),
+            Self::Loads(command) => command.run(),
+            Self::Effects(command) => command.run(),
+            Self::Geometry(command) => command.run(),
+            Self::Pattern(command) => command.run(),
+        }
+    }
+}

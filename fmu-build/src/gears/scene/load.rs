@@ -1,0 +1,221 @@
+//! A scene from its TOML file. All errors are reported at once, by key, value, unit and range.
+//!
+//! ```toml
+//! description = "what it shows"
+//! stop_time = 0.5                        # s
+//! step = 1e-3                            # communication step, s
+//! outputs = ["left.speed"]
+//!
+//! [set]                                  # any parameter or input of the FMU
+//! geometry.module = "4.5 mm"             # with a unit, or a number in SI
+//! scene.start = "rolling"                # literal of an enumeration
+//!
+//! [[at]]                                 # inputs and tunable parameters, later
+//! time = 0.1
+//! left.load_torque = 0.0
+//!
+//! [[table]]                              # an input that goes straight from point to point
+//! input = "carrier.speed_command"
+//! time = [0.0, 0.05]
+//! value = ["0 deg/s", "100 deg/s"]
+//! period = 0.1                           # repeats; without it the last value stays
+//! ```
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::{Access, Variable};
+use serde::Deserialize;
+use toml::{Table, Value};
+
+use super::set::{Setting, closest, real, variable, written};
+use super::{Event, InputTable, Scene};
+use crate::tools::paths;
+
+/// The contents of a file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    description: String,
+    stop_time: f64,
+    step: f64,
+    #[serde(default)]
+    set: Table,
+    #[serde(default)]
+    at: Vec<Table>,
+    #[serde(default)]
+    table: Vec<InputTableEntry>,
+    outputs: Vec<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InputTableEntry {
+    input: String,
+    time: Vec<f64>,
+    value: Vec<Value>,
+    period: Option<f64>,
+}
+
+/// Loads the scene in `file`.
+pub fn load(file: &Path) -> Result<Scene> {
+    let shown = paths::shown(file);
+    let text = std::fs::read_to_string(file).with_context(|| format!("{shown} cannot be read"))?;
+    let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    parse(name, file, &text).with_context(|| shown)
+}
+
+/// The scene that `text` describes.
+pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
+    let entry: File = toml::from_str(text)?;
+    let mut problems = Vec::new();
+    times(&entry, &mut problems);
+    let settings = settings("[set]", &entry.set, &mut problems);
+    let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+    settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
+    let mut events: Vec<Event> =
+        entry.at.into_iter().filter_map(|at| event(at, &entry.stop_time, &mut problems)).collect();
+    events.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let input_tables: Vec<InputTable> =
+        entry.table.into_iter().filter_map(|table| input_table(table, &mut problems)).collect();
+    let outputs = outputs(&entry.outputs, &mut problems);
+    if !problems.is_empty() {
+        bail!("{}", problems.join("\n"));
+    }
+    for input_table in &input_tables {
+        if let Access::Input(access) = input_table.row.access {
+            *access(&mut inputs) = input_table.at(0.0);
+        }
+    }
+    Ok(Scene {
+        name: name.into(),
+        file: file.into(),
+        description: entry.description,
+        stop_time: entry.stop_time,
+        step: entry.step,
+        parameters,
+        inputs,
+        settings,
+        events,
+        input_tables,
+        outputs,
+    })
+}
+
+fn times(entry: &File, problems: &mut Vec<String>) {
+    for (key, value) in [("stop_time", entry.stop_time), ("step", entry.step)] {
+        if !(value > 0.0 && value.is_finite()) {
+            problems.push(format!("{key} = {value}: must be above 0 s"));
+        }
+    }
+    if entry.step > entry.stop_time {
+        problems.push(format!("step = {} s is longer than stop_time = {} s", entry.step, entry.stop_time));
+    }
+}
+
+/// Values of a table whose keys may be dotted or nested.
+fn settings(place: &str, table: &Table, problems: &mut Vec<String>) -> Vec<Setting> {
+    let mut found = Vec::new();
+    let mut flat = Vec::new();
+    flatten("", table, &mut flat);
+    for (name, value) in flat {
+        match Setting::new(&name, value) {
+            Ok(setting) => found.push(setting),
+            Err(problem) => problems.push(format!("{place} {problem}")),
+        }
+    }
+    found
+}
+
+fn flatten<'a>(prefix: &str, table: &'a Table, out: &mut Vec<(String, &'a Value)>) {
+    for (key, value) in table {
+        let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
+        match value {
+            Value::Table(inner) => flatten(&name, inner, out),
+            value => out.push((name, value)),
+        }
+    }
+}
+
+fn event(mut table: Table, stop: &f64, problems: &mut Vec<String>) -> Option<Event> {
+    let time = match table.remove("time") {
+        Some(Value::Float(time)) => time,
+        Some(Value::Integer(time)) => time as f64,
+        Some(other) => {
+            problems.push(format!("[[at]] time = {}: must be a number of seconds", written(&other)));
+            return None;
+        }
+        None => {
+            problems.push("[[at]] has no time".into());
+            return None;
+        }
+    };
+    if !(0.0..=*stop).contains(&time) {
+        problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop}] s"));
+    }
+    let place = format!("[[at]] time = {time}:");
+    let settings = settings(&place, &table, problems);
+    for setting in settings.iter().filter(|setting| !setting.may_come_later()) {
+        let name = setting.row.name;
+        problems.push(format!("{place} {name} is fixed: only inputs and tunable parameters change during a run"));
+    }
+    Some(Event { time, settings })
+}
+
+fn input_table(entry: InputTableEntry, problems: &mut Vec<String>) -> Option<InputTable> {
+    let place = format!("[[table]] input = \"{}\":", entry.input);
+    let mut wrong = |what: String| problems.push(format!("{place} {what}"));
+    let row: &'static Variable = match variable(&entry.input) {
+        Ok(row) if matches!(row.access, Access::Input(_)) => row,
+        Ok(_) => {
+            wrong("is not an input".into());
+            return None;
+        }
+        Err(problem) => {
+            wrong(problem);
+            return None;
+        }
+    };
+    let mut values = Vec::new();
+    for value in &entry.value {
+        match real(row, value) {
+            Ok(value) => values.push(value),
+            Err(problem) => wrong(format!("value {}: {problem}", written(value))),
+        }
+    }
+    if entry.time.len() != entry.value.len() || entry.time.is_empty() {
+        wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
+    }
+    let rising = entry.time.windows(2).all(|pair| pair[0] < pair[1]) && entry.time.first().is_none_or(|&t| t >= 0.0);
+    if !rising || !entry.time.iter().all(|time| time.is_finite()) {
+        wrong("times must rise from 0 on".into());
+    }
+    if let Some(period) = entry.period.filter(|&period| !(period > 0.0 && period.is_finite())) {
+        wrong(format!("period = {period}: must be above 0 s"));
+    }
+    (values.len() == entry.time.len() && rising && !values.is_empty()).then_some(InputTable {
+        row,
+        times: entry.time,
+        values,
+        period: entry.period,
+    })
+}
+
+fn outputs(names: &[String], problems: &mut Vec<String>) -> Vec<&'static Variable> {
+    let mut rows = Vec::new();
+    for name in names {
+        match variable(name) {
+            Ok(row) if matches!(row.access, Access::Output(_)) => rows.push(row),
+            Ok(_) => problems.push(format!("outputs: {name} is not an output")),
+            Err(problem) => {
+                let all = bevel_differential::variables::table();
+                let names = all.outputs.iter().map(|&i| all.rows[i].name);
+                let hint = closest(name, names)
+                    .map_or(problem, |n| format!("there is no output \"{name}\"; did you mean {n}?"));
+                problems.push(format!("outputs: {hint}"));
+            }
+        }
+    }
+    rows
+}

@@ -1,0 +1,122 @@
+//! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
+
+pub mod command;
+pub mod load;
+pub mod loads;
+pub mod plan;
+pub mod run;
+pub mod set;
+pub mod units;
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::Variable;
+
+use crate::tools::paths;
+use set::Setting;
+
+/// A scene, ready to start.
+#[derive(Clone)]
+pub struct Scene {
+    /// Name: that of its file without the ending.
+    pub name: String,
+    /// Its file.
+    pub file: PathBuf,
+    /// What it shows.
+    pub description: String,
+    /// Simulated time [s].
+    pub stop_time: f64,
+    /// Communication step [s].
+    pub step: f64,
+    /// Parameters.
+    pub parameters: Parameters,
+    /// Inputs at the start.
+    pub inputs: Inputs,
+    /// What the file sets at the start.
+    pub settings: Vec<Setting>,
+    /// What it sets later, by time.
+    pub events: Vec<Event>,
+    /// Inputs that follow a table.
+    pub input_tables: Vec<InputTable>,
+    /// Outputs to record.
+    pub outputs: Vec<&'static Variable>,
+}
+
+/// Values set at a time.
+#[derive(Clone)]
+pub struct Event {
+    /// When [s].
+    pub time: f64,
+    /// What.
+    pub settings: Vec<Setting>,
+}
+
+/// An input that goes straight from point to point, read at communication points.
+#[derive(Clone)]
+pub struct InputTable {
+    /// The input.
+    pub row: &'static Variable,
+    /// Times [s], rising.
+    pub times: Vec<f64>,
+    /// Values there, in the unit of the interface.
+    pub values: Vec<f64>,
+    /// Time after which it repeats [s]; none = the last value stays.
+    pub period: Option<f64>,
+}
+
+impl InputTable {
+    /// Value at `time` [s].
+    pub fn at(&self, time: f64) -> f64 {
+        let time = self.period.map_or(time, |period| time.rem_euclid(period));
+        let after = self.times.partition_point(|&t| t <= time);
+        match (after.checked_sub(1), self.times.get(after)) {
+            (None, _) => self.values[0],
+            (Some(i), None) => self.values[i],
+            (Some(i), Some(next)) => {
+                let share = (time - self.times[i]) / (next - self.times[i]);
+                self.values[i] + share * (self.values[i + 1] - self.values[i])
+            }
+        }
+    }
+}
+
+/// The scene in the file `what`, or the one of that name in the workspace.
+pub fn find(what: &str) -> Result<Scene> {
+    let file = Path::new(what);
+    if file.is_file() {
+        return load::load(file);
+    }
+    let named = paths::scenes().join(format!("{what}.toml"));
+    if named.is_file() {
+        return load::load(&named);
+    }
+    let names: Vec<String> = files()?.iter().filter_map(|f| Some(f.file_stem()?.to_str()?.to_owned())).collect();
+    match set::closest(what, names.iter().map(String::as_str)) {
+        Some(name) => bail!("no scene is named '{what}'; did you mean '{name}'?"),
+        None => bail!("no scene is named '{what}', and there is no such file; scenes: {}", names.join(", ")),
+    }
+}
+
+/// Files of all scenes in the workspace, by name.
+pub fn files() -> Result<Vec<PathBuf>> {
+    let folder = paths::scenes();
+    let entries = std::fs::read_dir(&folder).with_context(|| format!("{} cannot be read", paths::shown(&folder)))?;
+    let mut files = Vec::new();
+    for entry in entries {
+        let path = entry.with_context(|| format!("{} cannot be read", paths::shown(&folder)))?.path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// All scenes with their descriptions, a line each.
+pub fn list() -> Result<String> {
+    let scenes: Vec<Scene> = files()?.iter().map(|file| load::load(file)).collect::<Result<_>>()?;
+    let width = scenes.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    Ok(scenes.iter().map(|scene| format!("{:<width$}  {}\n", scene.name, scene.description)).collect())
+}

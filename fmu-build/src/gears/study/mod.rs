@@ -1,0 +1,103 @@
+//! The command `study`: packages the FMU, simulates the study's two cases through fmpy, and compares the results with the study
+//! and with theory.
+
+pub mod comparison;
+pub mod evaluation;
+pub mod published;
+pub mod report;
+pub mod theory;
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use bevel_differential::model::Parameters;
+use clap::Args;
+
+use crate::fmu::package;
+use crate::gears::study::evaluation::{Results, SimulationRequest};
+use crate::gears::study::theory::Theory;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// The document with the whole comparison.
+const DOCUMENT: &str = "docs/study.md";
+/// The rows of it that README.md has too.
+const EXCERPT: [&str; 5] = [
+    "straight: left, deg/s",
+    "turn: left, deg/s",
+    "turn: right, deg/s",
+    "T/r_p, all planets, outer, N",
+    "straight: mesh frequency, Hz",
+];
+/// The lines between which both documents have their table.
+const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
+
+/// Packages the FMU, simulates the study and compares the results with it (the default command)
+#[derive(Args, Clone, Debug, Default)]
+pub struct StudyCommand {
+    /// Also write the comparison into README.md and docs/study.md, and renew the pictures
+    #[arg(long)]
+    pub readme: bool,
+}
+
+impl StudyCommand {
+    /// Runs the study and prints the comparison.
+    pub fn run(&self) -> Result<()> {
+        run(self.readme)
+    }
+}
+
+fn run(readme: bool) -> Result<()> {
+    // Python first: what the user has to install should not come out after minutes of building
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::ready(|what| progress.stage(what))?;
+    progress.stage("packaging the FMU");
+    let fmu = package::package()?;
+    let folder = paths::study();
+    paths::create_folder(&folder)?;
+    let theory = Theory::new(&Parameters::default());
+    let results = simulate(&environment, &fmu, &folder, &SimulationRequest::new(&theory), &progress)?;
+    progress.finish();
+    let report = comparison::report(&theory, &results);
+    let markdown = report.markdown();
+    fs::write(folder.join("table.md"), &markdown).context("the table cannot be written")?;
+    print!("{}", report.terminal());
+    println!("\nFMU:     {}\nresults: {}", paths::shown(&fmu), paths::shown(&folder));
+    if readme {
+        sections::renew(DOCUMENT, MARKS, &markdown)?;
+        sections::renew("README.md", MARKS, &report.excerpt(&EXCERPT))?;
+        copy_pictures(&folder)?;
+        println!("renewed: README.md, docs/study.md, docs/images");
+    }
+    Ok(())
+}
+
+/// Runs study.py in `folder` and reads what it found.
+fn simulate(
+    environment: &Environment,
+    fmu: &Path,
+    folder: &Path,
+    order: &SimulationRequest,
+    progress: &Progress,
+) -> Result<Results> {
+    fs::write(folder.join("order.json"), order.json()?).context("the order for study.py cannot be written")?;
+    let study = paths::workspace().join("fmu-build").join("python").join("study.py");
+    progress.begin_bar("simulating");
+    script::run(environment, &study, &[fmu, folder], progress)?;
+    let results = fs::read_to_string(folder.join("results.json")).context("study.py left no results")?;
+    serde_json::from_str(&results).context("the results of study.py cannot be read")
+}
+
+fn copy_pictures(folder: &Path) -> Result<()> {
+    let images = paths::workspace().join("docs").join("images");
+    fs::create_dir_all(&images).context("docs/images cannot be made")?;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
+            fs::copy(&path, images.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,66 @@
+//! The whole drivetrain of examples/drivetrain, coupled from FMUs: one run and its tables.
+
+use std::ffi::OsString;
+use std::fs;
+
+use anyhow::{Context, Result};
+use clap::Args;
+
+use crate::fmu::{package, plain_types};
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::table::for_terminal;
+use crate::tools::{paths, script, sections};
+
+/// The document with the tables, their place, and the pictures.
+const DOCUMENT: &str = "docs/coupling.md";
+const MARKS: [&str; 2] = ["<!-- drivetrain:begin -->", "<!-- drivetrain:end -->"];
+const PICTURES: [&str; 3] = ["drivetrain_signals.png", "drivetrain_launch.png", "drivetrain_errors.png"];
+
+/// Couples a whole drivetrain from FMUs and compares it with all its equations at once (many minutes)
+#[derive(Args, Clone, Debug)]
+pub struct DrivetrainCommand {
+    /// Ideal gears only, in a minute and a half
+    #[arg(long, conflicts_with = "write")]
+    quick: bool,
+    /// Also renew docs/coupling.md
+    #[arg(long)]
+    write: bool,
+}
+
+impl DrivetrainCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        run(self.quick, self.write)
+    }
+}
+
+fn run(quick: bool, write: bool) -> Result<()> {
+    let progress = Progress::start("looking for Python");
+    let environment = Environment::for_drivetrain(|what| progress.stage(what))?;
+    progress.stage("packaging the FMU");
+    // libcosim sets no enumerations, and the scene is made of them
+    let fmu = plain_types::package(&package::package()?)?;
+    progress.stage("building the equations as a library");
+    let library = package::build_library("foreign-solvers")?;
+    let folder = paths::target().join("drivetrain");
+    let mut arguments: Vec<OsString> = vec![fmu.into(), library.into(), folder.clone().into()];
+    if quick {
+        arguments.push("--quick".into());
+    }
+    progress.begin_bar("coupling");
+    let tables = script::run(&environment, &paths::drivetrain().join("run.py"), &arguments, &progress)?;
+    progress.finish();
+    print!("{}", for_terminal(&tables));
+    println!("\nresults: {}", paths::shown(&folder));
+    if write {
+        sections::renew(DOCUMENT, MARKS, &tables)?;
+        let images = paths::workspace().join("docs").join("images");
+        for picture in PICTURES {
+            fs::copy(folder.join(picture), images.join(picture))
+                .with_context(|| format!("{picture} cannot be copied to docs/images"))?;
+        }
+        println!("renewed: {DOCUMENT} and its pictures in docs/images");
+    }
+    Ok(())
+}

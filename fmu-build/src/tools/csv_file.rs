@@ -1,0 +1,66 @@
+//! CSV files: comments, a head line, and rows without empty cells.
+
+use anyhow::{Context, Result};
+use csv::Writer;
+
+/// A CSV file in the making.
+pub struct CsvFile {
+    comments: String,
+    rows: Writer<Vec<u8>>,
+}
+
+impl CsvFile {
+    /// A file with `columns`, separated by commas, after a line for each comment.
+    pub fn new<T: AsRef<str>>(columns: &str, comments: &[T]) -> Result<Self> {
+        let comments = comments.iter().map(|comment| format!("# {}\n", comment.as_ref())).collect();
+        let mut rows = Writer::from_writer(Vec::new());
+        rows.write_record(columns.split(',')).context("the head of a CSV file")?;
+        Ok(Self { comments, rows })
+    }
+
+    /// Adds a row of as many cells as there are columns; an empty cell becomes "-".
+    pub fn push<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<()> {
+        for cell in cells {
+            let cell = cell.as_ref();
+            // a row stays on one line
+            let cell = if cell.is_empty() { "-".into() } else { cell.replace('\n', " ") };
+            self.rows.write_field(cell)?;
+        }
+        self.rows.write_record(None::<&[u8]>).context("a row of a CSV file")
+    }
+
+    /// The text of the file.
+    pub fn text(self) -> Result<String> {
+        let rows = self.rows.into_inner().map_err(|error| error.into_error()).context("a CSV file")?;
+        Ok(self.comments + &String::from_utf8(rows)?)
+    }
+}
+
+/// A number as a cell.
+pub fn number(value: f64) -> String {
+    if value.is_nan() { "nan".into() } else { format!("{value:.6e}") }
+}
+
+/// The same, "nan" where there is none.
+pub fn number_or_nan(value: Option<f64>) -> String {
+    number(value.unwrap_or(f64::NAN))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_are_quoted_where_they_have_commas_and_are_never_empty() -> Result<()> {
+        let mut file = CsvFile::new("a,b", &["of a test"])?;
+        file.push(["x, \"y\"\nz", ""])?;
+        assert_eq!(file.text()?, "# of a test\na,b\n\"x, \"\"y\"\" z\",-\n");
+        Ok(())
+    }
+
+    #[test]
+    fn a_row_has_as_many_cells_as_there_are_columns() -> Result<()> {
+        assert!(CsvFile::new("a,b", &["of a test"])?.push(["x"]).is_err());
+        Ok(())
+    }
+}

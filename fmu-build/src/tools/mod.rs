@@ -1,0 +1,12 @@
+//! Shared tools: tables, marked sections of documents, paths, progress, Python. Nothing here knows gears or the FMU, and
+//! nothing here uses another room.
+
+pub mod csv_file;
+pub mod machine;
+pub mod numbers;
+pub mod paths;
+pub mod progress;
+pub mod python;
+pub mod script;
+pub mod sections;
+pub mod table;

@@ -1,0 +1,85 @@
+//! Folders and files of the workspace and of the target directory.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+/// Root of the workspace, known at compile time: this program belongs to its workspace.
+pub fn workspace() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_path_buf()
+}
+
+/// The target directory that the running executable was built into; a tag file by cargo marks it.
+pub fn target() -> PathBuf {
+    let built_into = env::current_exe().ok().and_then(|exe| {
+        let tagged = exe.ancestors().find(|folder| folder.join("CACHEDIR.TAG").is_file());
+        tagged.map(Path::to_path_buf)
+    });
+    built_into
+        .or_else(|| env::var_os("CARGO_TARGET_DIR").map(|folder| workspace().join(folder)))
+        .unwrap_or_else(|| workspace().join("target"))
+}
+
+/// Makes `folder` and its parents unless they exist.
+pub fn create_folder(folder: &Path) -> Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", shown(folder)))
+}
+
+/// The packaged FMU.
+pub fn fmu() -> PathBuf {
+    target().join("fmu").join(format!("{}.fmu", bevel_differential::variables::MODEL_NAME))
+}
+
+/// The tool chains for machines other than this one.
+pub fn toolchains() -> PathBuf {
+    target().join("toolchains")
+}
+
+/// Results of the study.
+pub fn study() -> PathBuf {
+    target().join("study")
+}
+
+/// The comparison with other simulators.
+pub fn simulators_benchmark() -> PathBuf {
+    workspace().join("benches").join("peers")
+}
+
+/// The comparison with solvers written by others.
+pub fn solvers_benchmark() -> PathBuf {
+    workspace().join("benches").join("foreign")
+}
+
+/// The scripts and scenes of other hosts.
+pub fn hosts() -> PathBuf {
+    workspace().join("tests").join("hosts")
+}
+
+/// The drivetrain coupled from FMUs.
+pub fn drivetrain() -> PathBuf {
+    workspace().join("examples").join("drivetrain")
+}
+
+/// Hosts written in C.
+pub fn c_hosts() -> PathBuf {
+    workspace().join("tests").join("c")
+}
+
+/// The scenes kept in the repository.
+pub fn scenes() -> PathBuf {
+    workspace().join("scenes")
+}
+
+/// The model description kept in the repository.
+pub fn model_description() -> PathBuf {
+    workspace().join("modelDescription").join("modelDescription.xml")
+}
+
+/// `path` relative to the current folder or to the workspace, for messages.
+pub fn shown(path: &Path) -> String {
+    let from = env::current_dir().unwrap_or_else(|_| workspace());
+    path.strip_prefix(&from).or_else(|_| path.strip_prefix(workspace())).unwrap_or(path).display().to_string()
+}

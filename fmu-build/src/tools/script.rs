@@ -1,0 +1,71 @@
+//! Python scripts whose progress is shown.
+
+use std::ffi::OsStr;
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::Stdio;
+use std::thread;
+
+use anyhow::{Context, Result, bail};
+
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+
+/// Runs `script` to its end and returns what it printed. Its lines "progress <fraction> <what>" on standard error move
+/// the bar; other lines there are the error if it fails.
+pub fn run(
+    environment: &Environment,
+    script: &Path,
+    arguments: &[impl AsRef<OsStr>],
+    progress: &Progress,
+) -> Result<String> {
+    let name = script.file_name().unwrap_or_default().display();
+    let mut child = environment
+        .command()
+        .arg(script)
+        .args(arguments)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .with_context(|| format!("{name} cannot be run"))?;
+    // both pipes are read at the same time, so that neither fills up
+    let printed = child.stdout.take().map(|mut pipe| {
+        thread::spawn(move || {
+            let mut text = String::new();
+            pipe.read_to_string(&mut text).map(|_| text)
+        })
+    });
+    let mut remarks = Vec::new();
+    if let Some(pipe) = child.stderr.take() {
+        for line in BufReader::new(pipe).lines() {
+            let line = line.with_context(|| format!("{name} does not write UTF-8"))?;
+            match progress_in(&line) {
+                Some((fraction, what)) => progress.advance(fraction, what),
+                None => remarks.push(line),
+            }
+        }
+    }
+    let status = child.wait().with_context(|| format!("{name} was lost"))?;
+    if !status.success() {
+        bail!("{name} failed: {}", remarks.join("\n").trim_end());
+    }
+    let printed = printed.and_then(|thread| thread.join().ok()).transpose();
+    Ok(printed.with_context(|| format!("what {name} printed cannot be read"))?.unwrap_or_default())
+}
+
+/// A line `progress <fraction> <what>`.
+fn progress_in(line: &str) -> Option<(f64, &str)> {
+    let (fraction, what) = line.strip_prefix("progress ")?.split_once(' ')?;
+    Some((fraction.parse().ok()?, what))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::progress_in;
+
+    #[test]
+    fn a_progress_line_has_a_fraction_and_a_text() {
+        assert_eq!(progress_in("progress 0.25 turning, 0.5 s"), Some((0.25, "turning, 0.5 s")));
+        assert_eq!(progress_in("something else"), None);
+    }
+}

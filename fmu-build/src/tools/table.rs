@@ -1,0 +1,203 @@
+//! Tables, aligned for a terminal and as Markdown for documents, and paragraphs of a terminal's width.
+
+use std::fmt::Write as _;
+
+use comfy_table::presets::ASCII_MARKDOWN;
+use comfy_table::{CellAlignment, LineStyle, TableStyle};
+
+/// Width of paragraphs.
+const WIDTH: usize = 118;
+/// Most of a last column of sentences that the line under the head reaches over.
+const LAST: usize = 24;
+
+/// A table of texts; columns are right-aligned unless said otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    head: Vec<String>,
+    left: Vec<usize>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table with the columns `head`, and no rows yet.
+    pub fn new<T: Into<String>>(head: impl IntoIterator<Item = T>) -> Self {
+        Self { head: head.into_iter().map(Into::into).collect(), left: Vec::new(), rows: Vec::new() }
+    }
+
+    /// With `columns` left-aligned.
+    pub fn left(mut self, columns: impl IntoIterator<Item = usize>) -> Self {
+        self.left.extend(columns);
+        self
+    }
+
+    /// With all columns left-aligned.
+    pub fn all_left(self) -> Self {
+        let columns = self.head.len();
+        self.left(0..columns)
+    }
+
+    /// Adds a row.
+    pub fn push<T: Into<String>>(&mut self, cells: impl IntoIterator<Item = T>) {
+        self.rows.push(cells.into_iter().map(Into::into).collect());
+    }
+
+    /// Aligned columns, for a terminal.
+    pub fn terminal(&self) -> String {
+        let rule = LineStyle::none().fill('-').junction('-');
+        let mut drawn = self.drawn(TableStyle::new().header_separator(rule));
+        drawn.column_iter_mut().for_each(|column| {
+            column.set_padding((0, 1));
+        });
+        let lines = drawn.lines().map(|line| line.trim_end().to_owned()).enumerate();
+        lines.fold(String::new(), |mut out, (i, line)| {
+            let line = if i == 1 { "-".repeat(line.len().saturating_sub(self.past_rule())) } else { line };
+            let _ = writeln!(out, "{line}");
+            out
+        })
+    }
+
+    /// By how much the last column is wider than the line under the head: sentences in it are long.
+    fn past_rule(&self) -> usize {
+        let Some(last) = self.head.len().checked_sub(1).filter(|last| self.left.contains(last)) else { return 1 };
+        let cells = self.rows.iter().filter_map(|row| row.get(last)).chain([&self.head[last]]);
+        let width = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
+        1 + width.saturating_sub(LAST.max(self.head[last].chars().count()))
+    }
+
+    /// Markdown, for a document.
+    pub fn markdown(&self) -> String {
+        let drawn = self.drawn(ASCII_MARKDOWN);
+        let mut out = String::new();
+        for (i, line) in drawn.lines().enumerate() {
+            let _ = writeln!(out, "{}", if i == 1 { self.rule(&line) } else { line });
+        }
+        out
+    }
+
+    /// The line under the head with the alignment of each column.
+    fn rule(&self, line: &str) -> String {
+        let dashes = line.trim_matches('|').split('|').enumerate();
+        let marked = dashes.map(|(i, dashes)| {
+            if self.left.contains(&i) { dashes.to_owned() } else { format!("{}:", &dashes[..dashes.len() - 1]) }
+        });
+        format!("|{}|", marked.collect::<Vec<_>>().join("|"))
+    }
+
+    fn drawn(&self, style: TableStyle) -> comfy_table::Table {
+        let mut drawn = comfy_table::Table::new();
+        drawn.load_style(style).set_header(self.head.iter().cloned());
+        drawn.add_rows(self.rows.iter().map(|row| row.iter().cloned()));
+        for (i, column) in drawn.column_iter_mut().enumerate() {
+            let left = self.left.contains(&i);
+            column.set_cell_alignment(if left { CellAlignment::Left } else { CellAlignment::Right });
+        }
+        drawn
+    }
+
+    /// The table that `lines` of Markdown hold.
+    fn read(lines: &[&str]) -> Self {
+        let cells = |line: &str| -> Vec<String> {
+            line.trim().trim_matches('|').split('|').map(|cell| cell.trim().replace('`', "")).collect()
+        };
+        let mut table = Self::new(cells(lines[0]));
+        for line in &lines[1..] {
+            let cells = cells(line);
+            if cells.iter().all(|cell| !cell.is_empty() && cell.chars().all(|c| c == '-' || c == ':')) {
+                table.left.extend((0..cells.len()).filter(|&i| !cells[i].ends_with(':')));
+            } else {
+                table.rows.push(cells);
+            }
+        }
+        table
+    }
+}
+
+/// A page of Markdown for a terminal: its tables aligned, all else as it is.
+pub fn for_terminal(page: &str) -> String {
+    let mut out = String::new();
+    let lines: Vec<&str> = page.lines().collect();
+    for part in lines.chunk_by(|a, b| a.starts_with('|') == b.starts_with('|')) {
+        if part[0].starts_with('|') {
+            out.push_str(&Table::read(part).terminal());
+        } else {
+            part.iter().for_each(|line| {
+                let _ = writeln!(out, "{line}");
+            });
+        }
+    }
+    out
+}
+
+/// `text` in lines of the terminal's width.
+pub fn wrapped(text: &str) -> String {
+    labelled("", text)
+}
+
+/// `text` after `label` in lines of the terminal's width, the later ones indented as far as the label reaches.
+pub fn labelled(label: &str, text: &str) -> String {
+    let indent = " ".repeat(label.chars().count());
+    let (mut out, mut line, mut width) = (String::new(), label.to_owned(), label.chars().count());
+    let mut is_begun = false;
+    for word in text.split_whitespace() {
+        let length = word.chars().count();
+        if is_begun && width + 1 + length > WIDTH {
+            let _ = writeln!(out, "{line}");
+            line.clone_from(&indent);
+            (width, is_begun) = (indent.len(), false);
+        }
+        if is_begun {
+            line.push(' ');
+            width += 1;
+        }
+        line.push_str(word);
+        (width, is_begun) = (width + length, true);
+    }
+    let _ = writeln!(out, "{}", line.trim_end());
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let mut table = Table::new(["case", "error, µm"]).left([0]);
+        table.push(["`turn`", "2"]);
+        table.push(["straight ahead", "128"]);
+        table
+    }
+
+    #[test]
+    fn a_terminal_shows_aligned_columns() {
+        let wanted = "case            error, µm\n---\n`turn`                  2\nstraight ahead        128\n";
+        let shown = table().terminal();
+        let (head, rest) = shown.split_once('\n').expect("lines");
+        let (rule, rows) = rest.split_once('\n').expect("lines");
+        assert_eq!(format!("{head}\n---\n{rows}"), wanted);
+        assert!(rule.chars().all(|c| c == '-') && rule.len() >= head.chars().count());
+    }
+
+    #[test]
+    fn markdown_says_how_columns_are_aligned() {
+        let lines: Vec<String> = table().markdown().lines().map(|line| line.replace(' ', "")).collect();
+        assert_eq!(lines[0], "|case|error,µm|");
+        assert!(lines[1].starts_with("|--") && lines[1].ends_with("-:|"), "{}", lines[1]);
+        assert_eq!(lines[3], "|straightahead|128|");
+    }
+
+    #[test]
+    fn a_page_of_markdown_is_shown_with_aligned_tables() {
+        let page = format!("Before.\n\n{}\nAfter.\n", table().markdown());
+        let shown = for_terminal(&page);
+        assert!(shown.starts_with("Before.\n\ncase  ") && shown.ends_with("\nAfter.\n"), "{shown}");
+        assert!(!shown.contains(['|', '`']) && shown.contains("\nstraight ahead        128\n"), "{shown}");
+    }
+
+    #[test]
+    fn paragraphs_are_wrapped_and_indented_to_their_label() {
+        let text = labelled("[1] ", &"word ".repeat(40));
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() == 2 && lines.iter().all(|line| line.len() <= WIDTH), "{text}");
+        assert!(lines[0].starts_with("[1] word") && lines[1].starts_with("    word"), "{text}");
+    }
+}
