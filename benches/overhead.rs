@@ -84,7 +84,7 @@ impl Fmu {
     /// An instance that is ready to step, on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
     fn ready(&self, level: i32) -> Component {
         let guid = CString::new(guid()).unwrap();
-        // SAFETY: texts that end with NUL, no callbacks, and arrays of the lengths told
+        // SAFETY: texts that end with NUL, no callbacks, and arrays of these lengths
         unsafe {
             let c = (self.instantiate)(
                 c"overhead".as_ptr(),
@@ -109,7 +109,7 @@ fn library() -> PathBuf {
     let here = std::env::current_exe().unwrap();
     let name = format!("{}bevel_differential{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let found = here.ancestors().skip(1).take(2).map(|folder| folder.join(&name)).find(|path| path.is_file());
-    found.unwrap_or_else(|| panic!("{name} is not beside {}", here.display()))
+    found.unwrap_or_else(|| panic!("{name} is not next to {}", here.display()))
 }
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -127,7 +127,7 @@ fn main() {
         let begin = Instant::now();
         for k in 0..STEPS {
             let command = [50.0, 835.0 + f64::from(k % 7), 835.0];
-            // SAFETY: a live component and arrays of the lengths told
+            // SAFETY: a live component and arrays of these lengths
             unsafe {
                 ok &= (fmu.set_real)(c, inputs.as_ptr(), inputs.len(), command.as_ptr()) == Status::Ok;
                 ok &= (fmu.do_step)(c, f64::from(k) * 1e-3, 1e-3, 1) == Status::Ok;

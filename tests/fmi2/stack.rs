@@ -1,13 +1,12 @@
 //! Threads with a stack of 128 KiB are enough for every level, every effect, every method, and both kinds of instances.
 
-mod common;
-
 use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::{Access, table};
-use common::{Host, reference};
+
+use crate::common::{Host, reference};
 
 const STACK: usize = 128 * 1024;
 const SOLID: i32 = 4;
@@ -72,7 +71,7 @@ fn all_of(kind: i32, scene: &Scene) {
     if kind == MODEL_EXCHANGE {
         host.update();
         let (mut x, mut rates, mut indicators) = ([0.0; STATES], [0.0; STATES], [0.0; EVENT_INDICATORS]);
-        // SAFETY: a live component and room for the counts told
+        // SAFETY: a live component and memory for these counts
         let statuses = unsafe {
             [
                 fmi2EnterContinuousTimeMode(host.c),
@@ -89,8 +88,8 @@ fn all_of(kind: i32, scene: &Scene) {
         host.update();
     } else {
         // SAFETY: a live component, one value each
-        let told = unsafe { fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &1.0) };
-        assert_eq!(told, Status::Ok);
+        let set = unsafe { fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &1.0) };
+        assert_eq!(set, Status::Ok);
         host.steps(0.0, 1e-4, 3);
         // SAFETY: as above
         let status = unsafe { fmi2GetRealOutputDerivatives(host.c, &speed, 1, &1, &mut 0.0) };

@@ -1,9 +1,8 @@
 //! The study's straight case through the C functions; expected values are the study's loads and speed, and statics.
 
-mod common;
-
 use bevel_differential::fmi2::Status;
-use common::Host;
+
+use crate::common::Host;
 
 const LOAD: f64 = 835.0; // N·m on each half-shaft
 const SPEED: f64 = 2861.0 * std::f64::consts::PI / 180.0; // rad/s of the carrier
