@@ -1,12 +1,11 @@
 //! A logger that records its lines. It also serves the unit tests of `src/fmi2` and the random calls of `fmu-build`.
 #![allow(dead_code)] // each user needs a part
 
-use std::ffi::CStr;
+use std::ffi::{CStr, c_void};
 use std::ptr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use bevel_differential::fmi2::{CallbackFunctions, Logger, Status, Text};
-use libc::c_void;
 
 /// A logger without variable arguments.
 pub type PlainLogger = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text);

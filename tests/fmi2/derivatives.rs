@@ -28,12 +28,12 @@ pub fn driven_by_torque(level: i32) -> Host {
 }
 
 #[test]
-fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
+fn torques_with_two_derivatives_give_the_momentum_of_their_integral() {
     for level in [1, 2, 3] {
         let host = driven_by_torque(level);
         host.start();
         let inertia = {
-            // the whole turns with the carrier: momentum by an impulse of 1 N·m·s without any load
+            // everything rotates with the carrier: inertia from an impulse of 1 N·m·s without load
             let trial = driven_by_torque(1);
             assert_eq!(trial.set_many(&["left.load_torque", "right.load_torque"], &[0.0; 2]), Status::Ok);
             assert_eq!(trial.set("carrier.torque_command", 100.0), Status::Ok);
@@ -49,7 +49,7 @@ fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
         host.steps(0.0, h, 1);
         let impulse = 2000.0 * h * h / 2.0 - 3e4 * h * h * h / 6.0;
         let gained = (host.get("carrier.speed") - before) * inertia;
-        // teeth swing a little about what the whole does
+        // the teeth vibrate about the mean motion
         let bound = if level == 1 { 1e-9 } else { 2e-2 };
         assert!((gained / impulse - 1.0).abs() < bound, "level {level}: {gained} instead of {impulse} N·m·s");
         assert_eq!(host.get("carrier.torque_command"), 1670.0 + 2000.0 * h - 1.5e4 * h * h);
@@ -57,7 +57,7 @@ fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
 }
 
 #[test]
-fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_acceleration() {
+fn imposed_speeds_follow_their_derivatives_and_need_the_torque_of_their_acceleration() {
     for level in [1, 2, 3] {
         let host = Host::on_level(level);
         host.start();
@@ -74,7 +74,7 @@ fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_accelera
         assert!((host.get("carrier.speed") - speed - 400.0 * h).abs() < 1e-9);
         // 1 kg·m² of wheels and 0.02 kg·m² of carrier and gears, at least
         let more = host.get("carrier.torque") - torque;
-        // lumped meshes still swing about it
+        // lumped meshes still vibrate
         assert!(level == 2 || (200.0..230.0).contains(&more), "level {level}: {more} N·m");
         // relative to the energy turned over
         let through = host.get("power.in") * 2.0 * h;
@@ -83,7 +83,7 @@ fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_accelera
 }
 
 #[test]
-fn ends_of_shafts_that_are_accelerated_take_the_work_of_their_inertia() {
+fn accelerated_shaft_ends_need_the_work_of_their_inertia() {
     for level in [1, 3] {
         let host = driven_by_torque(level);
         assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
@@ -113,7 +113,7 @@ fn one_long_step_with_derivatives_equals_many_short_steps() {
             let steps = (0.01 / h).round() as usize;
             for i in 0..steps {
                 let t = i as f64 * h;
-                // held at the middle of short steps
+                // short steps hold the value of their middle
                 let at = if with_rates { t } else { t + 0.5 * h };
                 assert_eq!(host.set("left.load_torque", 835.0 + 3e4 * at), Status::Ok);
                 assert_eq!(host.set("planet.spin_command", 200.0 * at), Status::Ok);
@@ -184,7 +184,7 @@ pub fn smooth_outputs() -> Vec<&'static str> {
 #[test]
 fn output_derivatives_equal_differences_of_outputs() {
     for level in [1, 2, 3] {
-        // rolling under a torque that rises, so that everything moves
+        // rolling under a rising torque, so that everything moves
         let begin = || {
             let host = driven_by_torque(level);
             assert_eq!(host.set_integer("scene.start", 2), Status::Ok);
@@ -226,7 +226,7 @@ fn output_derivatives_equal_differences_of_outputs() {
                 "level {level}: d({name})/dt = {computed}, differences {difference}"
             );
         }
-        // the ledger: heat by its power
+        // the ledger: heat and its power
         assert_eq!(host.set_state(state), Status::Ok);
         let computed = rate(&host, "heat.contact");
         let [a, b] = [0, 5].map(|n| at(n, "heat.contact"));

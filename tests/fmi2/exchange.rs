@@ -1,4 +1,4 @@
-//! Model exchange gives what co-simulation gives, and what the solver tries leaves no trace.
+//! Model exchange gives the results of co-simulation, and trial states of the solver change no result.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::table;
@@ -94,7 +94,7 @@ fn imposed_speeds_follow_their_commands_at_once() {
 }
 
 #[test]
-fn gears_without_teeth_and_unequal_sides_follow_jumps_of_imposed_speeds_alike_in_both_kinds() {
+fn speed_jumps_of_gears_without_teeth_give_the_same_speeds_in_both_kinds() {
     for imposed in [false, true] {
         let set = |host: &Host| {
             level(host, 1);
@@ -128,7 +128,7 @@ fn gears_without_teeth_and_unequal_sides_follow_jumps_of_imposed_speeds_alike_in
 }
 
 #[test]
-fn what_the_solver_tries_leaves_no_trace() {
+fn trial_states_of_the_solver_change_no_result() {
     let mut solver = Solver::new(|host| level(host, 3));
     solver.steps(1e-6, 10);
     let (x, outputs) = (solver.states(), solver.host.outputs());
@@ -143,7 +143,7 @@ fn what_the_solver_tries_leaves_no_trace() {
 }
 
 #[test]
-fn a_state_in_between_is_restored_to_the_bit_here_and_elsewhere() {
+fn a_state_between_steps_is_restored_bit_by_bit_here_and_in_another_instance() {
     let set = |host: &Host| {
         level(host, 3);
         assert_eq!(host.set_boolean("effects.limited_slip", 1), Status::Ok);

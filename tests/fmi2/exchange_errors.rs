@@ -68,7 +68,7 @@ fn values_that_are_not_finite_at_extreme_states_are_discarded_by_name() {
             }
         }
     }
-    // what a solver tries leaves no trace
+    // trial states change no result
     solver.set(solver.time, &sane);
     assert!(solver.host.outputs().iter().all(|&bits| f64::from_bits(bits).is_finite()));
 }

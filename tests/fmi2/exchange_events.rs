@@ -1,4 +1,4 @@
-//! Events in model exchange: which there are, and what they change.
+//! Events in model exchange.
 
 use bevel_differential::fmi2::*;
 
@@ -17,7 +17,7 @@ fn a_clutch_that_slips_and_sticks_is_an_event() {
             Status::Ok
         );
     };
-    // 80 N·m on each side hold, 800 N·m slide, equal ones catch again
+    // the clutch sticks, slips, and sticks again
     let loads = [(845.0, 0.01), (400.0, 0.02), (1250.0, 0.06)];
     let mut solver = Solver::new(set);
     let steps = in_co_simulation(set, 1e-9, 1);

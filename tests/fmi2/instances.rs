@@ -59,7 +59,7 @@ fn a_missing_name_and_unknown_kinds_are_refused() {
 }
 
 #[test]
-fn any_resource_location_will_do() {
+fn any_resource_location_is_accepted() {
     let locations =
         ["", "file:///p%20q/resources", "file:/p", "file://localhost/p", "C:\\p", "https://example.org", "\u{fc}"];
     for location in [None].into_iter().chain(locations.map(Some)) {
@@ -70,7 +70,7 @@ fn any_resource_location_will_do() {
 }
 
 #[test]
-fn a_thousand_instances_live_side_by_side() {
+fn a_thousand_instances_at_the_same_time_give_the_same_results() {
     let plain = Host::on_level(3);
     plain.start();
     let expected = plain.record_steps(0, 1);

@@ -69,7 +69,7 @@ fn ten_thousand_states_leave_nothing_behind() {
                     let mut bytes = vec![0u8; size];
                     assert_eq!(fmi2SerializeFMUstate(c, state, bytes.as_mut_ptr().cast(), size), Status::Ok);
                     assert_eq!(fmi2DeSerializeFMUstate(c, bytes.as_ptr().cast(), size, &mut copy), Status::Ok);
-                    // read into a state that there is already, and refused
+                    // deserialised into an existing state, and refused
                     assert_eq!(fmi2DeSerializeFMUstate(c, bytes.as_ptr().cast(), size, &mut copy), Status::Ok);
                     bytes[size / 2] ^= 1;
                     assert_eq!(fmi2DeSerializeFMUstate(c, bytes.as_ptr().cast(), size, &mut copy), Status::Error);
@@ -102,7 +102,7 @@ fn ten_thousand_initialisations_of_one_instance_leave_nothing_behind() {
 }
 
 #[test]
-fn a_leak_would_be_seen() {
+fn a_leak_is_detected() {
     let host = Host::new();
     let mut states = Vec::with_capacity(MANY + 8);
     let left = left_behind(|_| states.push(host.get_state()));

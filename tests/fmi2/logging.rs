@@ -11,7 +11,7 @@ use crate::common::recorder::{Recorder, callbacks};
 use crate::common::{Host, assert_contains};
 
 #[test]
-fn without_callbacks_or_logger_everything_works_in_silence() {
+fn without_callbacks_or_logger_everything_works() {
     let silent = CallbackFunctions { logger: None, ..Recorder::default().callbacks() };
     let guid = std::ffi::CString::new(variables::guid()).unwrap();
     for callbacks in [ptr::null(), &raw const silent] {
@@ -31,7 +31,7 @@ fn without_callbacks_or_logger_everything_works_in_silence() {
 
 #[test]
 fn percent_signs_never_reach_the_printf_of_the_host() {
-    // the test's logger refuses any percent sign
+    // the recorder refuses any percent sign
     let host = Host::instantiate(Some("100%s"), CO_SIMULATION, Some("%n%s%d"), None);
     assert!(host.c.is_null());
     assert_contains(&host.last_message(), &["percent"]);

@@ -1,4 +1,4 @@
-//! FMU states: a restored simulation goes on bit by bit, and bytes that are not right are refused.
+//! FMU states: a restored simulation continues bit by bit, and invalid bytes are refused.
 
 use std::ptr;
 
@@ -7,7 +7,7 @@ use bevel_differential::fmi2::*;
 use crate::common::{Host, assert_contains};
 
 #[test]
-fn a_restored_state_goes_on_bit_by_bit() {
+fn a_restored_state_continues_bit_by_bit() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
@@ -16,7 +16,7 @@ fn a_restored_state_goes_on_bit_by_bit() {
         let expected = host.record_steps(5, 10);
         assert_eq!(host.set_state(state), Status::Ok);
         assert!(host.record_steps(5, 10) == expected, "level {level}");
-        // a state may be restored often, and overwritten
+        // a state can be restored repeatedly, and overwritten
         assert_eq!(host.set_state(state), Status::Ok);
         assert!(host.record_steps(5, 3) == expected[..3]);
         let mut reused = state;
@@ -32,7 +32,7 @@ fn a_restored_state_goes_on_bit_by_bit() {
 }
 
 #[test]
-fn a_serialised_state_goes_on_bit_by_bit_in_another_instance() {
+fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
@@ -57,7 +57,7 @@ fn a_serialised_state_goes_on_bit_by_bit_in_another_instance() {
 }
 
 #[test]
-fn states_of_every_phase_can_be_kept_and_restored() {
+fn states_of_every_phase_can_be_stored_and_restored() {
     let host = Host::on_level(3);
     let before = host.get_state();
     host.start();
@@ -80,7 +80,7 @@ fn states_of_every_phase_can_be_kept_and_restored() {
 }
 
 #[test]
-fn a_good_state_rescues_an_instance_whose_step_failed() {
+fn a_stored_state_recovers_an_instance_whose_step_failed() {
     let host = Host::on_level(3);
     host.start();
     host.record_steps(0, 2);
@@ -95,7 +95,7 @@ fn a_good_state_rescues_an_instance_whose_step_failed() {
 }
 
 #[test]
-fn damaged_truncated_and_foreign_bytes_are_refused_and_nothing_is_lost() {
+fn damaged_truncated_and_foreign_bytes_are_refused_and_change_nothing() {
     let host = Host::on_level(3);
     host.start();
     host.record_steps(0, 2);
@@ -130,7 +130,7 @@ fn damaged_truncated_and_foreign_bytes_are_refused_and_nothing_is_lost() {
     refuse(&[bytes.as_slice(), &[0]].concat(), &["surplus bytes"]);
     refuse(&vec![0; bytes.len()], &["not a serialised state"]);
 
-    // an existing state is not touched by a refused blob
+    // refused bytes do not change an existing state
     let mut kept = state;
     // SAFETY: a live component, the bytes, a live state
     let status = unsafe { fmi2DeSerializeFMUstate(host.c, bytes.as_ptr().cast(), bytes.len() - 1, &mut kept) };

@@ -1,4 +1,4 @@
-//! Steps: which are taken, which are refused, and what remains of one that fails.
+//! Steps: which are carried out, which are refused, and the state after a failed step.
 
 use bevel_differential::fmi2::*;
 
@@ -21,7 +21,7 @@ fn with_experiment(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> (Ho
 }
 
 #[test]
-fn a_step_size_that_is_no_positive_number_is_refused() {
+fn a_step_size_that_is_not_finite_and_positive_is_refused() {
     let host = Host::new();
     host.start();
     for h in [0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
@@ -35,7 +35,7 @@ fn a_step_size_that_is_no_positive_number_is_refused() {
 fn communication_points_are_compared_with_a_tolerance() {
     let host = Host::new();
     host.start();
-    // adding up steps does not give their multiples
+    // the sum of the steps differs from their multiple by rounding
     let mut t = 0.0;
     for _ in 0..1000 {
         assert_eq!(host.step(t, 1e-4), Status::Ok, "{:?}", host.log());
@@ -51,7 +51,7 @@ fn communication_points_are_compared_with_a_tolerance() {
 }
 
 #[test]
-fn a_step_taken_twice_or_left_out_is_refused_at_late_times_too() {
+fn a_step_repeated_or_left_out_is_refused_at_late_times_too() {
     for (start, h) in [(1e6, 1e-4), (1e3, 1e-6), (0.0, 1e-9)] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!((status, host.enter(), host.exit()), (Status::Ok, Status::Ok, Status::Ok));
@@ -105,7 +105,7 @@ fn steps_may_vary_in_size() {
 }
 
 #[test]
-fn an_experiment_that_makes_no_sense_is_refused() {
+fn an_invalid_experiment_is_refused() {
     for start in [f64::NAN, f64::INFINITY] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!(status, Status::Error);

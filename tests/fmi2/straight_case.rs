@@ -67,7 +67,7 @@ fn outputs_in_initialisation_mode_follow_what_is_set() {
 }
 
 #[test]
-fn describing_and_warning_go_to_the_log_while_the_status_stays_ok() {
+fn descriptions_and_warnings_are_logged_by_calls_that_return_ok() {
     let host = Host::new();
     host.start();
     let log = host.log();

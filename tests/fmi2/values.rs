@@ -8,7 +8,7 @@ use bevel_differential::variables::table;
 use crate::common::{Host, assert_contains, reference};
 
 #[test]
-fn a_number_that_is_none_is_discarded_and_nothing_is_lost() {
+fn a_value_that_is_not_finite_is_discarded_and_changes_nothing() {
     for level in [1, 3] {
         let plain = Host::on_level(level);
         plain.start();
@@ -17,7 +17,7 @@ fn a_number_that_is_none_is_discarded_and_nothing_is_lost() {
         host.start();
         let mut seen = host.record_steps(0, 3);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200] {
-            // the first value is good and must not be applied either
+            // the first value is valid, but must not be set either
             let status = host.set_many(&["right.load_torque", "left.load_torque"], &[1.0, bad]);
             assert_eq!(status, Status::Discard);
             assert_contains(
@@ -31,7 +31,7 @@ fn a_number_that_is_none_is_discarded_and_nothing_is_lost() {
 }
 
 #[test]
-fn a_parameter_that_is_no_number_is_discarded_at_once() {
+fn a_parameter_that_is_not_finite_is_discarded_at_once() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", f64::NAN), Status::Discard);
     assert_contains(&host.last_message(), &["geometry.module", "NaN", "0.0002", "0.1", " m"]);
@@ -44,7 +44,7 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
     plain.start();
     let expected = plain.outputs();
     let host = Host::new();
-    assert_eq!(host.set("geometry.module", 4.5), Status::Ok, "ranges are checked together, later");
+    assert_eq!(host.set("geometry.module", 4.5), Status::Ok, "initialisation checks all ranges together");
     assert_eq!(host.set_integer("geometry.planet_teeth", -3), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
     assert_eq!(host.exit(), Status::Error);
@@ -54,7 +54,7 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
     );
     assert_eq!(host.step(0.0, 1e-3), Status::Error);
     assert_eq!(host.try_get("left.speed").0, Status::Error);
-    assert_eq!(host.get("geometry.module"), 4.5, "what was set can be looked at");
+    assert_eq!(host.get("geometry.module"), 4.5, "the values set can be read");
     assert_eq!(host.reset(), Status::Ok);
     assert_eq!(host.get("geometry.module"), 0.0045);
     host.start();
@@ -62,7 +62,7 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
 }
 
 #[test]
-fn parameters_can_be_repaired_while_still_in_initialisation_mode() {
+fn parameters_can_be_corrected_in_initialisation_mode() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
@@ -90,7 +90,7 @@ fn outputs_and_fixed_parameters_are_not_set_in_a_running_simulation() {
 
 #[test]
 fn a_tunable_parameter_acts_in_a_running_simulation() {
-    // between two steps the damping is doubled; from then on the runs differ, and not before
+    // the damping is doubled between two steps; the runs differ from there on
     let (plain, tuned) = (Host::on_level(3), Host::on_level(3));
     plain.start();
     tuned.start();
@@ -105,7 +105,7 @@ fn a_tunable_parameter_acts_in_a_running_simulation() {
 }
 
 #[test]
-fn an_enumeration_takes_its_choices_and_lists_them_when_asked_for_another() {
+fn an_enumeration_accepts_its_choices_and_lists_them_for_any_other_value() {
     let host = Host::new();
     for value in 1..=4 {
         assert_eq!(host.set_integer("geometry.addendum_system", value), Status::Ok);
@@ -145,7 +145,7 @@ fn wrong_types_and_unknown_references_are_named() {
 }
 
 #[test]
-fn null_arrays_are_refused_unless_nothing_is_asked_for() {
+fn null_arrays_are_refused_unless_the_count_is_zero() {
     let host = Host::new();
     let module = reference("geometry.module");
     // SAFETY: a live component; NULL arrays are what is tested
