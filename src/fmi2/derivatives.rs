@@ -22,8 +22,8 @@ const RELATIVE_STEP: f64 = 3e-3;
 
 /// Bit of an input in `Snapshot::derivatives_set`.
 fn input_bit(reference: u32) -> u32 {
-    let place = table().inputs.iter().position(|&i| i as u32 == reference);
-    place.map_or(0, |place| 1 << place)
+    let index = table().inputs.iter().position(|&i| i as u32 == reference);
+    index.map_or(0, |index| 1 << index)
 }
 
 impl Instance {
@@ -260,7 +260,7 @@ fn initial_derivatives(
         size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
     }
     let step = if size > 0.0 { RELATIVE_STEP / size } else { 1.0 };
-    let moved = |place: f64| {
+    let moved = |offset: f64| {
         let mut moved = now.clone();
         for (reference, change) in references.iter().zip(change.iter()) {
             let row = row(reference)?;
@@ -269,18 +269,18 @@ fn initial_derivatives(
                 Access::Real(slot) => slot(&mut moved.parameters),
                 _ => continue,
             };
-            *value += place * step * change;
+            *value += offset * step * change;
             check_value(row, *value).map_err(|problem| CallError::error(problem.to_string()))?;
         }
         Ok(moved)
     };
     // one-sided where the other side leaves the range
-    let all_valid = |places: &&[(f64, f64)]| places.iter().all(|&(place, _)| moved(place).is_ok());
+    let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
     let sides: [&[(f64, f64)]; 3] = [&PLACES, &FORWARD, &BACKWARD];
-    let places = sides.into_iter().find(all_valid).unwrap_or(&PLACES);
+    let offsets = sides.into_iter().find(all_valid).unwrap_or(&PLACES);
     let mut sums = vec![0.0; sources.len()];
-    for &(place, weight) in places {
-        let mut simulation = moved(place)?.start().map_err(|problems| {
+    for &(offset, weight) in offsets {
+        let mut simulation = moved(offset)?.start().map_err(|problems| {
             CallError::error(format!(
                 "there is no derivative, because initialisation fails close to these values:\n{}",
                 crate::problem::list(&problems)

@@ -59,15 +59,15 @@ impl Instance {
         {
             return Err(CallError::error(format!("stop time {stop} s is not after the start time {start} s")));
         }
-        if let Some(asked) = tolerance
-            && (asked.is_nan() || asked <= 0.0)
+        if let Some(requested) = tolerance
+            && (requested.is_nan() || requested <= 0.0)
         {
-            return Err(CallError::error(format!("tolerance {asked} is not a positive number")));
+            return Err(CallError::error(format!("tolerance {requested} is not a positive number")));
         }
         (self.now.start_time, self.now.stop_time) = (start, stop);
-        if let (Some(asked), false, Some((row, slot))) = (tolerance, self.now.tolerance_chosen, tolerance_row()) {
-            let range = row.range.unwrap_or(variables::Range { min: asked, max: asked });
-            *slot(&mut self.now.parameters) = asked.clamp(range.min, range.max);
+        if let (Some(requested), false, Some((row, slot))) = (tolerance, self.now.tolerance_chosen, tolerance_row()) {
+            let range = row.range.unwrap_or(variables::Range { min: requested, max: requested });
+            *slot(&mut self.now.parameters) = requested.clamp(range.min, range.max);
         }
         Ok(())
     }

@@ -60,7 +60,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
 fn instantiate(
     name: Option<&CStr>,
     kind: c_int,
-    asked: Option<&CStr>,
+    given: Option<&CStr>,
     callbacks: Option<CallbackFunctions>,
     logging_on: bool,
 ) -> Option<Instance> {
@@ -74,9 +74,9 @@ fn instantiate(
     };
     let problem = if named.is_none() {
         "the instance name is NULL or empty".to_owned()
-    } else if asked.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
-        let asked = asked.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
-        format!("the GUID {asked} of the model description is not this binary's GUID \"{}\"", guid())
+    } else if given.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
+        let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
+        format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
     } else if let Some(kind) = made_for {
         return Some(Instance::new(kind, log));
     } else {
