@@ -1,5 +1,5 @@
-//! What the face of FMI costs: a step of the ideal level with all that a host does around it, and the way from
-//! instantiation to the first step. The functions are looked up in the shared library, as a host written in C does.
+//! Cost of the FMI interface: a step of the ideal level with the calls of a host around it, and the calls from instantiation
+//! to the first step. The functions are looked up in the shared library, as a C host does.
 
 #[path = "../tests/common/mod.rs"]
 mod common;
@@ -16,7 +16,7 @@ use common::reference;
 
 type Component = *mut c_void;
 
-/// Steps of a run, and runs; the median is what to quote.
+/// Steps of a run, and runs. The median is reported.
 const STEPS: u32 = 20_000;
 const RUNS: usize = 41;
 
@@ -34,7 +34,7 @@ const OUTPUTS: [&str; 10] = [
     "planet[1].spin_speed",
 ];
 
-/// The functions in use, as C declares them.
+/// The functions used, with their C types.
 struct Fmu {
     instantiate:
         unsafe extern "C" fn(*const c_char, i32, *const c_char, *const c_char, *const c_void, i32, i32) -> Component,
@@ -81,10 +81,10 @@ impl Fmu {
         }
     }
 
-    /// An instance that is ready to step, on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
+    /// An initialised instance on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.
     fn ready(&self, level: i32) -> Component {
         let guid = CString::new(guid()).unwrap();
-        // SAFETY: texts that end with NUL, no callbacks, and arrays of the lengths told
+        // SAFETY: texts that end with NUL, no callbacks, and arrays of these lengths
         unsafe {
             let c = (self.instantiate)(
                 c"overhead".as_ptr(),
@@ -104,12 +104,12 @@ impl Fmu {
     }
 }
 
-/// The shared library that was built along with this program.
+/// The shared library built with this program.
 fn library() -> PathBuf {
     let here = std::env::current_exe().unwrap();
     let name = format!("{}bevel_differential{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
     let found = here.ancestors().skip(1).take(2).map(|folder| folder.join(&name)).find(|path| path.is_file());
-    found.unwrap_or_else(|| panic!("{name} is not beside {}", here.display()))
+    found.unwrap_or_else(|| panic!("{name} is not next to {}", here.display()))
 }
 
 fn median(mut times: Vec<f64>) -> f64 {
@@ -127,7 +127,7 @@ fn main() {
         let begin = Instant::now();
         for k in 0..STEPS {
             let command = [50.0, 835.0 + f64::from(k % 7), 835.0];
-            // SAFETY: a live component and arrays of the lengths told
+            // SAFETY: a live component and arrays of these lengths
             unsafe {
                 ok &= (fmu.set_real)(c, inputs.as_ptr(), inputs.len(), command.as_ptr()) == Status::Ok;
                 ok &= (fmu.do_step)(c, f64::from(k) * 1e-3, 1e-3, 1) == Status::Ok;

@@ -8,6 +8,9 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
+#[cfg(test)] // so that unit tests can share helpers with the test programs
+extern crate self as bevel_differential;
+
 pub mod contact;
 pub mod declaration;
 pub mod friction;

@@ -2,7 +2,6 @@
 //! its derivatives are exact, and friction takes the power that sliding flanks give.
 
 #![allow(clippy::needless_range_loop)] // an index names the same axis or variable on both sides
-#![cfg(feature = "tooth_friction")]
 
 mod mesh_explicit;
 mod mesh_laws;

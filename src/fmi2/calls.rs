@@ -1,13 +1,13 @@
 //! Which call is legal in which state: the tables of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
 //!
-//! Both kinds share the states before the start and after the end; in between each has states of its own, so that one
-//! table serves both. Calls of one kind that are legal in a shared state ask for the kind as well.
+//! Both kinds share the states before the start and after the end; in between, each has its own states, so one table
+//! serves both. Calls of one kind that are legal in a shared state also check the kind.
 
 use serde::{Deserialize, Serialize};
 
-use super::refusal::{Answer, Refusal};
+use super::call_error::{CallError, CallResult};
 
-/// State of an instance as FMI counts states.
+/// State of an instance in FMI's state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(u8)]
 pub enum Phase {
@@ -17,7 +17,7 @@ pub enum Phase {
     Initialization = 1,
     /// Ready for fmi2DoStep.
     StepComplete = 2,
-    /// fmi2DoStep was discarded; values are those of the last good time.
+    /// fmi2DoStep was discarded; values are those of the last successful time.
     StepFailed = 3,
     /// After fmi2Terminate.
     Terminated = 4,
@@ -35,7 +35,7 @@ impl Phase {
         [Instantiated, Initialization, StepComplete, StepFailed, Event, ContinuousTime, Terminated, Error]
     };
 
-    /// Whether a simulation has been started and goes on.
+    /// Whether a simulation runs.
     pub fn is_running(self) -> bool {
         matches!(self, Self::StepComplete | Self::Event | Self::ContinuousTime)
     }
@@ -57,25 +57,25 @@ impl Phase {
 
 const INST: u8 = 1 << Phase::Instantiated as u8;
 const INIT: u8 = 1 << Phase::Initialization as u8;
-const DONE: u8 = 1 << Phase::StepComplete as u8;
+const COMPLETE: u8 = 1 << Phase::StepComplete as u8;
 const FAILED: u8 = 1 << Phase::StepFailed as u8;
-const END: u8 = 1 << Phase::Terminated as u8;
+const TERMINATED: u8 = 1 << Phase::Terminated as u8;
 const ERROR: u8 = 1 << Phase::Error as u8;
-/// fmi2CancelStep and the statuses of a pending step: steps are synchronous, so no state of ours is "step in progress".
+/// For fmi2CancelStep: steps are synchronous, so no instance is ever in the state "step in progress".
 const NEVER: u8 = 0;
 const EVENT: u8 = 1 << Phase::Event as u8;
-const FLOW: u8 = 1 << Phase::ContinuousTime as u8;
-const ALWAYS: u8 = INST | INIT | DONE | FAILED | EVENT | FLOW | END | ERROR;
+const CONTINUOUS: u8 = 1 << Phase::ContinuousTime as u8;
+const ALWAYS: u8 = INST | INIT | COMPLETE | FAILED | EVENT | CONTINUOUS | TERMINATED | ERROR;
 
 macro_rules! calls {
     ($($call:ident $name:literal $phases:expr;)+) => {
-        /// A call that is legal in some states only.
+        /// A function of FMI that is legal in certain states only.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         #[allow(missing_docs)]
         pub enum Call { $($call),+ }
 
         impl Call {
-            /// All of them.
+            /// All calls.
             #[cfg(test)]
             pub const ALL: &[Self] = &[$(Self::$call),+];
 
@@ -97,41 +97,41 @@ calls! {
     SetupExperiment          "fmi2SetupExperiment"          INST;
     EnterInitializationMode  "fmi2EnterInitializationMode"  INST;
     ExitInitializationMode   "fmi2ExitInitializationMode"   INIT;
-    Terminate                "fmi2Terminate"                DONE | FAILED | EVENT | FLOW;
+    Terminate                "fmi2Terminate"                COMPLETE | FAILED | EVENT | CONTINUOUS;
     Reset                    "fmi2Reset"                    ALWAYS;
     GetReal                  "fmi2GetReal"                  ALWAYS; // outputs not in `instantiated`, see `values`
     GetInteger               "fmi2GetInteger"               ALWAYS;
     GetBoolean               "fmi2GetBoolean"               ALWAYS;
     GetString                "fmi2GetString"                ALWAYS;
-    SetReal                  "fmi2SetReal"                  INST | INIT | DONE | EVENT | FLOW; // see `values`
-    SetInteger               "fmi2SetInteger"               INST | INIT | DONE | EVENT;
-    SetBoolean               "fmi2SetBoolean"               INST | INIT | DONE | EVENT;
-    SetString                "fmi2SetString"                INST | INIT | DONE | EVENT;
-    GetFmuState              "fmi2GetFMUstate"              ALWAYS & !ERROR; // an erroneous state is not worth keeping
+    SetReal                  "fmi2SetReal"                  INST | INIT | COMPLETE | EVENT | CONTINUOUS; // see `values`
+    SetInteger               "fmi2SetInteger"               INST | INIT | COMPLETE | EVENT;
+    SetBoolean               "fmi2SetBoolean"               INST | INIT | COMPLETE | EVENT;
+    SetString                "fmi2SetString"                INST | INIT | COMPLETE | EVENT;
+    GetFmuState              "fmi2GetFMUstate"              ALWAYS & !ERROR; // not after an error: the state may be invalid
     SetFmuState              "fmi2SetFMUstate"              ALWAYS;
     FreeFmuState             "fmi2FreeFMUstate"             ALWAYS;
     SerializedFmuStateSize   "fmi2SerializedFMUstateSize"   ALWAYS;
     SerializeFmuState        "fmi2SerializeFMUstate"        ALWAYS;
     DeSerializeFmuState      "fmi2DeSerializeFMUstate"      ALWAYS;
     GetDirectionalDerivative "fmi2GetDirectionalDerivative" ALWAYS & !INST;
-    SetRealInputDerivatives  "fmi2SetRealInputDerivatives"  INST | INIT | DONE;
-    GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" DONE | FAILED | END | ERROR;
-    DoStep                   "fmi2DoStep"                   DONE;
+    SetRealInputDerivatives  "fmi2SetRealInputDerivatives"  INST | INIT | COMPLETE;
+    GetRealOutputDerivatives "fmi2GetRealOutputDerivatives" COMPLETE | FAILED | TERMINATED | ERROR;
+    DoStep                   "fmi2DoStep"                   COMPLETE;
     CancelStep               "fmi2CancelStep"               NEVER;
-    GetStatus                "fmi2GetStatus"                DONE | FAILED | END;
-    GetRealStatus            "fmi2GetRealStatus"            DONE | FAILED | END;
-    GetIntegerStatus         "fmi2GetIntegerStatus"         DONE | FAILED | END;
-    GetBooleanStatus         "fmi2GetBooleanStatus"         DONE | FAILED | END;
-    GetStringStatus          "fmi2GetStringStatus"          DONE | FAILED | END;
-    EnterEventMode           "fmi2EnterEventMode"           FLOW;
+    GetStatus                "fmi2GetStatus"                COMPLETE | FAILED | TERMINATED;
+    GetRealStatus            "fmi2GetRealStatus"            COMPLETE | FAILED | TERMINATED;
+    GetIntegerStatus         "fmi2GetIntegerStatus"         COMPLETE | FAILED | TERMINATED;
+    GetBooleanStatus         "fmi2GetBooleanStatus"         COMPLETE | FAILED | TERMINATED;
+    GetStringStatus          "fmi2GetStringStatus"          COMPLETE | FAILED | TERMINATED;
+    EnterEventMode           "fmi2EnterEventMode"           EVENT | CONTINUOUS;
     NewDiscreteStates        "fmi2NewDiscreteStates"        EVENT;
     EnterContinuousTimeMode  "fmi2EnterContinuousTimeMode"  EVENT;
-    CompletedIntegratorStep  "fmi2CompletedIntegratorStep"  FLOW;
-    SetTime                  "fmi2SetTime"                  EVENT | FLOW;
-    SetContinuousStates      "fmi2SetContinuousStates"      FLOW;
-    GetDerivatives           "fmi2GetDerivatives"           INIT | EVENT | FLOW | END | ERROR;
-    GetEventIndicators       "fmi2GetEventIndicators"       INIT | EVENT | FLOW | END | ERROR;
-    GetContinuousStates      "fmi2GetContinuousStates"      INIT | EVENT | FLOW | END | ERROR;
+    CompletedIntegratorStep  "fmi2CompletedIntegratorStep"  CONTINUOUS;
+    SetTime                  "fmi2SetTime"                  EVENT | CONTINUOUS;
+    SetContinuousStates      "fmi2SetContinuousStates"      CONTINUOUS;
+    GetDerivatives           "fmi2GetDerivatives"           INIT | EVENT | CONTINUOUS | TERMINATED | ERROR;
+    GetEventIndicators       "fmi2GetEventIndicators"       INIT | EVENT | CONTINUOUS | TERMINATED | ERROR;
+    GetContinuousStates      "fmi2GetContinuousStates"      INIT | EVENT | CONTINUOUS | TERMINATED | ERROR;
     GetNominals              "fmi2GetNominalsOfContinuousStates" ALWAYS;
 }
 
@@ -141,14 +141,14 @@ impl Call {
         self.phases() & (1 << phase as u8) != 0
     }
 
-    /// Refuses a call out of order, naming call and state.
-    pub fn check(self, phase: Phase) -> Answer {
+    /// Refuses a call that is not legal in `phase`.
+    pub fn check(self, phase: Phase) -> CallResult {
         if self.legal(phase) {
             return Ok(());
         }
         let legal: Vec<_> = Phase::ALL.into_iter().filter(|&p| self.legal(p)).map(Phase::name).collect();
         let states =
             if legal.is_empty() { "no state of this FMU".into() } else { format!("\"{}\"", legal.join("\", \"")) };
-        Err(Refusal::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name())))
+        Err(CallError::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name())))
     }
 }

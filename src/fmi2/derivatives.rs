@@ -1,10 +1,9 @@
-//! Derivatives: of inputs, as the host tells them; of outputs by time; of anything along a direction.
+//! Derivatives: of inputs, as the host sets them; of outputs with respect to time; directional derivatives.
 
-use std::mem::MaybeUninit;
-
+use super::call_error::{CallError, CallResult};
 use super::calls::Phase;
+use super::host_memory::{InputArray, OutputArray};
 use super::instance::Instance;
-use super::refusal::{Answer, Refusal};
 use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{finite, row, wrong_type};
@@ -14,43 +13,45 @@ use crate::variables::{Access, OutputSource, Variable, check_value, table};
 /// Highest order of output derivatives.
 pub const OUTPUT_ORDER: i32 = 1;
 
-/// Differences of order 4 to one side: places and weights.
-const AHEAD: [(f64, f64); 5] = [(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)];
-const BEHIND: [(f64, f64); 5] = [(0.0, 25.0 / 12.0), (-1.0, -4.0), (-2.0, 3.0), (-3.0, -4.0 / 3.0), (-4.0, 0.25)];
-/// Distance of the places of differences of the start, as a part of what is changed: its equilibrium is found to some
+/// One-sided differences of order 4: positions and weights.
+const FORWARD: [(f64, f64); 5] = [(0.0, -25.0 / 12.0), (1.0, 4.0), (2.0, -3.0), (3.0, 4.0 / 3.0), (4.0, -0.25)];
+const BACKWARD: [(f64, f64); 5] = [(0.0, 25.0 / 12.0), (-1.0, -4.0), (-2.0, 3.0), (-3.0, -4.0 / 3.0), (-4.0, 0.25)];
+/// Step of the differences of initial values, relative to the changed value: the initial equilibrium is found to about
 /// 1e-9.
-const APART: f64 = 3e-3;
+const RELATIVE_STEP: f64 = 3e-3;
 
-/// Bit of an input in `Snapshot::told`.
-fn bit(reference: u32) -> u32 {
-    let place = table().inputs.iter().position(|&i| i as u32 == reference);
-    place.map_or(0, |place| 1 << place)
+/// Bit of an input in `Snapshot::derivatives_set`.
+fn input_bit(reference: u32) -> u32 {
+    let index = table().inputs.iter().position(|&i| i as u32 == reference);
+    index.map_or(0, |index| 1 << index)
 }
 
 impl Instance {
-    /// fmi2SetRealInputDerivatives. They hold for the next step, and go on after it until the host tells otherwise.
-    pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Answer {
+    /// fmi2SetRealInputDerivatives. They hold from the next step until the host sets the input or its derivatives again.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: InputArray<u32>,
+        orders: InputArray<i32>,
+        values: InputArray<f64>,
+    ) -> CallResult {
         if self.now.kind == Kind::ModelExchange {
-            return Err(Refusal::error(
+            return Err(CallError::error(
                 "in model exchange inputs are set at every evaluation; they have no derivatives",
             ));
         }
-        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+        for ((reference, order), value) in references.iter().zip(orders.iter()).zip(values.iter()) {
             let row = row(reference)?;
             let Access::Input(_) = row.access else {
-                return Err(Refusal::error(format!(
-                    "{} is not an input, so that it has no input derivative",
-                    row.name
-                )));
+                return Err(CallError::error(format!("{} is not an input, so it has no input derivative", row.name)));
             };
             if !(1..=ORDERS as i32).contains(&order) {
-                return Err(Refusal::error(format!(
-                    "{}: derivatives of order {order} are not taken, only of order 1 to {ORDERS}",
+                return Err(CallError::error(format!(
+                    "{}: derivatives of order {order} are not supported, only of order 1 to {ORDERS}",
                     row.name
                 )));
             }
             if !value.is_finite() {
-                return Err(Refusal::discard(format!(
+                return Err(CallError::discard(format!(
                     "the derivative of order {order} of {} is {value}, not a finite number",
                     row.name
                 )));
@@ -58,20 +59,20 @@ impl Instance {
         }
         let now = &mut self.now;
         let mut course = now.course.unwrap_or(Course::STILL);
-        for ((&reference, &order), &value) in references.iter().zip(orders).zip(values) {
+        for ((reference, order), value) in references.iter().zip(orders.iter()).zip(values.iter()) {
             if let Access::Input(slot) = row(reference)?.access {
                 *slot(&mut course.rates[order as usize - 1]) = value;
-                now.told |= bit(reference);
+                now.derivatives_set |= input_bit(reference);
             }
         }
         self.set_course(course);
         Ok(())
     }
 
-    /// A value set without derivatives since the last step holds as it is.
-    pub fn end_derivatives_of(&mut self, references: &[u32]) {
+    /// An input set without derivatives since the last step is held constant.
+    pub fn end_derivatives_of(&mut self, references: InputArray<u32>) {
         let Some(mut course) = self.now.course else { return };
-        for &reference in references.iter().filter(|&&r| self.now.told & bit(r) == 0) {
+        for reference in references.iter().filter(|&r| self.now.derivatives_set & input_bit(r) == 0) {
             if let Ok(Variable { access: Access::Input(slot), .. }) = row(reference) {
                 course.rates.iter_mut().for_each(|rates| *slot(rates) = 0.0);
             }
@@ -87,8 +88,8 @@ impl Instance {
         }
     }
 
-    /// Refuses a step of `h` [s] within which an input would be out of its range.
-    pub fn check_course(&self, h: f64) -> Answer {
+    /// Refuses a step of `h` [s] in which an input would leave its range.
+    pub fn check_course(&self, h: f64) -> CallResult {
         let Some(course) = self.now.course else { return Ok(()) };
         let [mut first, mut second] = course.rates;
         for &index in &table().inputs {
@@ -98,7 +99,9 @@ impl Instance {
             for time in [h, peak].into_iter().filter(|&time| time > 0.0 && time <= h) {
                 let (mut inputs, _) = course.after(time, &self.now.inputs);
                 check_value(row, *slot(&mut inputs)).map_err(|problem| {
-                    Refusal::error(format!("with its derivatives an input leaves its range within the step: {problem}"))
+                    CallError::error(format!(
+                        "with its derivatives, an input leaves its range within the step: {problem}"
+                    ))
                 })?;
             }
         }
@@ -108,19 +111,19 @@ impl Instance {
     /// fmi2GetRealOutputDerivatives.
     pub fn get_output_derivatives(
         &mut self,
-        references: &[u32],
-        orders: &[i32],
-        values: &mut [MaybeUninit<f64>],
-    ) -> Answer {
-        for (&reference, &order) in references.iter().zip(orders) {
+        references: InputArray<u32>,
+        orders: InputArray<i32>,
+        values: OutputArray<f64>,
+    ) -> CallResult {
+        for (reference, order) in references.iter().zip(orders.iter()) {
             let row = row(reference)?;
             if order != OUTPUT_ORDER {
-                return Err(Refusal::error(format!(
-                    "{}: derivatives of order {order} are not known, only of order {OUTPUT_ORDER}",
+                return Err(CallError::error(format!(
+                    "{}: derivatives of order {order} are not available, only of order {OUTPUT_ORDER}",
                     row.name
                 )));
             }
-            readable(row)?;
+            output_source(row)?;
         }
         if references.is_empty() {
             return Ok(());
@@ -130,9 +133,9 @@ impl Instance {
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.time_direction();
         let mut slopes = Slopes::new(simulation, &direction);
-        for (&reference, value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
-            let source = readable(row)?;
+            let source = output_source(row)?;
             let slope = match source {
                 OutputSource::Books(of) => of(&simulation.book_rates()),
                 _ => slopes.of(source),
@@ -145,30 +148,30 @@ impl Instance {
     /// fmi2GetDirectionalDerivative.
     pub fn get_directional_derivative(
         &mut self,
-        unknown: &[u32],
-        known: (&[u32], &[f64]),
-        values: &mut [MaybeUninit<f64>],
-    ) -> Answer {
-        let sources = unknown.iter().map(|&r| row(r).and_then(readable)).collect::<Result<Vec<_>, _>>()?;
+        unknown: InputArray<u32>,
+        known: (InputArray<u32>, InputArray<f64>),
+        values: OutputArray<f64>,
+    ) -> CallResult {
+        let sources = unknown.iter().map(|r| row(r).and_then(output_source)).collect::<Result<Vec<_>, _>>()?;
         if let Some(bad) = known.1.iter().find(|x| !x.is_finite()) {
-            return Err(Refusal::discard(format!("{bad} in the direction is not a finite number")));
+            return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
         if unknown.is_empty() {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
-            return at_the_start(&self.now, (unknown, &sources), known, values);
+            return initial_derivatives(&self.now, (unknown, &sources), known, values);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
-        for (&reference, &change) in known.0.iter().zip(known.1) {
+        for (reference, change) in known.0.iter().zip(known.1.iter()) {
             let row = row(reference)?;
             let state = table().states.iter().position(|&i| i as u32 == reference);
             match (row.access, state) {
                 (Access::Input(slot), _) => *slot(&mut inputs) += change,
                 (_, Some(k)) => states[k] += change,
                 _ => {
-                    return Err(Refusal::error(format!(
-                        "{} is neither an input nor a continuous state, so that nothing can be derived by it",
+                    return Err(CallError::error(format!(
+                        "{} is neither an input nor a continuous state, so there is no derivative with respect to it",
                         row.name
                     )));
                 }
@@ -179,31 +182,30 @@ impl Instance {
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.direction(&states, &inputs);
         let mut slopes = Slopes::new(simulation, &direction);
-        for ((&reference, source), value) in unknown.iter().zip(sources).zip(values) {
+        for ((reference, source), value) in unknown.iter().zip(sources).zip(values.iter()) {
             value.write(finite_slope(row(reference)?, slopes.of(source))?);
         }
         Ok(())
     }
 }
 
-/// `slope` of a variable, if it is a finite number.
-fn finite_slope(row: &Variable, slope: f64) -> Answer<f64> {
-    finite(row, slope)
-        .map_err(|refusal| Refusal { message: format!("the derivative of {}", refusal.message), ..refusal })
+/// The derivative of a variable, if it is finite.
+fn finite_slope(row: &Variable, slope: f64) -> CallResult<f64> {
+    finite(row, slope).map_err(|error| CallError { message: format!("the derivative of {}", error.message), ..error })
 }
 
-/// Where a variable that has derivatives is read.
-fn readable(row: &Variable) -> Answer<OutputSource> {
+/// Source of a variable that has derivatives.
+fn output_source(row: &Variable) -> CallResult<OutputSource> {
     match row.access {
         Access::Output(source) => Ok(source),
         Access::Real(_) | Access::Input(_) => {
-            Err(Refusal::error(format!("{} is set by the host, so that it has no derivative", row.name)))
+            Err(CallError::error(format!("{} is set by the host, so it has no derivative", row.name)))
         }
         _ => Err(wrong_type(row)),
     }
 }
 
-/// Derivatives along a direction, each kind computed when it is asked for.
+/// Derivatives along a direction; each kind is computed on demand.
 struct Slopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
@@ -237,53 +239,54 @@ impl<'a> Slopes<'a> {
     }
 }
 
-/// Derivatives of what initialisation gives, by inputs and parameters: by differences, for it is a solution of its own.
-fn at_the_start(
+/// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
+/// equilibrium.
+fn initial_derivatives(
     now: &Snapshot,
-    (unknown, sources): (&[u32], &[OutputSource]),
-    (references, change): (&[u32], &[f64]),
-    values: &mut [MaybeUninit<f64>],
-) -> Answer {
+    (unknown, sources): (InputArray<u32>, &[OutputSource]),
+    (references, change): (InputArray<u32>, InputArray<f64>),
+    values: OutputArray<f64>,
+) -> CallResult {
     let mut size = 0.0f64;
-    for (&reference, &change) in references.iter().zip(change) {
+    for (reference, change) in references.iter().zip(change.iter()) {
         let row = row(reference)?;
         let mut origin = now.clone();
         let value = match row.access {
             Access::Input(slot) => *slot(&mut origin.inputs),
             Access::Real(slot) => *slot(&mut origin.parameters),
             _ => {
-                return Err(Refusal::error(format!(
-                    "{} is neither an input nor a real parameter, so that nothing can be derived by it",
+                return Err(CallError::error(format!(
+                    "{} is neither an input nor a real parameter, so there is no derivative with respect to it",
                     row.name
                 )));
             }
         };
         size = size.max(change.abs() / if value == 0.0 { 1.0 } else { value.abs() });
     }
-    let apart = if size > 0.0 { APART / size } else { 1.0 };
-    let moved = |place: f64| {
+    let step = if size > 0.0 { RELATIVE_STEP / size } else { 1.0 };
+    let moved = |offset: f64| {
         let mut moved = now.clone();
-        for (&reference, &change) in references.iter().zip(change) {
+        for (reference, change) in references.iter().zip(change.iter()) {
             let row = row(reference)?;
             let value = match row.access {
                 Access::Input(slot) => slot(&mut moved.inputs),
                 Access::Real(slot) => slot(&mut moved.parameters),
                 _ => continue,
             };
-            *value += place * apart * change;
-            check_value(row, *value).map_err(|problem| Refusal::error(problem.to_string()))?;
+            *value += offset * step * change;
+            check_value(row, *value).map_err(|problem| CallError::error(problem.to_string()))?;
         }
         Ok(moved)
     };
-    // to one side where the other leaves the range
-    let all_there = |places: &&[(f64, f64)]| places.iter().all(|&(place, _)| moved(place).is_ok());
-    let sides: [&[(f64, f64)]; 3] = [&PLACES, &AHEAD, &BEHIND];
-    let places = sides.into_iter().find(all_there).unwrap_or(&PLACES);
+    // one-sided where the other side leaves the range
+    let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
+    let sides: [&[(f64, f64)]; 3] = [&PLACES, &FORWARD, &BACKWARD];
+    let offsets = sides.into_iter().find(all_valid).unwrap_or(&PLACES);
     let mut sums = vec![0.0; sources.len()];
-    for &(place, weight) in places {
-        let mut simulation = moved(place)?.start().map_err(|problems| {
-            Refusal::error(format!(
-                "there is no derivative here, for beside it initialisation fails:\n{}",
+    for &(offset, weight) in offsets {
+        let mut simulation = moved(offset)?.start().map_err(|problems| {
+            CallError::error(format!(
+                "there is no derivative, because initialisation fails close to these values:\n{}",
                 crate::problem::list(&problems)
             ))
         })?;
@@ -291,13 +294,13 @@ fn at_the_start(
             *sum += weight * read(&mut simulation, *source);
         }
     }
-    for ((&reference, sum), value) in unknown.iter().zip(sums).zip(values) {
-        value.write(finite_slope(row(reference)?, sum / apart)?);
+    for ((reference, sum), value) in unknown.iter().zip(sums).zip(values.iter()) {
+        value.write(finite_slope(row(reference)?, sum / step)?);
     }
     Ok(())
 }
 
-/// What a variable reads.
+/// Value of a variable.
 fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
     match source {
         OutputSource::Motion(of) => of(&simulation.motion()),

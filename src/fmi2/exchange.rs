@@ -1,39 +1,44 @@
-//! Model exchange: the host's solver moves the state, the instance tells rates and events.
+//! Model exchange: the host's solver integrates the states, the instance computes derivatives and events.
 
-use std::mem::MaybeUninit;
-
+use super::call_error::{CallError, CallResult};
 use super::calls::Phase;
+use super::host_memory::{InputArray, OutputArray};
 use super::instance::Instance;
-use super::refusal::{Answer, Refusal};
 use super::types::{EventInfo, Kind};
 use crate::model::{INDICATORS, STATES, Simulation, StepFailure};
 use crate::variables::table;
 
 impl Instance {
-    /// The simulation of an instance that was made for model exchange.
-    fn exchanged(&mut self) -> Answer<&mut Simulation> {
-        if self.now.kind != Kind::ModelExchange {
-            return Err(Refusal::error("this instance was made for co-simulation, the call is for model exchange"));
+    /// Refuses calls of model exchange on an instance for co-simulation.
+    fn check_model_exchange(&self) -> CallResult {
+        if self.now.kind == Kind::ModelExchange {
+            return Ok(());
         }
+        Err(CallError::error("this call is for model exchange, but the instance is for co-simulation"))
+    }
+
+    /// The simulation of an instance for model exchange.
+    fn exchange_simulation(&mut self) -> CallResult<&mut Simulation> {
+        self.check_model_exchange()?;
         self.simulation()
     }
 
-    /// fmi2EnterEventMode.
-    pub fn enter_event_mode(&mut self) -> Answer {
+    /// fmi2EnterEventMode. In event mode it changes nothing.
+    pub fn enter_event_mode(&mut self) -> CallResult {
         self.now.phase = Phase::Event;
         Ok(())
     }
 
     /// fmi2EnterContinuousTimeMode.
-    pub fn enter_continuous_time_mode(&mut self) -> Answer {
+    pub fn enter_continuous_time_mode(&mut self) -> CallResult {
         self.now.phase = Phase::ContinuousTime;
         Ok(())
     }
 
     /// fmi2NewDiscreteStates: one iteration is always enough.
-    pub fn new_discrete_states(&mut self) -> Answer<EventInfo> {
-        let update = self.exchanged()?.update();
-        let update = self.lasting(update)?;
+    pub fn new_discrete_states(&mut self) -> CallResult<EventInfo> {
+        let update = self.exchange_simulation()?.update();
+        let update = self.valid_after(update)?;
         Ok(EventInfo {
             states_changed: i32::from(update.states_changed),
             next_event_defined: i32::from(update.next.is_some()),
@@ -42,68 +47,68 @@ impl Instance {
         })
     }
 
-    /// fmi2CompletedIntegratorStep. Whether an event is due.
-    pub fn completed_integrator_step(&mut self) -> Answer<bool> {
-        let outcome = self.exchanged()?.complete_step();
-        let due = self.lasting(outcome)?;
+    /// fmi2CompletedIntegratorStep. Returns whether an event is due.
+    pub fn completed_integrator_step(&mut self) -> CallResult<bool> {
+        let outcome = self.exchange_simulation()?.complete_step();
+        let due = self.valid_after(outcome)?;
         if self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
-            self.watch();
+            self.warn_outside_range();
         }
         Ok(due)
     }
 
-    /// What came of taking note of a step: after a failure there is nothing to go on from.
-    fn lasting<T>(&mut self, outcome: Result<T, StepFailure>) -> Answer<T> {
+    /// The result of a completed step or event; after a failure the simulation cannot continue.
+    fn valid_after<T>(&mut self, outcome: Result<T, StepFailure>) -> CallResult<T> {
         let failure = match outcome {
-            // wrapping positions and booking energies may overflow where the states themselves did not
+            // wrapped positions and accumulated energies may overflow where the states themselves did not
             Ok(result) if self.now.simulation.as_ref().is_some_and(|s| s.state().is_valid()) => return Ok(result),
-            Ok(_) => "the step ends at states with which no simulation can go on".to_owned(),
+            Ok(_) => "the simulation cannot continue from the states at the end of this step".to_owned(),
             Err(failure) => failure.to_string(),
         };
         self.now.phase = Phase::Error;
-        Err(Refusal::error(format!("{failure}; go on with fmi2SetFMUstate or fmi2Reset")))
+        Err(CallError::error(format!("{failure}; continue with fmi2SetFMUstate or fmi2Reset")))
     }
 
     /// fmi2SetTime.
-    pub fn set_time(&mut self, time: f64) -> Answer {
+    pub fn set_time(&mut self, time: f64) -> CallResult {
         if !time.is_finite() {
-            return Err(Refusal::error(format!("time {time} s is not a finite number")));
+            return Err(CallError::error(format!("time {time} s is not a finite number")));
         }
-        self.exchanged()?.set_time(time);
+        self.exchange_simulation()?.set_time(time);
         Ok(())
     }
 
     /// fmi2SetContinuousStates.
-    pub fn set_continuous_states(&mut self, values: &[f64]) -> Answer {
-        let states: &[f64; STATES] = values.try_into().map_err(|_| wrong_count("states", STATES, values.len()))?;
+    pub fn set_continuous_states(&mut self, values: InputArray<f64>) -> CallResult {
+        let states: [f64; STATES] = values.copied().ok_or_else(|| wrong_count("states", STATES, values.len()))?;
         if let Some(k) = states.iter().position(|x| !x.is_finite()) {
             let name = table().rows[table().states[k]].name;
-            return Err(Refusal::discard(format!("{name} = {} is not a finite number", states[k])));
+            return Err(CallError::discard(format!("{name} = {} is not a finite number", states[k])));
         }
-        self.exchanged()?.set_states(states);
+        self.exchange_simulation()?.set_states(&states);
         Ok(())
     }
 
     /// fmi2GetContinuousStates.
-    pub fn get_continuous_states(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
-        let states = self.exchanged()?.states();
+    pub fn get_continuous_states(&mut self, values: OutputArray<f64>) -> CallResult {
+        let states = self.exchange_simulation()?.states();
         check_count("states", STATES, values.len())?;
         if let Some(k) = states.iter().position(|x| !x.is_finite()) {
             let name = table().rows[table().states[k]].name;
-            return Err(Refusal::discard(format!("{name} is not a finite number")));
+            return Err(CallError::discard(format!("{name} is not a finite number")));
         }
         fill(&states, values);
         Ok(())
     }
 
     /// fmi2GetDerivatives.
-    pub fn get_derivatives(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
-        let rates = self.exchanged()?.state_rates();
+    pub fn get_derivatives(&mut self, values: OutputArray<f64>) -> CallResult {
+        let rates = self.exchange_simulation()?.state_rates();
         check_count("derivatives", STATES, values.len())?;
         if let Some(k) = rates.iter().position(|x| !x.is_finite()) {
             let name = table().rows[table().derivatives[k]].name;
-            return Err(Refusal::discard(format!(
-                "{name} is not a finite number at these states; take a shorter step, or look at the inputs"
+            return Err(CallError::discard(format!(
+                "{name} is not a finite number at these states; take a shorter step or check the inputs"
             )));
         }
         fill(&rates, values);
@@ -111,12 +116,12 @@ impl Instance {
     }
 
     /// fmi2GetEventIndicators.
-    pub fn get_event_indicators(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
-        let indicators = self.exchanged()?.indicators();
+    pub fn get_event_indicators(&mut self, values: OutputArray<f64>) -> CallResult {
+        let indicators = self.exchange_simulation()?.indicators();
         check_count("event indicators", INDICATORS, values.len())?;
         if let Some(k) = indicators.iter().position(|x| !x.is_finite()) {
-            return Err(Refusal::discard(format!(
-                "event indicator {k} is not a finite number at these states; take a shorter step, or look at the inputs"
+            return Err(CallError::discard(format!(
+                "event indicator {k} is not a finite number at these states; take a shorter step or check the inputs"
             )));
         }
         fill(&indicators, values);
@@ -124,10 +129,8 @@ impl Instance {
     }
 
     /// fmi2GetNominalsOfContinuousStates.
-    pub fn get_nominals(&mut self, values: &mut [MaybeUninit<f64>]) -> Answer {
-        if self.now.kind != Kind::ModelExchange {
-            return Err(Refusal::error("this instance was made for co-simulation, the call is for model exchange"));
-        }
+    pub fn get_nominals(&mut self, values: OutputArray<f64>) -> CallResult {
+        self.check_model_exchange()?;
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
         check_count("nominals", STATES, values.len())?;
         fill(&nominals, values);
@@ -135,21 +138,21 @@ impl Instance {
     }
 }
 
-/// Hands `numbers` out; the host has room for just as many.
-fn fill(numbers: &[f64], values: &mut [MaybeUninit<f64>]) {
-    for (number, value) in numbers.iter().zip(values) {
+/// Writes `numbers` into `values`, which has the same length.
+fn fill(numbers: &[f64], values: OutputArray<f64>) {
+    for (number, value) in numbers.iter().zip(values.iter()) {
         value.write(*number);
     }
 }
 
-/// Refuses a count that is not what stands in the model description, whatever else is wrong.
-fn check_count(what: &str, has: usize, asked: usize) -> Answer {
-    if has == asked { Ok(()) } else { Err(wrong_count(what, has, asked)) }
+/// Refuses a count that differs from the model description.
+fn check_count(what: &str, expected: usize, found: usize) -> CallResult {
+    if expected == found { Ok(()) } else { Err(wrong_count(what, expected, found)) }
 }
 
-fn wrong_count(what: &str, has: usize, asked: usize) -> Refusal {
-    Refusal::error(format!("there are {has} {what}, not {asked}"))
+fn wrong_count(what: &str, expected: usize, found: usize) -> CallError {
+    CallError::error(format!("there are {expected} {what}, not {found}"))
 }
 
-/// How many event indicators there are.
+/// Number of event indicators.
 pub const EVENT_INDICATORS: usize = INDICATORS;

@@ -1,8 +1,8 @@
 //! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
 
+use super::call_error::{CallError, CallResult};
 use super::calls::Phase;
-use super::log::Log;
-use super::refusal::{Answer, Refusal};
+use super::log::{Category, Log};
 use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::declaration::Field;
@@ -11,29 +11,29 @@ use crate::model::Simulation;
 use crate::problem;
 use crate::variables::{self, Access, Variable};
 
-/// Communication points are compared with this tolerance, relative to the larger of time and step size: far above what
-/// hosts lose by adding up steps.
+/// Tolerance of communication points, relative to the larger of time and step size: far above the rounding errors of hosts
+/// that add up steps.
 const TIME_TOLERANCE: f64 = 1e-9;
-/// But a point that is off by this share of the step is another point.
+/// Largest tolerance as a part of the step: a point farther off is a different point.
 const STEP_TOLERANCE: f64 = 0.1;
 
-/// How far a time may be from where it should be [s], for times around `time` and steps of `h`.
-fn slack(time: f64, h: f64) -> f64 {
-    let wide = TIME_TOLERANCE * time.abs().max(h);
-    wide.min(STEP_TOLERANCE * h).max(64.0 * f64::EPSILON * time.abs())
+/// Tolerance of communication points [s] near `time` for steps of `h`.
+fn time_tolerance(time: f64, h: f64) -> f64 {
+    let tolerance = TIME_TOLERANCE * time.abs().max(h);
+    tolerance.min(STEP_TOLERANCE * h).max(64.0 * f64::EPSILON * time.abs())
 }
 
-/// An instance: what a snapshot keeps, and the log, which it does not.
+/// An instance: a snapshot, and the log, which no snapshot contains.
 pub struct Instance {
     /// Parameters, inputs, phase, simulation.
     pub now: Snapshot,
-    /// The host's log.
+    /// Messages to the host.
     pub log: Log,
-    /// Whether a law used outside its range was told of.
+    /// Whether the use of a law outside its range was reported.
     warned: bool,
 }
 
-/// Accuracy and interval the host asks for.
+/// Tolerance and time interval of fmi2SetupExperiment.
 #[derive(Clone, Copy, Debug)]
 pub struct Experiment {
     /// Relative tolerance, if given.
@@ -45,46 +45,46 @@ pub struct Experiment {
 }
 
 impl Instance {
-    /// A fresh instance with start values.
+    /// A new instance with start values.
     pub fn new(kind: Kind, log: Log) -> Self {
         Self { now: Snapshot::new(kind), log, warned: false }
     }
 
-    /// fmi2SetupExperiment. A tolerance the host set as a parameter wins over the one given here.
-    pub fn setup_experiment(&mut self, experiment: &Experiment) -> Answer {
+    /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
+    pub fn setup_experiment(&mut self, experiment: &Experiment) -> CallResult {
         let Experiment { tolerance, start, stop } = *experiment;
         if !start.is_finite() {
-            return Err(Refusal::error(format!("start time {start} s is not a finite number")));
+            return Err(CallError::error(format!("start time {start} s is not a finite number")));
         }
         if let Some(stop) = stop
             && (stop.is_nan() || stop <= start)
         {
-            return Err(Refusal::error(format!("stop time {stop} s is not after the start time {start} s")));
+            return Err(CallError::error(format!("stop time {stop} s is not after the start time {start} s")));
         }
-        if let Some(asked) = tolerance
-            && (asked.is_nan() || asked <= 0.0)
+        if let Some(requested) = tolerance
+            && (requested.is_nan() || requested <= 0.0)
         {
-            return Err(Refusal::error(format!("tolerance {asked} is not a positive number")));
+            return Err(CallError::error(format!("tolerance {requested} is not a positive number")));
         }
         (self.now.start_time, self.now.stop_time) = (start, stop);
-        if let (Some(asked), false, Some((row, slot))) = (tolerance, self.now.tolerance_chosen, tolerance_row()) {
-            let range = row.range.unwrap_or(variables::Range { min: asked, max: asked });
-            *slot(&mut self.now.parameters) = asked.clamp(range.min, range.max);
+        if let (Some(requested), false, Some((row, slot))) = (tolerance, self.now.tolerance_chosen, tolerance_row()) {
+            let range = row.range.unwrap_or(variables::Range { min: requested, max: requested });
+            *slot(&mut self.now.parameters) = requested.clamp(range.min, range.max);
         }
         Ok(())
     }
 
     /// fmi2EnterInitializationMode.
-    pub fn enter_initialization(&mut self) -> Answer {
+    pub fn enter_initialization(&mut self) -> CallResult {
         self.now.phase = Phase::Initialization;
         Ok(())
     }
 
-    /// fmi2ExitInitializationMode: every problem at once, or a simulation that stands at its start.
-    pub fn exit_initialization(&mut self) -> Answer {
-        if let Err(refusal) = self.simulation().map(drop) {
+    /// fmi2ExitInitializationMode: starts the simulation, or returns every problem.
+    pub fn exit_initialization(&mut self) -> CallResult {
+        if let Err(error) = self.simulation().map(drop) {
             self.now.phase = Phase::Error;
-            return Err(refusal);
+            return Err(error);
         }
         self.now.phase = match self.now.kind {
             Kind::CoSimulation => Phase::StepComplete,
@@ -96,8 +96,10 @@ impl Instance {
                 Kind::ModelExchange => simulation.hand_over(),
             }
         }
-        if let Some(simulation) = &self.now.simulation {
+        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Events)) {
             self.log.event(&simulation.describe());
+        }
+        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning)) {
             for warning in simulation.warnings() {
                 self.log.warning(&warning.to_string());
             }
@@ -106,7 +108,7 @@ impl Instance {
     }
 
     /// fmi2Terminate.
-    pub fn terminate(&mut self) -> Answer {
+    pub fn terminate(&mut self) -> CallResult {
         self.now.phase = Phase::Terminated;
         if let Some(simulation) = &self.now.simulation {
             self.log.event(&simulation.account());
@@ -114,44 +116,44 @@ impl Instance {
         Ok(())
     }
 
-    /// fmi2Reset: as after fmi2Instantiate, but for the log's settings.
-    pub fn reset(&mut self) -> Answer {
+    /// fmi2Reset: as after fmi2Instantiate, except for the settings of the log.
+    pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.now.kind);
         self.warned = false;
         Ok(())
     }
 
-    /// After an internal error nothing but the parameters can be trusted.
+    /// After an internal error only the parameters are reliable.
     pub fn fail(&mut self) {
         self.now.simulation = None;
         self.now.phase = Phase::Error;
     }
 
-    /// The simulation; in initialisation mode it is built when it is asked for, from what is set by then.
-    pub fn simulation(&mut self) -> Answer<&mut Simulation> {
+    /// The simulation; in initialisation mode it is built on demand from the values set so far.
+    pub fn simulation(&mut self) -> CallResult<&mut Simulation> {
         let now = &mut self.now;
         if now.simulation.is_none() {
             match now.phase {
                 Phase::Initialization => now.simulation = Some(now.start().map_err(|p| initial_problems(&p))?),
                 phase => {
-                    return Err(Refusal::error(format!(
-                        "outputs have no values in the state \"{}\": no initialisation was completed",
+                    return Err(CallError::error(format!(
+                        "outputs have no values in the state \"{}\": initialisation was not completed",
                         phase.name()
                     )));
                 }
             }
         }
-        now.simulation.as_mut().ok_or_else(|| Refusal::error("there is no simulation"))
+        now.simulation.as_mut().ok_or_else(|| CallError::error("there is no simulation"))
     }
 
     /// fmi2DoStep: from the current time to `point` + `h` [s].
-    pub fn do_step(&mut self, point: f64, h: f64) -> Answer {
+    pub fn do_step(&mut self, point: f64, h: f64) -> CallResult {
         let stop = self.now.stop_time;
         let time = self.simulation()?.time();
         check_step(time, stop, point, h)?;
         self.check_course(h)?;
         let until = point + h;
-        // a step below the resolution of the time axis is done already
+        // a step below the resolution of time changes nothing
         if until <= time {
             return Ok(());
         }
@@ -164,23 +166,23 @@ impl Instance {
             let (inputs, course) = (*simulation.inputs(), simulation.course().copied());
             (self.now.inputs, self.now.course) = (inputs, course);
         }
-        self.now.told = 0;
+        self.now.derivatives_set = 0;
         let Err(failure) = outcome else {
             if watched {
-                self.watch();
+                self.warn_outside_range();
             }
             return Ok(());
         };
         self.now.phase = Phase::StepFailed;
-        Err(Refusal::discard(format!(
+        Err(CallError::discard(format!(
             "{failure}; values are those of the last successful time {last} s; \
-             go on with fmi2SetFMUstate or fmi2Reset"
+             continue with fmi2SetFMUstate or fmi2Reset"
         )))
     }
 
-    /// Warns once when a law is used outside the range that it was published for.
-    pub fn watch(&mut self) {
-        if self.warned {
+    /// Warns once when a law is used outside its published range.
+    pub fn warn_outside_range(&mut self) {
+        if self.warned || !self.log.is_on(Category::Warning) {
             return;
         }
         if let Some(problem) = self.now.simulation.as_ref().and_then(Simulation::out_of_range) {
@@ -190,7 +192,7 @@ impl Instance {
     }
 
     /// fmi2GetStatus.
-    pub fn status(&self, kind: i32) -> Answer<Status> {
+    pub fn status(&self, kind: i32) -> CallResult<Status> {
         match kind {
             DO_STEP_STATUS if self.now.phase == Phase::StepFailed => Ok(Status::Discard),
             DO_STEP_STATUS => Ok(Status::Ok),
@@ -199,48 +201,48 @@ impl Instance {
     }
 
     /// fmi2GetRealStatus.
-    pub fn real_status(&self, kind: i32) -> Answer<f64> {
+    pub fn real_status(&self, kind: i32) -> CallResult<f64> {
         match (kind, &self.now.simulation) {
             (LAST_SUCCESSFUL_TIME, Some(simulation)) => Ok(simulation.time()),
             _ => Err(no_such_status(kind)),
         }
     }
 
-    /// fmi2GetBooleanStatus: the FMU never asks to end the simulation.
-    pub fn boolean_status(&self, kind: i32) -> Answer<bool> {
+    /// fmi2GetBooleanStatus: the FMU never requests the end of the simulation.
+    pub fn boolean_status(&self, kind: i32) -> CallResult<bool> {
         if kind == TERMINATED { Ok(false) } else { Err(no_such_status(kind)) }
     }
 }
 
-fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> Answer {
+fn check_step(time: f64, stop: Option<f64>, point: f64, h: f64) -> CallResult {
     if !(h.is_finite() && h > 0.0) {
-        return Err(Refusal::error(format!("communication step size {h} s is not finite and positive")));
+        return Err(CallError::error(format!("communication step size {h} s is not finite and positive")));
     }
-    if !point.is_finite() || (point - time).abs() > slack(time, h) {
-        return Err(Refusal::error(format!("communication point {point} s is not the current time {time} s")));
+    if !point.is_finite() || (point - time).abs() > time_tolerance(time, h) {
+        return Err(CallError::error(format!("communication point {point} s is not the current time {time} s")));
     }
     let until = point + h;
     if !until.is_finite() {
-        return Err(Refusal::error(format!("the end of the step, {until} s, is not a finite number")));
+        return Err(CallError::error(format!("the end of the step, {until} s, is not a finite number")));
     }
     match stop {
-        Some(stop) if until > stop + slack(stop, h) => {
-            Err(Refusal::error(format!("the step ends at {until} s, after the stop time {stop} s")))
+        Some(stop) if until > stop + time_tolerance(stop, h) => {
+            Err(CallError::error(format!("the step ends at {until} s, after the stop time {stop} s")))
         }
         _ => Ok(()),
     }
 }
 
-/// The refusal to answer fmi2Get…Status; FMI asks for fmi2Discard.
-pub fn no_such_status(kind: i32) -> Refusal {
-    Refusal::discard(format!("there is nothing to tell about the status kind {kind}"))
+/// The error of fmi2Get…Status for an unavailable status; FMI requires fmi2Discard.
+pub fn no_such_status(kind: i32) -> CallError {
+    CallError::discard(format!("the status of kind {kind} is not available"))
 }
 
-fn initial_problems(problems: &[problem::Problem]) -> Refusal {
-    Refusal::error(format!("initialisation failed:\n{}", problem::list(problems)))
+fn initial_problems(problems: &[problem::Problem]) -> CallError {
+    CallError::error(format!("initialisation failed:\n{}", problem::list(problems)))
 }
 
-/// Row of the solver's tolerance and access to it.
+/// Row of the solver's tolerance, and access to its value.
 fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     variables::table().rows.iter().find(|row| is_tolerance(row)).and_then(|row| match row.access {
         Access::Real(slot) => Some((row, slot)),
@@ -248,7 +250,17 @@ fn tolerance_row() -> Option<(&'static Variable, Field<Parameters, f64>)> {
     })
 }
 
-/// Whether `row` is the solver's tolerance, which fmi2SetupExperiment sets too.
+/// Whether `row` is the solver's tolerance, which fmi2SetupExperiment also sets.
 pub fn is_tolerance(row: &Variable) -> bool {
     row.name == "solver.relative_tolerance"
 }
+
+/// Instances run on any thread, and share constants, the table of variables and FMU states.
+const _: () = {
+    const fn movable<T: Send>() {}
+    const fn shared<T: Send + Sync>() {}
+    movable::<Instance>();
+    shared::<Snapshot>();
+    shared::<Simulation>();
+    shared::<variables::Table>();
+};

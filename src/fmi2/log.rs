@@ -1,4 +1,7 @@
-//! Messages to the host, by category, through its callback: the only way this library speaks.
+//! Messages to the host's logger by category. The library writes nowhere else.
+//!
+//! FMI 2.0.4, sections 2.1.3 and 2.1.5: a call that does not return fmi2OK has called the logger; other messages are debug
+//! logging, which the host switches on and filters by category. Errors are logged always.
 
 use std::ffi::{CStr, CString};
 use std::ptr;
@@ -11,22 +14,22 @@ use super::types::{CallbackFunctions, Logger, Status};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Category {
-    /// A call was refused or failed with fmi2Error.
+    /// A call returned fmi2Error. Logged always.
     Error = 0,
-    /// Something unusual that does not stop the simulation.
+    /// A remark on a simulation that continues, or a call that returned fmi2Warning.
     Warning = 1,
-    /// A call was refused or cut short with fmi2Discard.
+    /// A call returned fmi2Discard.
     Discard = 2,
-    /// What is simulated; sent only with logging on.
+    /// What is simulated.
     Events = 3,
 }
 
 impl Category {
-    /// All categories with what the model description says about them.
+    /// All categories with their descriptions in the model description.
     pub const ALL: [(Self, &str); 4] = [
-        (Self::Error, "Refused or failed calls"),
-        (Self::Warning, "Unusual, but the simulation goes on"),
-        (Self::Discard, "Values refused and steps cut short"),
+        (Self::Error, "Refused or failed calls; logged always"),
+        (Self::Warning, "Unusual values; the simulation continues"),
+        (Self::Discard, "Refused values and discarded steps"),
         (Self::Events, "What is simulated"),
     ];
 
@@ -51,75 +54,90 @@ impl Category {
 
 const ALL_CATEGORIES: u8 = 0b1111;
 
-/// Where messages go and which of them.
+/// The host's logger, and which messages it receives.
 pub struct Log {
     logger: Option<Logger>,
     environment: *mut c_void,
     instance: CString,
-    /// Sends events too.
-    verbose: bool,
-    /// Categories the host wants, a bit each.
-    wanted: u8,
+    /// Whether debug logging is on.
+    logging_on: bool,
+    /// Categories that the host chose, a bit each.
+    categories: u8,
 }
+
+// SAFETY: the log holds the host's logger and its environment, which the host must keep valid on every thread from which it
+// calls the instance; the log itself is used by one call at a time
+unsafe impl Send for Log {}
 
 impl Log {
     /// A log through `callbacks` under the name `instance`.
-    pub fn new(callbacks: Option<&CallbackFunctions>, instance: CString, verbose: bool) -> Self {
+    pub fn new(callbacks: Option<CallbackFunctions>, instance: CString, logging_on: bool) -> Self {
         Self {
             logger: callbacks.and_then(|c| c.logger),
             environment: callbacks.map_or(ptr::null_mut(), |c| c.component_environment),
             instance,
-            verbose,
-            wanted: ALL_CATEGORIES,
+            logging_on,
+            categories: ALL_CATEGORIES,
         }
     }
 
-    /// fmi2SetDebugLogging; returns the names that are no category. No names mean all categories.
-    pub fn configure<'a>(&mut self, verbose: bool, names: impl ExactSizeIterator<Item = &'a CStr>) -> Vec<&'a CStr> {
-        self.verbose = verbose;
-        self.wanted = if names.len() == 0 || !verbose { ALL_CATEGORIES } else { 0 };
+    /// fmi2SetDebugLogging; returns the names of unknown categories. No names mean all categories.
+    pub fn configure<'a>(&mut self, logging_on: bool, names: impl ExactSizeIterator<Item = &'a CStr>) -> Vec<&'a CStr> {
+        self.logging_on = logging_on;
+        self.categories = if names.len() == 0 || !logging_on { ALL_CATEGORIES } else { 0 };
         let mut unknown = Vec::new();
         for name in names {
             match Category::ALL.iter().find(|(category, _)| category.name() == name) {
-                Some((category, _)) => self.wanted |= 1 << *category as u8,
+                Some((category, _)) => self.categories |= 1 << *category as u8,
                 None => unknown.push(name),
             }
         }
         unknown
     }
 
-    /// An event, sent only with logging on.
+    /// Whether messages of a call that returns fmi2OK are logged in `category`.
+    pub fn is_on(&self, category: Category) -> bool {
+        self.logging_on && self.is_chosen(category)
+    }
+
+    fn is_chosen(&self, category: Category) -> bool {
+        self.categories & (1 << category as u8) != 0
+    }
+
+    /// An event during a call that returns fmi2OK.
     pub fn event(&self, message: &str) {
-        if self.verbose {
+        if self.is_on(Category::Events) {
             self.send(Status::Ok, Category::Events, message);
         }
     }
 
-    /// Something unusual about a call that returns fmi2OK.
+    /// A warning during a call that returns fmi2OK.
     pub fn warning(&self, message: &str) {
-        self.send(Status::Warning, Category::Warning, message);
+        if self.is_on(Category::Warning) {
+            self.send(Status::Warning, Category::Warning, message);
+        }
     }
 
-    /// What a call that returns `status` has to say.
+    /// The reason why a call returns `status`, which is not fmi2OK.
     pub fn status(&self, status: Status, message: &str) {
-        self.send(status, Category::of(status), message);
+        let category = Category::of(status);
+        if category == Category::Error || self.is_chosen(category) {
+            self.send(status, category, message);
+        }
     }
 
     fn send(&self, status: Status, category: Category, message: &str) {
         let Some(logger) = self.logger else { return };
-        if self.wanted & (1 << category as u8) == 0 {
-            return;
-        }
         let text = printable(message);
-        // SAFETY: the host vouched for its logger when it passed it; the strings live through the call, and the message,
-        // which the logger takes for a printf format, holds no conversion and so asks for no further argument
+        // SAFETY: the logger is valid by the host's promise; the strings outlive the call; the message, which the logger
+        // uses as a printf format, contains no conversion and so requires no further argument
         unsafe {
             logger(self.environment, self.instance.as_ptr(), status, category.name().as_ptr(), text.as_ptr());
         }
     }
 }
 
-/// A message that survives being a printf format: no `%`, no NUL.
+/// `message` as a valid printf format without conversions.
 fn printable(message: &str) -> CString {
     let text = message.replace('%', " percent").replace('\0', " ");
     CString::new(text).unwrap_or_default()

@@ -1,25 +1,26 @@
-//! The FMI 2.0 face, for co-simulation and for model exchange: a C ABI around the model, and the only room with `unsafe`.
+//! The FMI 2.0 interface for co-simulation and model exchange: a C ABI around the model, and the only folder with `unsafe`.
 //!
-//! `exports` takes foreign pointers apart and hands safe values to `Instance`, which knows FMI's rules but no pointer;
-//! the equations are in `model`, the variables in `variables`.
+//! `exports` holds the C functions. They check pointers (`host_memory`, `component`) and pass safe values to `Instance`, which
+//! implements FMI's rules. The equations are in `model`, the variables in `variables`.
 //!
 //! Three decisions that the standard leaves open:
-//! - A refused call has changed nothing, so the instance keeps its state: fmi2Error for a wrong value reference, say, does
-//!   not end a simulation. Only a failed initialisation and an internal error lead to the state `error`.
-//! - The state `fatal` is never entered: instances share nothing, so whatever happens to one, fmi2Reset rebuilds it.
-//! - Parameters and inputs can be read in any state; outputs from initialisation mode on.
+//! - A refused call changes nothing, so the instance keeps its state: fmi2Error for a wrong value reference does not end a
+//!   simulation. Only a failed initialisation and an internal error lead to the state `error`.
+//! - The state `fatal` is never entered: instances share no mutable data, so fmi2Reset always restores an instance.
+//! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
 
+mod call_error;
 mod calls;
+mod component;
 mod derivatives;
 mod exchange;
 mod exports;
+mod host_memory;
 mod instance;
 mod log;
+mod panic_guard;
 #[cfg(test)]
 mod panics;
-mod pointers;
-mod quiet;
-mod refusal;
 mod snapshot;
 mod types;
 mod values;

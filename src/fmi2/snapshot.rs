@@ -12,14 +12,14 @@ use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
-/// Grows whenever the payload changes its meaning or layout.
+/// Incremented whenever the payload changes in meaning or layout.
 const VERSION: u32 = 6;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
-/// What an instance is at an instant. Cloning copies the state and shares the constants.
+/// Everything of an instance that changes. Cloning copies the state and shares the constants.
 #[derive(Clone, Debug)]
 pub struct Snapshot {
-    /// What the instance was made for.
+    /// Model exchange or co-simulation.
     pub kind: Kind,
     /// State as FMI counts states.
     pub phase: Phase,
@@ -27,10 +27,10 @@ pub struct Snapshot {
     pub parameters: Parameters,
     /// Inputs as set so far.
     pub inputs: Inputs,
-    /// How they go on, where the host told derivatives.
+    /// Their course, where the host set derivatives.
     pub course: Option<Course>,
-    /// Inputs whose derivatives were told since the last step, a bit each.
-    pub told: u32,
+    /// Inputs whose derivatives were set since the last step, a bit each.
+    pub derivatives_set: u32,
     /// Start time [s].
     pub start_time: f64,
     /// Stop time [s], if the host gave one.
@@ -42,7 +42,7 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// A fresh instance.
+    /// A new instance.
     pub fn new(kind: Kind) -> Self {
         Self {
             kind,
@@ -50,7 +50,7 @@ impl Snapshot {
             parameters: Parameters::default(),
             inputs: Inputs::default(),
             course: None,
-            told: 0,
+            derivatives_set: 0,
             start_time: 0.0,
             stop_time: None,
             tolerance_chosen: false,
@@ -59,7 +59,7 @@ impl Snapshot {
     }
 }
 
-/// What is written of a snapshot: all but what follows from the parameters.
+/// The serialised part of a snapshot: all but what follows from the parameters.
 #[derive(Serialize, Deserialize)]
 struct Payload {
     kind: Kind,
@@ -67,7 +67,7 @@ struct Payload {
     parameters: Parameters,
     inputs: Inputs,
     course: Option<Course>,
-    told: u32,
+    derivatives_set: u32,
     start_time: f64,
     stop_time: Option<f64>,
     tolerance_chosen: bool,
@@ -76,7 +76,7 @@ struct Payload {
 }
 
 impl Snapshot {
-    /// Starts a simulation from the parameters and inputs; otherwise tells everything that is wrong with them.
+    /// Starts a simulation from the parameters and inputs, or returns every problem with them.
     pub fn start(&self) -> Result<Simulation, Vec<Problem>> {
         let problems = check_ranges(&self.parameters);
         if !problems.is_empty() {
@@ -85,7 +85,7 @@ impl Snapshot {
         Simulation::start(&self.effective(), &self.inputs, self.start_time)
     }
 
-    /// Parameters that are simulated: in model exchange every planet has states of its own.
+    /// Parameters for the simulation: in model exchange every planet has its own states.
     fn effective(&self) -> Parameters {
         let mut parameters = self.parameters;
         parameters.solver.merge_planets &= self.kind == Kind::CoSimulation;
@@ -100,7 +100,7 @@ impl Snapshot {
             parameters: self.parameters,
             inputs: self.inputs,
             course: self.course,
-            told: self.told,
+            derivatives_set: self.derivatives_set,
             start_time: self.start_time,
             stop_time: self.stop_time,
             tolerance_chosen: self.tolerance_chosen,
@@ -118,7 +118,7 @@ impl Snapshot {
         Ok(bytes)
     }
 
-    /// The snapshot that `bytes` hold, or why they cannot be used.
+    /// The snapshot in `bytes`, or why they cannot be used.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
         let payload = open(bytes)?;
         let (payload, rest) =
@@ -127,15 +127,25 @@ impl Snapshot {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
         payload.check()?;
-        let Payload { kind, phase, parameters, inputs, course, told, start_time, stop_time, tolerance_chosen, .. } =
-            payload;
+        let Payload {
+            kind,
+            phase,
+            parameters,
+            inputs,
+            course,
+            derivatives_set,
+            start_time,
+            stop_time,
+            tolerance_chosen,
+            ..
+        } = payload;
         let mut snapshot = Self {
             kind,
             phase,
             parameters,
             inputs,
             course,
-            told,
+            derivatives_set,
             start_time,
             stop_time,
             tolerance_chosen,
@@ -150,11 +160,11 @@ impl Snapshot {
 }
 
 impl Payload {
-    /// A checksum does not tell whether values make sense.
+    /// Checks that the values are valid; the checksum cannot show that.
     fn check(&self) -> Result<(), String> {
         let needs_state = !matches!(self.phase, Phase::Instantiated | Phase::Initialization | Phase::Error);
         if needs_state && self.state.is_none() {
-            return Err(format!("the state of a simulation is missing in the phase \"{}\"", self.phase.name()));
+            return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
         if !self.start_time.is_finite() || self.state.is_some_and(|s| !s.is_valid()) {
             return Err("the state has values that are not finite".into());
@@ -163,14 +173,14 @@ impl Payload {
             return Err("the state has values that are not finite".into());
         }
         if self.accepted.is_some() && self.kind != Kind::ModelExchange {
-            return Err("a step completed by a host's solver does not belong to this kind of instance".into());
+            return Err("a step completed by the host's solver does not belong to an instance for co-simulation".into());
         }
         let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime);
         let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed);
         if exchanges && (self.kind != Kind::ModelExchange || self.accepted.is_none())
             || steps && self.kind != Kind::CoSimulation
         {
-            return Err(format!("the phase \"{}\" does not belong to this kind of instance", self.phase.name()));
+            return Err(format!("the state \"{}\" does not belong to this kind of instance", self.phase.name()));
         }
         let mut inputs = self.inputs;
         for row in &table().rows {
@@ -188,7 +198,7 @@ fn open(bytes: &[u8]) -> Result<&[u8], String> {
     let truncated = || format!("the serialised state is truncated at {} bytes", bytes.len());
     let mut rest = bytes;
     if *take::<8>(&mut rest).ok_or_else(truncated)? != MAGIC {
-        return Err("these bytes are no serialised state of this FMU".into());
+        return Err("these bytes are not a serialised state of this FMU".into());
     }
     let version = u32::from_le_bytes(*take(&mut rest).ok_or_else(truncated)?);
     if version != VERSION {
@@ -201,10 +211,10 @@ fn open(bytes: &[u8]) -> Result<&[u8], String> {
     let (payload, rest) = usize::try_from(length).ok().and_then(|n| rest.split_at_checked(n)).ok_or_else(truncated)?;
     let (sum, surplus) = rest.split_first_chunk().ok_or_else(truncated)?;
     if !surplus.is_empty() {
-        return Err(format!("the serialised state is followed by {} bytes that do not belong to it", surplus.len()));
+        return Err(format!("the serialised state is followed by {} surplus bytes", surplus.len()));
     }
     if u64::from_le_bytes(*sum) != fnv1a(bytes[..HEADER + payload.len()].iter().copied()) {
-        return Err("the serialised state is damaged: its checksum does not fit".into());
+        return Err("the serialised state is damaged: its checksum is wrong".into());
     }
     Ok(payload)
 }

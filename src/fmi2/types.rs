@@ -5,9 +5,9 @@ use serde::{Deserialize, Serialize};
 
 /// fmi2Boolean: 0 is false.
 pub type Boolean = c_int;
-/// fmi2Component: an instance, seen from outside.
+/// fmi2Component: pointer to an instance.
 pub type ComponentPointer = *mut c_void;
-/// fmi2FMUstate: a snapshot, seen from outside.
+/// fmi2FMUstate: pointer to a snapshot.
 pub type FmuState = *mut c_void;
 /// fmi2String.
 pub type Text = *const c_char;
@@ -18,27 +18,27 @@ pub type ValueReference = c_uint;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Status {
-    /// All well.
+    /// Success.
     Ok = 0,
-    /// Not quite right, but the simulation goes on.
+    /// Not quite right, but the simulation continues.
     Warning = 1,
-    /// Refused or only partly done; the instance is valid.
+    /// Refused or carried out in part; the instance is valid.
     Discard = 2,
     /// Refused, or failed; see the log.
     Error = 3,
-    /// Beyond repair; never returned by this FMU.
+    /// The instance is unusable; never returned by this FMU.
     Fatal = 4,
-    /// Still working; never returned by this FMU.
+    /// The step still runs; never returned by this FMU.
     Pending = 5,
 }
 
-/// fmi2Type: what an instance was made for.
+/// fmi2Type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
 pub enum Kind {
-    /// The host brings the solver.
+    /// The host has the solver.
     ModelExchange = 0,
-    /// The instance brings its own.
+    /// The instance has the solver.
     CoSimulation = 1,
 }
 
@@ -64,9 +64,9 @@ pub type Logger =
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EventInfo {
-    /// Whether fmi2NewDiscreteStates is to be called again.
+    /// Whether fmi2NewDiscreteStates must be called again.
     pub new_discrete_states_needed: Boolean,
-    /// Whether the simulation is to end.
+    /// Whether the simulation must end.
     pub terminate_simulation: Boolean,
     /// Whether nominal values of states changed.
     pub nominals_changed: Boolean,
@@ -74,11 +74,11 @@ pub struct EventInfo {
     pub states_changed: Boolean,
     /// Whether the next event is known.
     pub next_event_defined: Boolean,
-    /// When it comes [s].
+    /// Its time [s].
     pub next_event: f64,
 }
 
-/// fmi2CallbackFunctions. Only the logger is used; memory is the library's own.
+/// fmi2CallbackFunctions. Only the logger is used; the library allocates its memory itself.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct CallbackFunctions {
@@ -90,6 +90,6 @@ pub struct CallbackFunctions {
     pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
     /// Unused: steps are synchronous.
     pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
-    /// The host's own, handed to the logger.
+    /// Passed to the logger unchanged.
     pub component_environment: *mut c_void,
 }

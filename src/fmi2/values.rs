@@ -1,10 +1,9 @@
-//! Getting and setting variables by value reference. A set call is checked as a whole, then carried out as a whole.
+//! Getting and setting variables by value reference. A set call is checked as a whole before anything is set.
 
-use std::mem::MaybeUninit;
-
+use super::call_error::{CallError, CallResult};
 use super::calls::Phase;
+use super::host_memory::{InputArray, OutputArray};
 use super::instance::{Instance, is_tolerance};
-use super::refusal::{Answer, Refusal};
 use crate::model::{Books, Motion};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 
@@ -19,53 +18,56 @@ fn type_name(row: &Variable) -> &'static str {
 }
 
 /// The row of a value reference.
-pub fn row(reference: u32) -> Answer<&'static Variable> {
+pub fn row(reference: u32) -> CallResult<&'static Variable> {
     let rows = &table().rows;
     usize::try_from(reference).ok().and_then(|i| rows.get(i)).ok_or_else(|| {
-        Refusal::error(format!("value reference {reference} does not exist; they go from 0 to {}", rows.len() - 1))
+        CallError::error(format!(
+            "value reference {reference} does not exist; the references are 0 to {}",
+            rows.len() - 1
+        ))
     })
 }
 
-/// Refuses a call for another type.
-pub fn wrong_type(row: &Variable) -> Refusal {
-    Refusal::error(format!("{} is of type {}", row.name, type_name(row)))
+/// The error of a call for another type.
+pub fn wrong_type(row: &Variable) -> CallError {
+    CallError::error(format!("{} is of type {}", row.name, type_name(row)))
 }
 
-/// Refuses any String access: there are no String variables.
-pub fn refuse_string(reference: u32) -> Refusal {
-    row(reference).map_or_else(|refusal| refusal, wrong_type)
+/// The error of any String access: there are no String variables.
+pub fn string_error(reference: u32) -> CallError {
+    row(reference).map_or_else(|error| error, wrong_type)
 }
 
-/// `number` if it is one that a host can go on with: a solver of the host's may try states that have no answer.
-pub fn finite(row: &Variable, number: f64) -> Answer<f64> {
+/// `number` if it is finite: the host's solver may try states at which a variable has no finite value.
+pub fn finite(row: &Variable, number: f64) -> CallResult<f64> {
     if number.is_finite() {
         return Ok(number);
     }
-    Err(Refusal::discard(format!(
-        "{} is {number}, not a finite number, at these states; take a shorter step, or look at the inputs",
+    Err(CallError::discard(format!(
+        "{} is {number}, not a finite number, at these states; take a shorter step or check the inputs",
         row.name
     )))
 }
 
-/// `problem` of a single value, with unit and range of its variable.
-fn refused_value(row: &Variable, value: f64, problem: String) -> Refusal {
-    let Some(range) = row.range.filter(|_| !value.is_finite()) else { return Refusal::discard(problem) };
+/// The error of a single value, with unit and range of its variable.
+fn value_error(row: &Variable, value: f64, problem: String) -> CallError {
+    let Some(range) = row.range.filter(|_| !value.is_finite()) else { return CallError::discard(problem) };
     let unit = row.unit.map_or("", |u| u.name);
-    Refusal::discard(format!("{problem}; allowed is [{}, {}] {unit}", range.min, range.max))
+    CallError::discard(format!("{problem}; the range is [{}, {}] {unit}", range.min, range.max))
 }
 
-fn no_choice(row: &Variable, kind: &EnumType, value: i32) -> Refusal {
+fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
     let choices: Vec<_> = kind.choices.iter().map(|c| format!("{} = {}", c.value, c.name)).collect();
-    Refusal::error(format!("{}: {value} is none of {}", row.name, choices.join(", ")))
+    CallError::error(format!("{}: {value} is not one of {}", row.name, choices.join(", ")))
 }
 
 impl Instance {
-    /// fmi2GetReal. What several outputs share is computed once, and nothing that is not asked for.
-    pub fn get_real(&mut self, references: &[u32], values: &mut [MaybeUninit<f64>]) -> Answer {
+    /// fmi2GetReal. Computes only what the requested variables need, and what they share only once.
+    pub fn get_real(&mut self, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
         let mut motion: Option<Motion> = None;
         let mut books: Option<Books> = None;
         let (mut states, mut rates) = (None, None);
-        for (&reference, value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             let number = match row.access {
                 Access::Real(slot) => *slot(&mut self.now.parameters),
@@ -73,7 +75,7 @@ impl Instance {
                 Access::Output(source) => {
                     let simulation = self
                         .simulation()
-                        .map_err(|r| Refusal { message: format!("{}: {}", row.name, r.message), ..r })?;
+                        .map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })?;
                     match source {
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
@@ -95,8 +97,8 @@ impl Instance {
     }
 
     /// fmi2GetInteger; enumerations too.
-    pub fn get_integer(&mut self, references: &[u32], values: &mut [MaybeUninit<i32>]) -> Answer {
-        for (&reference, value) in references.iter().zip(values) {
+    pub fn get_integer(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             value.write(match row.access {
                 Access::Integer(slot) => *slot(&mut self.now.parameters),
@@ -108,8 +110,8 @@ impl Instance {
     }
 
     /// fmi2GetBoolean.
-    pub fn get_boolean(&mut self, references: &[u32], values: &mut [MaybeUninit<i32>]) -> Answer {
-        for (&reference, value) in references.iter().zip(values) {
+    pub fn get_boolean(&mut self, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             let Access::Boolean(slot) = row.access else { return Err(wrong_type(row)) };
             value.write(i32::from(*slot(&mut self.now.parameters)));
@@ -118,13 +120,13 @@ impl Instance {
     }
 
     /// fmi2SetReal.
-    pub fn set_real(&mut self, references: &[u32], values: &[f64]) -> Answer {
-        for (&reference, &value) in references.iter().zip(values) {
+    pub fn set_real(&mut self, references: InputArray<u32>, values: InputArray<f64>) -> CallResult {
+        for (reference, value) in references.iter().zip(values.iter()) {
             self.check_real(row(reference)?, value)?;
         }
         let now = &mut self.now;
         let mut tuned = false;
-        for (&reference, &value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             match row.access {
                 Access::Real(slot) => {
@@ -142,18 +144,18 @@ impl Instance {
     }
 
     /// fmi2SetInteger; enumerations too.
-    pub fn set_integer(&mut self, references: &[u32], values: &[i32]) -> Answer {
-        for (&reference, &value) in references.iter().zip(values) {
+    pub fn set_integer(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
+        for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             match row.access {
                 Access::Enumeration(kind, ..) if kind.choices.iter().all(|c| c.value != value) => {
-                    return Err(no_choice(row, kind, value));
+                    return Err(choice_error(row, kind, value));
                 }
                 Access::Integer(_) | Access::Enumeration(..) => self.check_settable(row)?,
                 _ => return Err(wrong_type(row)),
             }
         }
-        for (&reference, &value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             match row(reference)?.access {
                 Access::Integer(slot) => *slot(&mut self.now.parameters) = value,
                 Access::Enumeration(_, _, set) => set(&mut self.now.parameters, value),
@@ -165,13 +167,13 @@ impl Instance {
     }
 
     /// fmi2SetBoolean; any value but 0 is true.
-    pub fn set_boolean(&mut self, references: &[u32], values: &[i32]) -> Answer {
-        for &reference in references {
+    pub fn set_boolean(&mut self, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
+        for reference in references.iter() {
             let row = row(reference)?;
             let Access::Boolean(_) = row.access else { return Err(wrong_type(row)) };
             self.check_settable(row)?;
         }
-        for (&reference, &value) in references.iter().zip(values) {
+        for (reference, value) in references.iter().zip(values.iter()) {
             if let Access::Boolean(slot) = row(reference)?.access {
                 *slot(&mut self.now.parameters) = value != 0;
             }
@@ -180,9 +182,9 @@ impl Instance {
         Ok(())
     }
 
-    /// Inputs are checked against their range at once; parameters too once the simulation runs, before only for being
-    /// numbers, since their ranges are checked together when initialisation ends.
-    fn check_real(&self, row: &Variable, value: f64) -> Answer {
+    /// Inputs are checked against their range at once. Parameters are so only in a running simulation: before, they must
+    /// be finite, and initialisation checks all their ranges together.
+    fn check_real(&self, row: &Variable, value: f64) -> CallResult {
         let at_once = match row.access {
             Access::Input(_) => true,
             Access::Real(_) | Access::Output(_) => {
@@ -192,19 +194,19 @@ impl Instance {
             _ => return Err(wrong_type(row)),
         };
         match check_value(row, value) {
-            Err(problem) if at_once => Err(refused_value(row, value, problem.to_string())),
+            Err(problem) if at_once => Err(value_error(row, value, problem.to_string())),
             _ => Ok(()),
         }
     }
 
-    fn check_settable(&self, row: &Variable) -> Answer {
+    fn check_settable(&self, row: &Variable) -> CallResult {
         match (row.access, row.variability) {
-            (Access::Output(_), _) => Err(Refusal::error(format!("{} is an output and cannot be set", row.name))),
-            (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(Refusal::error(format!(
-                "{} is a parameter: between events it cannot be set, enter event mode first",
+            (Access::Output(_), _) => Err(CallError::error(format!("{} is an output and cannot be set", row.name))),
+            (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
+                "{} is a parameter: it cannot be set between events, enter event mode first",
                 row.name
             ))),
-            (_, Variability::Fixed) if self.now.phase.is_running() => Err(Refusal::error(format!(
+            (_, Variability::Fixed) if self.now.phase.is_running() => Err(CallError::error(format!(
                 "{} is a fixed parameter: it can be set only before fmi2ExitInitializationMode",
                 row.name
             ))),
@@ -212,7 +214,7 @@ impl Instance {
         }
     }
 
-    /// Hands what was set to the simulation; before the first step it is built anew when it is asked for.
+    /// Passes the new values to a running simulation; before, the simulation is discarded and rebuilt on demand.
     fn changed(&mut self, parameters: bool) {
         let now = &mut self.now;
         match &mut now.simulation {

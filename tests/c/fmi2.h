@@ -1,4 +1,4 @@
-/* The part of FMI 2.0 that the programs here use, and the library opened as a host opens it. */
+/* For hosts in C: the part of FMI 2.0 that they use, the library opened at run time, a logger, and checks. */
 
 #ifndef FMI2_H
 #define FMI2_H
@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING } Status;
 enum { MODEL_EXCHANGE, CO_SIMULATION };
@@ -25,7 +26,7 @@ typedef struct {
     double next;
 } EventInfo;
 
-/* name, answer, arguments */
+/* name, result, arguments */
 #define FUNCTIONS(F) \
     F(Instantiate, void *, (const char *, int, const char *, const char *, const Callbacks *, int, int)) \
     F(FreeInstance, void, (void *)) \
@@ -65,7 +66,7 @@ typedef struct {
     F(GetStatus, Status, (void *, int, Status *)) \
     F(GetRealStatus, Status, (void *, int, double *))
 
-#define DECLARE(name, answer, arguments) static answer(*name) arguments;
+#define DECLARE(name, result, arguments) static result(*name) arguments;
 FUNCTIONS(DECLARE)
 #undef DECLARE
 
@@ -77,7 +78,7 @@ static void open_library(const char *path)
         fprintf(stderr, "%s\n", dlerror());
         exit(2);
     }
-#define FIND(name, answer, arguments) \
+#define FIND(name, result, arguments) \
     if (!(*(void **)&name = dlsym(library, "fmi2" #name))) { \
         fprintf(stderr, "fmi2" #name " is missing\n"); \
         exit(2); \
@@ -86,16 +87,29 @@ static void open_library(const char *path)
 #undef FIND
 }
 
-/* Where this program complains; standard error may be what it looks at. */
-static FILE *complaints;
+/* Where this program reports failed checks, if not on standard error. */
+static FILE *reports;
 
-/* Ends the program where something is not as it should be. */
+/* Ends the program if `condition` is false. */
 #define MUST(condition) \
     do { \
         if (!(condition)) { \
-            fprintf(complaints ? complaints : stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
+            fprintf(reports ? reports : stderr, "%s:%d: %s\n", __FILE__, __LINE__, #condition); \
             exit(1); \
         } \
     } while (0)
+
+/* Counts messages in the `long` at `environment`; reads every byte, so that memcheck finds bytes that were never written. */
+static void count_message(void *environment, const char *name, Status status, const char *category, const char *text, ...)
+{
+    if (strlen(name) && strlen(category) && strlen(text) && status <= ERROR)
+        ++*(long *)environment;
+}
+
+/* Callbacks whose logger counts its messages in `count`. */
+static Callbacks counting(long *count)
+{
+    return (Callbacks){count_message, NULL, NULL, NULL, count};
+}
 
 #endif

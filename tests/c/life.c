@@ -1,9 +1,8 @@
-/* The life of instances of both kinds, as a host written in C leads it: refusals, steps, states, bytes, calls at random.
+/* The life cycle of instances of both kinds in a C host: refused calls, steps, states, serialisation, random calls.
    For memcheck: life LIBRARY GUID INPUT OUTPUT CALLS, with value references of an input and an output. */
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "fmi2.h"
 
@@ -11,16 +10,9 @@ static const char *guid;
 static unsigned input, output;
 static long lines;
 
-static void say(void *environment, const char *name, Status status, const char *category, const char *text, ...)
-{
-    /* every byte is read, so that a checker sees one that was never written */
-    if (strlen(name) && strlen(category) && strlen(text) && status <= ERROR)
-        ++*(long *)environment;
-}
-
 static void *make(int kind)
 {
-    Callbacks callbacks = {say, NULL, NULL, NULL, &lines};
+    Callbacks callbacks = counting(&lines);
     void *c = Instantiate("life", kind, guid, "file:///nowhere", &callbacks, 0, 1);
     MUST(c);
     return c;
@@ -33,8 +25,8 @@ static void begin(void *c)
     MUST(ExitInitializationMode(c) == OK);
 }
 
-/* A state is kept, written, damaged, read and restored. */
-static void keep_and_restore(void *c)
+/* A state is stored, serialised, damaged, deserialised and restored. */
+static void store_and_restore(void *c)
 {
     void *state = NULL, *copy = NULL;
     size_t size;
@@ -55,7 +47,7 @@ static void keep_and_restore(void *c)
 
 static void refusals(void)
 {
-    Callbacks callbacks = {say, NULL, NULL, NULL, &lines};
+    Callbacks callbacks = counting(&lines);
     long before = lines;
     MUST(!Instantiate("life", CO_SIMULATION, "{wrong}", NULL, &callbacks, 0, 0));
     MUST(!Instantiate(NULL, CO_SIMULATION, guid, NULL, &callbacks, 0, 0));
@@ -107,7 +99,7 @@ static void steps(void)
         MUST(GetRealOutputDerivatives(c, &output, 1, &order, &slope) == OK && isfinite(slope));
     }
     MUST(GetDirectionalDerivative(c, &output, 1, &input, 1, &(double){1.0}, &slope) == OK && isfinite(slope));
-    keep_and_restore(c);
+    store_and_restore(c);
     load = 1e7;
     MUST(SetReal(c, &input, 1, &load) == OK && DoStep(c, 20e-4, 1e-2, 0) == DISCARD);
     MUST(Terminate(c) == OK && Reset(c) == OK);
@@ -140,7 +132,7 @@ static void exchange(void)
     }
     for (int k = 0; k < INDICATORS; ++k)
         MUST(isfinite(indicators[k]));
-    keep_and_restore(c);
+    store_and_restore(c);
     FreeInstance(c);
 }
 
@@ -152,7 +144,7 @@ static unsigned below(unsigned n)
     return (unsigned)((seed >> 11) % n);
 }
 
-/* Calls at random on two instances that hand each other their states. */
+/* Random calls on two instances that exchange their states. */
 static void at_random(long calls)
 {
     void *units[2] = {make(CO_SIMULATION), make(MODEL_EXCHANGE)}, *states[2] = {NULL, NULL};

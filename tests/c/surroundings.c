@@ -1,5 +1,5 @@
-/* What belongs to the host stays as it was: working directory, environment, locale, signals, floating-point mode, files,
-   threads, standard output and error. And what the host's floating-point mode does to the numbers.
+/* The library leaves the host's process as it was: working directory, environment, locale, signals, floating-point mode,
+   files, threads, standard output and error. Also: how the host's floating-point mode changes results.
    surroundings LIBRARY GUID LOAD SPEED INERTIA, the last three as value references. */
 
 #define _GNU_SOURCE
@@ -8,7 +8,6 @@
 #include <locale.h>
 #include <math.h>
 #include <signal.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -22,7 +21,7 @@ static const char *guid;
 static unsigned input, output, inertia;
 
 enum { SIGNALS = 64, STEPS = 50 };
-/* Control bits of the SSE unit: what to flush, what traps, how to round; the others are flags that say what came about. */
+/* Control bits of the SSE unit: what to flush, what traps, how to round; the others are flags of exceptions. */
 static const unsigned CONTROL = 0xffc0;
 
 typedef struct {
@@ -46,7 +45,7 @@ static int entries(const char *folder)
     return n;
 }
 
-static Surroundings look(void)
+static Surroundings inspect(void)
 {
     Surroundings s;
     memset(&s, 0, sizeof s);
@@ -74,19 +73,13 @@ static Surroundings look(void)
     return s;
 }
 
-static void say(void *environment, const char *name, Status status, const char *category, const char *text, ...)
-{
-    (void)name, (void)status, (void)category, (void)text;
-    ++*(long *)environment;
-}
-
-/* A run with refusals, a failed step, states and a failed initialisation; returns the speed at the end of the steps. */
+/* A run with refused calls, a failed step, states and a failed initialisation; returns the speed after the steps. */
 static double run(void)
 {
     long lines = 0;
-    Callbacks callbacks = {say, NULL, NULL, NULL, &lines};
+    Callbacks callbacks = counting(&lines);
     void *c = Instantiate("run", CO_SIMULATION, guid, NULL, &callbacks, 0, 1), *state = NULL;
-    /* with an inertia at its end the side gear follows its load calmly: without, the last digit of it decides on blows */
+    /* without inertia at its end the side gear would rattle, and rounding errors would decide on impacts */
     double speed, end = 0.5, load = 1e7, none = NAN, module = 4.5;
     unsigned first = 0;
     MUST(c && !Instantiate("run", CO_SIMULATION, "{wrong}", NULL, &callbacks, 0, 1));
@@ -117,15 +110,15 @@ static double run(void)
     return speed;
 }
 
-/* The same run in a floating-point mode of the host's: the mode stays, and the numbers are told beside the plain ones. */
+/* The same run in another floating-point mode: the mode stays; prints the relative change of the result. */
 static void in_mode(const char *name, unsigned sse, int rounding, double plain)
 {
     unsigned before = _mm_getcsr();
     fesetround(rounding);
     _mm_setcsr((_mm_getcsr() & ~0x8040u) | sse);
-    Surroundings mode = look();
+    Surroundings mode = inspect();
     double speed = run();
-    Surroundings after = look();
+    Surroundings after = inspect();
     fesetround(FE_TONEAREST);
     _mm_setcsr(before);
     MUST(!memcmp(&mode, &after, sizeof mode));
@@ -158,29 +151,29 @@ int main(int count, char **arguments)
     input = (unsigned)atoi(arguments[3]);
     output = (unsigned)atoi(arguments[4]);
     inertia = (unsigned)atoi(arguments[5]);
-    /* none of these is what a library would set */
+    /* settings that no library would make */
     setlocale(LC_ALL, "C.UTF-8");
     setenv("BEVEL_TEST", "%s 1,5", 1);
     umask(027);
     signal(SIGPIPE, SIG_DFL);
 
-    /* opening the library belongs to it; so does a first run, which the C library may open files for */
-    Surroundings before = look();
+    /* includes opening the library and a first run, for which the C library may open files */
+    Surroundings before = inspect();
     open_library(arguments[1]);
-    FILE *said = tmpfile();
-    MUST(said && fflush(stdout) == 0 && fflush(stderr) == 0);
+    FILE *output_file = tmpfile();
+    MUST(output_file && fflush(stdout) == 0 && fflush(stderr) == 0);
     int out = dup(1), err = dup(2);
-    setvbuf(complaints = fdopen(dup(2), "w"), NULL, _IONBF, 0);
-    MUST(dup2(fileno(said), 1) == 1 && dup2(fileno(said), 2) == 2);
+    setvbuf(reports = fdopen(dup(2), "w"), NULL, _IONBF, 0);
+    MUST(dup2(fileno(output_file), 1) == 1 && dup2(fileno(output_file), 2) == 2);
     double plain = run();
     fflush(NULL);
-    struct stat told;
-    int known = fstat(fileno(said), &told);
+    struct stat written;
+    int known = fstat(fileno(output_file), &written);
     dup2(out, 1), dup2(err, 2);
-    close(out), close(err), fclose(said), fclose(complaints);
-    complaints = NULL;
-    MUST(known == 0 && told.st_size == 0);
-    Surroundings after = look();
+    close(out), close(err), fclose(output_file), fclose(reports);
+    reports = NULL;
+    MUST(known == 0 && written.st_size == 0);
+    Surroundings after = inspect();
     MUST(!strcmp(before.folder, after.folder));
     MUST(!strcmp(before.environment, after.environment));
     MUST(!strcmp(before.locale, after.locale));

@@ -1,46 +1,16 @@
-//! A small FMI host: drives the C functions as a C program would, and keeps what the logger says.
-#![allow(dead_code)] // each test file uses its part
+//! An FMI host for tests: calls the C functions as a C program does, and records what they log.
+#![allow(dead_code)] // each test file uses a part
 
-use std::ffi::{CStr, CString};
+pub mod counting_allocator;
+pub mod recorder;
+
+use std::ffi::CString;
 use std::ptr;
-use std::sync::Mutex;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::{self, Access, table};
-use libc::{c_char, c_void};
-
-/// A line of the log.
-#[derive(Clone, Debug)]
-pub struct Line {
-    pub status: Status,
-    pub category: String,
-    pub message: String,
-}
-
-/// Receives log lines; variadic in C, but no argument ever follows the message.
-unsafe extern "C" fn logger(env: *mut c_void, _instance: Text, status: Status, category: Text, message: Text) {
-    // SAFETY: `env` is the mutex that `Host` keeps alive; the strings come from the FMU
-    let (lines, category, message) = unsafe {
-        (&*env.cast::<Mutex<Vec<Line>>>(), CStr::from_ptr(category).to_string_lossy(), CStr::from_ptr(message))
-    };
-    assert!(!message.to_bytes().contains(&b'%'), "a printf format must hold no conversion: {message:?}");
-    let message = message.to_string_lossy().into_owned();
-    lines.lock().unwrap().push(Line { status, category: category.into_owned(), message });
-}
-
-/// Callbacks that log into `lines`.
-pub fn callbacks(lines: &Mutex<Vec<Line>>) -> CallbackFunctions {
-    // SAFETY: on the platforms the tests run on, fixed arguments reach a plain function as they reach a variadic one
-    let logger =
-        unsafe { std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(logger) };
-    CallbackFunctions {
-        logger: Some(logger),
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        component_environment: ptr::from_ref(lines).cast_mut().cast(),
-    }
-}
+use libc::c_char;
+use recorder::{Line, Recorder};
 
 /// Value reference of a variable.
 pub fn reference(name: &str) -> u32 {
@@ -50,37 +20,49 @@ pub fn reference(name: &str) -> u32 {
 /// An instance and its log.
 pub struct Host {
     pub c: ComponentPointer,
-    lines: Box<Mutex<Vec<Line>>>,
+    recorder: Box<Recorder>,
 }
 
 impl Drop for Host {
     fn drop(&mut self) {
-        // SAFETY: the component is this host's own
+        // SAFETY: the component belongs to this host
         unsafe { fmi2FreeInstance(self.c) }
     }
 }
 
 impl Host {
-    /// A fresh instance with logging on.
+    /// A new instance for co-simulation with logging on.
     pub fn new() -> Self {
-        let host = Self::instantiate(Some("test"), CO_SIMULATION, Some(variables::guid()), None);
+        Self::with_logging(1)
+    }
+
+    /// A new instance for co-simulation with logging on (1) or off (0).
+    pub fn with_logging(on: Boolean) -> Self {
+        let host = Self::instantiate_with((Some("test"), CO_SIMULATION, Some(variables::guid()), None), on);
         assert!(!host.c.is_null(), "{:?}", host.log());
         host
     }
 
-    /// fmi2Instantiate with anything; `c` is NULL if refused.
+    /// fmi2Instantiate with logging on and any arguments; `c` is NULL if refused.
     pub fn instantiate(name: Option<&str>, kind: i32, guid: Option<&str>, resources: Option<&str>) -> Self {
-        let lines = Box::new(Mutex::new(Vec::new()));
+        Self::instantiate_with((name, kind, guid, resources), 1)
+    }
+
+    fn instantiate_with(
+        (name, kind, guid, resources): (Option<&str>, i32, Option<&str>, Option<&str>),
+        logging: Boolean,
+    ) -> Self {
+        let recorder = Box::<Recorder>::default();
         let owned = |text: Option<&str>| text.map(|t| CString::new(t).unwrap());
         let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |t| t.as_ptr());
         let (name, guid, resources) = (owned(name), owned(guid), owned(resources));
-        let callbacks = callbacks(&lines);
-        // SAFETY: all pointers are NULL or valid through the call
-        let c = unsafe { fmi2Instantiate(pointer(&name), kind, pointer(&guid), pointer(&resources), &callbacks, 0, 1) };
-        Self { c, lines }
+        let (callbacks, [name, guid, resources]) = (recorder.callbacks(), [&name, &guid, &resources].map(pointer));
+        // SAFETY: all pointers are NULL or valid during the call
+        let c = unsafe { fmi2Instantiate(name, kind, guid, resources, &callbacks, 0, logging) };
+        Self { c, recorder }
     }
 
-    /// A fresh instance for model exchange.
+    /// A new instance for model exchange.
     pub fn for_exchange() -> Self {
         let host = Self::instantiate(Some("test"), MODEL_EXCHANGE, Some(variables::guid()), None);
         assert!(!host.c.is_null(), "{:?}", host.log());
@@ -98,7 +80,7 @@ impl Host {
     /// fmi2NewDiscreteStates.
     pub fn update(&self) -> EventInfo {
         let mut info = EventInfo::default();
-        // SAFETY: a live component and a place for the answer
+        // SAFETY: a live component and memory for the result
         assert_eq!(unsafe { fmi2NewDiscreteStates(self.c, &mut info) }, Status::Ok, "{:?}", self.log());
         info
     }
@@ -157,7 +139,7 @@ impl Host {
 
     pub fn set_many(&self, names: &[&str], values: &[f64]) -> Status {
         let references: Vec<u32> = names.iter().map(|n| reference(n)).collect();
-        // SAFETY: a live component and arrays of the length told
+        // SAFETY: a live component and arrays of that length
         unsafe { fmi2SetReal(self.c, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
@@ -177,7 +159,7 @@ impl Host {
 
     pub fn try_get(&self, name: &str) -> (Status, f64) {
         let mut value = f64::NAN;
-        // SAFETY: a live component and room for one value
+        // SAFETY: a live component and memory for one value
         let status = unsafe { fmi2GetReal(self.c, &reference(name), 1, &mut value) };
         (status, value)
     }
@@ -190,7 +172,7 @@ impl Host {
 
     pub fn get_integer(&self, name: &str) -> i32 {
         let mut value = 0;
-        // SAFETY: a live component and room for one value
+        // SAFETY: a live component and memory for one value
         assert_eq!(unsafe { fmi2GetInteger(self.c, &reference(name), 1, &mut value) }, Status::Ok);
         value
     }
@@ -199,14 +181,14 @@ impl Host {
     pub fn outputs(&self) -> Vec<u64> {
         let references: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
         let mut values = vec![f64::NAN; references.len()];
-        // SAFETY: a live component and room for all values
+        // SAFETY: a live component and memory for all values
         let status = unsafe { fmi2GetReal(self.c, references.as_ptr(), references.len(), values.as_mut_ptr()) };
         assert_eq!(status, Status::Ok, "{:?}", self.log());
         values.into_iter().map(f64::to_bits).collect()
     }
 
-    /// Steps `first` and following, 1 ms each, with changing loads; returns the outputs after each step, as bits.
-    pub fn journey(&self, first: usize, n: usize) -> Vec<Vec<u64>> {
+    /// Takes `n` steps of 1 ms from step `first` on, with a varying load; returns the outputs after each step, as bits.
+    pub fn record_steps(&self, first: usize, n: usize) -> Vec<Vec<u64>> {
         (first..first + n)
             .map(|i| {
                 let t = i as f64 * 1e-3;
@@ -220,7 +202,7 @@ impl Host {
 
     pub fn get_state(&self) -> FmuState {
         let mut state = ptr::null_mut();
-        // SAFETY: a live component and a place for a state
+        // SAFETY: a live component and memory for a pointer
         assert_eq!(unsafe { fmi2GetFMUstate(self.c, &mut state) }, Status::Ok, "{:?}", self.log());
         state
     }
@@ -241,7 +223,7 @@ impl Host {
         // SAFETY: a live component and a live state
         assert_eq!(unsafe { fmi2SerializedFMUstateSize(self.c, state, &mut size) }, Status::Ok);
         let mut bytes = vec![0u8; size];
-        // SAFETY: as above, and room for `size` bytes
+        // SAFETY: as above, and memory for `size` bytes
         let status = unsafe { fmi2SerializeFMUstate(self.c, state, bytes.as_mut_ptr().cast::<c_char>(), size) };
         assert_eq!(status, Status::Ok, "{:?}", self.log());
         bytes
@@ -249,33 +231,33 @@ impl Host {
 
     pub fn deserialize(&self, bytes: &[u8]) -> (Status, FmuState) {
         let mut state = ptr::null_mut();
-        // SAFETY: a live component, the bytes told, and a place for a state
+        // SAFETY: a live component, the bytes, and memory for a pointer
         let status = unsafe { fmi2DeSerializeFMUstate(self.c, bytes.as_ptr().cast(), bytes.len(), &mut state) };
         (status, state)
     }
 
     pub fn log(&self) -> Vec<Line> {
-        self.lines.lock().unwrap().clone()
+        self.recorder.lines().clone()
     }
 
     /// The last message; empty if there is none.
-    pub fn last(&self) -> String {
-        self.lines.lock().unwrap().last().map_or_else(String::new, |line| line.message.clone())
+    pub fn last_message(&self) -> String {
+        self.recorder.lines().last().map_or_else(String::new, |line| line.message.clone())
     }
 
     pub fn clear_log(&self) {
-        self.lines.lock().unwrap().clear();
+        self.recorder.lines().clear();
     }
 }
 
-/// Checks that a text holds all of `words`.
-pub fn assert_tells(text: &str, words: &[&str]) {
+/// Checks that a text contains all of `words`.
+pub fn assert_contains(text: &str, words: &[&str]) {
     for word in words {
         assert!(text.contains(word), "{word:?} is missing in {text:?}");
     }
 }
 
-/// Names of the parameters of a kind.
+/// Whether a variable is a real parameter.
 pub fn is_real_parameter(access: &Access) -> bool {
     matches!(access, Access::Real(_))
 }

@@ -61,15 +61,16 @@ def run(unpacked, description, literals):
 
 
 class Opened:
-    """An instance to be called function by function, with all that it logs."""
+    """An instance to be called function by function, with its warnings and errors."""
 
     def __init__(self, unpacked, description, reference, literals, kind="CoSimulation"):
         self.log = []
         self.description, self.reference, self.literals = description, reference, literals
-        self.fmu = instantiate_fmu(unpacked, description, fmi_type=kind, logger=self.hear)
+        self.fmu = instantiate_fmu(unpacked, description, fmi_type=kind, debug_logging=True, logger=self.record)
 
-    def hear(self, _environment, _instance, _status, _category, message):
-        self.log.append(message.decode())
+    def record(self, _environment, _instance, _status, category, message):
+        if category != b"logEvents":
+            self.log.append(message.decode())
 
     def set(self, name, value):
         kind = next(v.type for v in self.description.modelVariables if v.name == name)

@@ -91,10 +91,12 @@ pub fn for_this_machine() -> Result<Library> {
         "win64" => "Windows on x86-64",
         _ => "macOS",
     };
+    let mut command = Command::new(cargo());
+    command.arg("build");
     Ok(Library {
         platform: HOST.0,
         ending: HOST.1,
-        file: build_library(CRATE)?,
+        file: distributable(command, "this-machine", HOST.1)?,
         needs: needs.into(),
         added: Vec::new(),
     })
@@ -115,7 +117,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         .env("CARGO", cargo())
         .env("PATH", toolchains::path_with(&programs)?)
         .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
-    let file = crossed(command, "linux64", "so")?;
+    let file = distributable(command, "linux64", "so")?;
     let unwinder = AddedPart {
         name: "LLVM libunwind",
         licence: "Apache-2.0 WITH LLVM-exception",
@@ -158,7 +160,7 @@ fn rustup_for_windows() -> Result<Option<Library>> {
 
 /// The library that `command` builds with the MinGW under `root`.
 fn windows_library(command: Command, root: &Path) -> Result<Library> {
-    let file = crossed(command, "win64", "dll")?;
+    let file = distributable(command, "win64", "dll")?;
     let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
     let added = vec![
         AddedPart {
@@ -175,25 +177,27 @@ fn windows_library(command: Command, root: &Path) -> Result<Library> {
     Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
 }
 
-/// Built for other machines than this one: in a folder of its own, as the compiler may be another, and without the names of
-/// inner functions and this machine's folders, which no user needs.
-fn crossed(mut command: Command, platform: &str, ending: &str) -> Result<PathBuf> {
+/// Builds the library for an FMU: without the names of inner functions and without paths of this machine. It has a separate
+/// target folder, because the compiler may differ, and its options always do.
+fn distributable(mut command: Command, name: &str, ending: &str) -> Result<PathBuf> {
     command
         .arg("--target-dir")
-        .arg(paths::target().join("cross").join(platform))
+        .arg(paths::target().join("cross").join(name))
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .env("CARGO_ENCODED_RUSTFLAGS", without_folders().join("\u{1f}"));
-    built_by(command, CRATE, ending).with_context(|| format!("the library for {platform}"))
+    built_by(command, CRATE, ending).with_context(|| format!("the library for {name}"))
 }
 
-/// Options that replace the folders of this machine in messages of panics.
+/// Options that replace the folders of this machine in the locations of panics. Of several that match, the last one counts.
 fn without_folders() -> Vec<String> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
     let folders = [
-        (home.map(|home| home.join("registry").join("src")), "crates"),
-        (Some(paths::toolchains()), "toolchains"),
         (Some(paths::workspace()), "."),
+        (Some(paths::target()), "target"),
+        (Some(paths::toolchains()), "toolchains"),
+        (home.clone(), "cargo"),
+        (home.map(|home| home.join("registry").join("src")), "crates"),
     ];
     let known = folders.into_iter().filter_map(|(folder, name)| Some((folder?, name)));
     known.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()

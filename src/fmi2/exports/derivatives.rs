@@ -3,8 +3,9 @@
 use libc::c_int;
 
 use super::super::calls::Call;
+use super::super::component::run;
+use super::super::host_memory::HostMemory;
 use super::super::instance::Instance;
-use super::super::pointers::{array, room, run};
 use super::super::types::{ComponentPointer, Status, ValueReference};
 
 /// fmi2GetDirectionalDerivative.
@@ -18,13 +19,17 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     known_values: *const f64,
     unknown_values: *mut f64,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let (unknown, known) =
-            unsafe { (array("vUnknown_ref", unknown, unknown_count)?, array("vKnown_ref", known, known_count)?) };
+        let (unknown, known) = unsafe {
+            (host.input("vUnknown_ref", unknown, unknown_count)?, host.input("vKnown_ref", known, known_count)?)
+        };
         // SAFETY: as above
         let (change, values) = unsafe {
-            (array("dvKnown", known_values, known_count)?, room("dvUnknown", unknown_values, unknown_count)?)
+            (
+                host.input("dvKnown", known_values, known_count)?,
+                host.output("dvUnknown", unknown_values, unknown_count)?,
+            )
         };
         instance.get_directional_derivative(unknown, (known, change), values)
     };
@@ -41,11 +46,12 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     orders: *const c_int,
     values: *const f64,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let (references, orders) = unsafe { (array("vr", references, count)?, array("order", orders, count)?) };
+        let (references, orders) =
+            unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
-        let values = unsafe { array("value", values, count) }?;
+        let values = unsafe { host.input("value", values, count) }?;
         instance.set_input_derivatives(references, orders, values)
     };
     // SAFETY: the host's promise, see the module
@@ -61,11 +67,12 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     orders: *const c_int,
     values: *mut f64,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let (references, orders) = unsafe { (array("vr", references, count)?, array("order", orders, count)?) };
+        let (references, orders) =
+            unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
-        let values = unsafe { room("value", values, count) }?;
+        let values = unsafe { host.output("value", values, count) }?;
         instance.get_output_derivatives(references, orders, values)
     };
     // SAFETY: the host's promise, see the module

@@ -1,8 +1,9 @@
 //! Model exchange.
 
 use super::super::calls::Call;
+use super::super::component::run;
+use super::super::host_memory::HostMemory;
 use super::super::instance::Instance;
-use super::super::pointers::{array, place, room, run};
 use super::super::types::{Boolean, ComponentPointer, EventInfo, Status};
 
 macro_rules! getters {
@@ -10,9 +11,9 @@ macro_rules! getters {
         #[doc = concat!(stringify!($function), ".")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
-            let body = |instance: &mut Instance| {
+            let body = |instance: &mut Instance, host: &HostMemory| {
                 // SAFETY: the host's promise, see the module
-                let values = unsafe { room("the array", values, count) }?;
+                let values = unsafe { host.output("the array", values, count) }?;
                 instance.$method(values)
             };
             // SAFETY: the host's promise, see the module
@@ -36,17 +37,17 @@ getters! {
 /// fmi2NewDiscreteStates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2NewDiscreteStates(c: ComponentPointer, info: *mut EventInfo) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let place = unsafe { place("fmi2EventInfo", info) }?;
-        place.write(instance.new_discrete_states()?);
+        let info = unsafe { host.output_value("fmi2EventInfo", info) }?;
+        info.write(instance.new_discrete_states()?);
         Ok(())
     };
     // SAFETY: the host's promise, see the module
     unsafe { run(c, Call::NewDiscreteStates, body) }
 }
 
-/// fmi2CompletedIntegratorStep. Snapshots hold all that is needed, so whether the host may go back makes no difference.
+/// fmi2CompletedIntegratorStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     c: ComponentPointer,
@@ -54,10 +55,13 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     enter_event_mode: *mut Boolean,
     terminate_simulation: *mut Boolean,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
         let (event, end) = unsafe {
-            (place("enterEventMode", enter_event_mode)?, place("terminateSimulation", terminate_simulation)?)
+            (
+                host.output_value("enterEventMode", enter_event_mode)?,
+                host.output_value("terminateSimulation", terminate_simulation)?,
+            )
         };
         event.write(Boolean::from(instance.completed_integrator_step()?));
         end.write(0);
@@ -71,15 +75,15 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(c: ComponentPointer, time: f64) -> Status {
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetTime, |instance| instance.set_time(time)) }
+    unsafe { run(c, Call::SetTime, |instance, _| instance.set_time(time)) }
 }
 
 /// fmi2SetContinuousStates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let states = unsafe { array("x", states, count) }?;
+        let states = unsafe { host.input("x", states, count) }?;
         instance.set_continuous_states(states)
     };
     // SAFETY: the host's promise, see the module

@@ -1,16 +1,17 @@
-//! Versions, instances, logging, and the way from instantiation to termination.
+//! Versions, instances, logging, and the calls from instantiation to termination.
 
 use std::ffi::{CStr, CString};
 use std::ptr;
 
 use libc::c_int;
 
+use super::super::call_error::CallError;
 use super::super::calls::Call;
+use super::super::component::{self, Component, run};
+use super::super::host_memory::HostMemory;
 use super::super::instance::{Experiment, Instance};
 use super::super::log::Log;
-use super::super::pointers::{self, Component, run};
-use super::super::quiet;
-use super::super::refusal::Refusal;
+use super::super::panic_guard;
 use super::super::types::{
     Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Kind, MODEL_EXCHANGE, Status, Text,
 };
@@ -28,7 +29,7 @@ pub extern "C" fn fmi2GetVersion() -> Text {
     c"2.0".as_ptr()
 }
 
-/// fmi2Instantiate. The resource location is not needed, so anything will do.
+/// fmi2Instantiate. The resource location is not used, so any value is accepted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Instantiate(
     name: Text,
@@ -39,27 +40,33 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _visible: Boolean,
     logging: Boolean,
 ) -> ComponentPointer {
-    let instance = quiet::catch(|| {
-        // SAFETY: the host's promise, see the module
-        let (name, guid) = unsafe { (pointers::string(name), pointers::string(guid)) };
-        // SAFETY: as above; `as_ref` answers NULL with None
-        let callbacks = unsafe { callbacks.as_ref() };
-        instantiate(name, kind, guid, callbacks, logging != 0)
+    // without a valid pointer to the logger there is no way to report the error
+    if !callbacks.is_aligned() {
+        return ptr::null_mut();
+    }
+    let instance = panic_guard::catch(|| {
+        HostMemory::during_call(|host| {
+            // SAFETY: the host's promise, see the module
+            let (name, guid) = unsafe { (host.string(name), host.string(guid)) };
+            // SAFETY: as above; aligned, and `as_ref` returns None for NULL
+            let callbacks = unsafe { callbacks.as_ref() }.copied();
+            instantiate(name, kind, guid, callbacks, logging != 0)
+        })
     });
     instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
 }
 
-/// A fresh instance; none, and a line in the log, if the host means another FMU or another kind.
+/// A new instance; none, and an error in the log, if the arguments are for another FMU or of an unknown kind.
 fn instantiate(
     name: Option<&CStr>,
     kind: c_int,
-    asked: Option<&CStr>,
-    callbacks: Option<&CallbackFunctions>,
-    verbose: bool,
+    given: Option<&CStr>,
+    callbacks: Option<CallbackFunctions>,
+    logging_on: bool,
 ) -> Option<Instance> {
     let named = name.filter(|n| !n.is_empty());
     let label = named.map_or_else(|| CString::new(MODEL_NAME).unwrap_or_default(), CStr::to_owned);
-    let log = Log::new(callbacks, label, verbose);
+    let log = Log::new(callbacks, label, logging_on);
     let made_for = match kind {
         CO_SIMULATION => Some(Kind::CoSimulation),
         MODEL_EXCHANGE => Some(Kind::ModelExchange),
@@ -67,9 +74,9 @@ fn instantiate(
     };
     let problem = if named.is_none() {
         "the instance name is NULL or empty".to_owned()
-    } else if asked.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
-        let asked = asked.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
-        format!("the GUID {asked} of the model description is not this binary's GUID \"{}\"", guid())
+    } else if given.is_none_or(|g| g.to_bytes() != guid().as_bytes()) {
+        let given = given.map_or("NULL".into(), |g| format!("\"{}\"", g.to_string_lossy()));
+        format!("the GUID {given} of the model description is not this binary's GUID \"{}\"", guid())
     } else if let Some(kind) = made_for {
         return Some(Instance::new(kind, log));
     } else {
@@ -83,10 +90,10 @@ fn instantiate(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: ComponentPointer) {
     // SAFETY: the host's promise, see the module
-    unsafe { pointers::free(c) }
+    unsafe { component::free(c) }
 }
 
-/// fmi2SetDebugLogging. Without categories all are meant.
+/// fmi2SetDebugLogging. No categories mean all.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetDebugLogging(
     c: ComponentPointer,
@@ -94,13 +101,17 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     count: usize,
     categories: *const Text,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let texts = unsafe { pointers::array("categories", categories, count) }?;
+        let texts = unsafe { host.input("categories", categories, count) }?;
         // SAFETY: as above
-        let names: Vec<_> = texts.iter().map(|&text| unsafe { pointers::string(text) }.unwrap_or(c"NULL")).collect();
+        let names: Vec<_> = texts.iter().map(|text| unsafe { host.string(text) }.unwrap_or(c"NULL")).collect();
         let unknown = instance.log.configure(logging != 0, names.into_iter());
-        if unknown.is_empty() { Ok(()) } else { Err(Refusal::warning(format!("no such category: {unknown:?}"))) }
+        if unknown.is_empty() {
+            Ok(())
+        } else {
+            Err(CallError::warning(format!("unknown log categories: {unknown:?}")))
+        }
     };
     // SAFETY: the host's promise, see the module
     unsafe { run(c, Call::SetDebugLogging, body) }
@@ -122,7 +133,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
         stop: (stop_defined != 0).then_some(stop),
     };
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetupExperiment, |instance| instance.setup_experiment(&experiment)) }
+    unsafe { run(c, Call::SetupExperiment, |instance, _| instance.setup_experiment(&experiment)) }
 }
 
 plain! {

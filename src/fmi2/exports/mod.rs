@@ -1,10 +1,10 @@
-//! The C functions. Each takes its pointers apart, calls the instance, and answers with a status; no more.
+//! The C functions. Each checks its pointers, calls the instance and returns a status.
 //!
 //! # Safety
 //! For all of them: a component comes from `fmi2Instantiate` and was not freed, and every pointer that is not NULL points to
-//! what FMI 2.0 says it does for as long as the call lasts. NULL is always checked for, and refused where FMI needs a value.
+//! what FMI 2.0 says for as long as the call lasts. NULL and misaligned pointers are refused where FMI requires a value.
 
-#![allow(clippy::missing_safety_doc)] // told above, once for all
+#![allow(clippy::missing_safety_doc)] // the section above holds for all
 #![allow(non_snake_case)] // FMI's names
 
 /// Functions that take an instance and nothing else.
@@ -14,7 +14,7 @@ macro_rules! plain {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
             // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, Instance::$method) }
+            unsafe { run(c, Call::$call, |instance, _| instance.$method()) }
         }
     )+};
 }

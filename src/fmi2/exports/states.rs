@@ -1,58 +1,62 @@
-//! FMU states: kept by the host as pointers to owned snapshots, or as bytes.
+//! FMU states: the host keeps them as pointers to snapshots, or as bytes.
 
+use std::cell::Cell;
 use std::ptr;
 
 use libc::c_char;
 
+use super::super::call_error::{CallError, CallResult};
 use super::super::calls::Call;
+use super::super::component::run;
+use super::super::host_memory::HostMemory;
 use super::super::instance::Instance;
-use super::super::pointers::{array, place, room, run};
-use super::super::refusal::{Answer, Refusal};
 use super::super::snapshot::Snapshot;
 use super::super::types::{ComponentPointer, FmuState, Status};
 
-/// The snapshot behind `state`.
-unsafe fn snapshot<'a>(state: FmuState) -> Answer<&'a Snapshot> {
+/// The snapshot behind `state`, for as long as the call lasts.
+unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {
     let state = state.cast::<Snapshot>();
     if state.is_null() || !state.is_aligned() {
-        return Err(Refusal::error("FMUstate is NULL or none of this FMU's states"));
+        return Err(CallError::error("FMUstate is NULL or not a state of this FMU"));
     }
-    // SAFETY: a state that is not NULL comes from `keep`, by the host's promise
+    // SAFETY: a state that is not NULL comes from `store`, by the host's promise
     Ok(unsafe { &*state })
 }
 
-/// Stores `snapshot` in the state behind `state`, which is made if there is none.
-unsafe fn keep(state: *mut FmuState, snapshot: Snapshot) -> Answer {
-    // SAFETY: the host's promise: `state` points to an initialised pointer
-    let held = unsafe { place("FMUstate", state)?.assume_init_mut() };
-    let old = held.cast::<Snapshot>();
+/// Stores `snapshot` in `state`; allocates a state if there is none yet.
+unsafe fn store(state: &Cell<FmuState>, snapshot: Snapshot) -> CallResult {
+    let old = state.get().cast::<Snapshot>();
     if old.is_null() {
-        *held = Box::into_raw(Box::new(snapshot)).cast();
+        state.set(Box::into_raw(Box::new(snapshot)).cast());
     } else if old.is_aligned() {
         // SAFETY: a state that is not NULL comes from the branch above, by the host's promise
         unsafe { *old = snapshot };
     } else {
-        return Err(Refusal::error("*FMUstate is neither NULL nor one of this FMU's states"));
+        return Err(CallError::error("*FMUstate is neither NULL nor a state of this FMU"));
     }
     Ok(())
 }
 
-/// fmi2GetFMUstate. A state that exists already is overwritten.
+/// fmi2GetFMUstate. An existing state is overwritten.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: ComponentPointer, state: *mut FmuState) -> Status {
+    let body = |instance: &mut Instance, host: &HostMemory| {
+        // SAFETY: the host's promise, see the module
+        unsafe { store(host.value("FMUstate", state)?, instance.now.clone()) }
+    };
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetFmuState, |instance| keep(state, instance.now.clone())) }
+    unsafe { run(c, Call::GetFmuState, body) }
 }
 
 /// fmi2SetFMUstate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let snapshot = unsafe { snapshot(state) }?;
+        let snapshot = unsafe { snapshot(host, state) }?;
         if snapshot.kind != instance.now.kind {
-            return Err(Refusal::error(format!(
-                "the state is of an instance made for {:?}, this one was made for {:?}",
+            return Err(CallError::error(format!(
+                "the state belongs to an instance for {:?}, this instance is for {:?}",
                 snapshot.kind, instance.now.kind
             )));
         }
@@ -63,21 +67,20 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -
     unsafe { run(c, Call::SetFmuState, body) }
 }
 
-/// fmi2FreeFMUstate. Nothing to free is fine.
+/// fmi2FreeFMUstate. NULL is accepted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: ComponentPointer, state: *mut FmuState) -> Status {
-    let body = |_: &mut Instance| {
+    let body = |_: &mut Instance, host: &HostMemory| {
         if state.is_null() {
             return Ok(());
         }
         // SAFETY: the host's promise: `state` points to an initialised pointer
-        let held = unsafe { place("FMUstate", state)?.assume_init_mut() };
-        // SAFETY: the host's promise, see the module
-        if !held.is_null() && unsafe { snapshot(*held) }.is_ok() {
-            // SAFETY: it came from `Box::into_raw` in `keep`, and the host's pointer to it is cleared here
-            drop(unsafe { Box::from_raw(held.cast::<Snapshot>()) });
+        let state = unsafe { host.value("FMUstate", state) }?;
+        let old = state.replace(ptr::null_mut()).cast::<Snapshot>();
+        if !old.is_null() && old.is_aligned() {
+            // SAFETY: it came from `Box::into_raw` in `store`, and the host's pointer to it is cleared
+            drop(unsafe { Box::from_raw(old) });
         }
-        *held = ptr::null_mut();
         Ok(())
     };
     // SAFETY: the host's promise, see the module
@@ -87,17 +90,17 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: ComponentPointer, state: *mut FmuSt
 /// fmi2SerializedFMUstateSize.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: ComponentPointer, state: FmuState, size: *mut usize) -> Status {
-    let body = |_: &mut Instance| {
+    let body = |_: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let (snapshot, size) = unsafe { (snapshot(state)?, place("size", size)?) };
-        size.write(snapshot.to_bytes().map_err(Refusal::error)?.len());
+        let (snapshot, size) = unsafe { (snapshot(host, state)?, host.output_value("size", size)?) };
+        size.write(snapshot.to_bytes().map_err(CallError::error)?.len());
         Ok(())
     };
     // SAFETY: the host's promise, see the module
     unsafe { run(c, Call::SerializedFmuStateSize, body) }
 }
 
-/// fmi2SerializeFMUstate. `size` must be what fmi2SerializedFMUstateSize told.
+/// fmi2SerializeFMUstate. `size` must be the size that fmi2SerializedFMUstateSize returned.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializeFMUstate(
     c: ComponentPointer,
@@ -105,15 +108,16 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     bytes: *mut c_char,
     size: usize,
 ) -> Status {
-    let body = |_: &mut Instance| {
+    let body = |_: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let (snapshot, room) = unsafe { (snapshot(state)?, room("serializedState", bytes.cast::<u8>(), size)?) };
-        let bytes = snapshot.to_bytes().map_err(Refusal::error)?;
+        let (snapshot, target) =
+            unsafe { (snapshot(host, state)?, host.output("serializedState", bytes.cast::<u8>(), size)?) };
+        let bytes = snapshot.to_bytes().map_err(CallError::error)?;
         if bytes.len() != size {
-            return Err(Refusal::error(format!("the state takes {} bytes, not {size}", bytes.len())));
+            return Err(CallError::error(format!("the state takes {} bytes, not {size}", bytes.len())));
         }
-        for (byte, place) in bytes.into_iter().zip(room) {
-            place.write(byte);
+        for (byte, target) in bytes.into_iter().zip(target.iter()) {
+            target.write(byte);
         }
         Ok(())
     };
@@ -121,7 +125,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     unsafe { run(c, Call::SerializeFmuState, body) }
 }
 
-/// fmi2DeSerializeFMUstate. Bytes that cannot be used leave everything as it was.
+/// fmi2DeSerializeFMUstate. Invalid bytes change nothing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     c: ComponentPointer,
@@ -129,12 +133,12 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     state: *mut FmuState,
 ) -> Status {
-    let body = |_: &mut Instance| {
+    let body = |_: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
-        let bytes = unsafe { array("serializedState", bytes.cast::<u8>(), size) }?;
-        let snapshot = Snapshot::from_bytes(bytes).map_err(Refusal::error)?;
+        let bytes = unsafe { host.bytes("serializedState", bytes.cast::<u8>(), size) }?;
+        let snapshot = Snapshot::from_bytes(bytes).map_err(CallError::error)?;
         // SAFETY: the host's promise, see the module
-        unsafe { keep(state, snapshot) }
+        unsafe { store(host.value("FMUstate", state)?, snapshot) }
     };
     // SAFETY: the host's promise, see the module
     unsafe { run(c, Call::DeSerializeFmuState, body) }

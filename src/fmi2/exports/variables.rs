@@ -2,12 +2,13 @@
 
 use libc::c_int;
 
+use super::super::call_error::CallResult;
 use super::super::calls::Call;
+use super::super::component::run;
+use super::super::host_memory::HostMemory;
 use super::super::instance::Instance;
-use super::super::pointers::{array, room, run};
-use super::super::refusal::Answer;
 use super::super::types::{Boolean, ComponentPointer, Status, Text, ValueReference};
-use super::super::values::refuse_string;
+use super::super::values::string_error;
 
 macro_rules! getters {
     ($($function:ident $call:ident $method:ident $type:ty;)+) => {$(
@@ -19,9 +20,10 @@ macro_rules! getters {
             count: usize,
             values: *mut $type,
         ) -> Status {
-            let body = |instance: &mut Instance| {
+            let body = |instance: &mut Instance, host: &HostMemory| {
                 // SAFETY: the host's promise, see the module
-                let (references, values) = unsafe { (array("vr", references, count)?, room("value", values, count)?) };
+                let (references, values) =
+                    unsafe { (host.input("vr", references, count)?, host.output("value", values, count)?) };
                 instance.$method(references, values)
             };
             // SAFETY: the host's promise, see the module
@@ -40,9 +42,10 @@ macro_rules! setters {
             count: usize,
             values: *const $type,
         ) -> Status {
-            let body = |instance: &mut Instance| {
+            let body = |instance: &mut Instance, host: &HostMemory| {
                 // SAFETY: the host's promise, see the module
-                let (references, values) = unsafe { (array("vr", references, count)?, array("value", values, count)?) };
+                let (references, values) =
+                    unsafe { (host.input("vr", references, count)?, host.input("value", values, count)?) };
                 instance.$method(references, values)
             };
             // SAFETY: the host's promise, see the module
@@ -63,11 +66,11 @@ setters! {
     fmi2SetBoolean SetBoolean set_boolean Boolean;
 }
 
-/// Strings are legal to ask for, but there are none.
-unsafe fn no_strings(references: *const ValueReference, count: usize) -> Answer {
+/// String variables may be read and set, but there are none.
+unsafe fn no_strings(host: &HostMemory, references: *const ValueReference, count: usize) -> CallResult {
     // SAFETY: the host's promise, see the module
-    let references = unsafe { array("vr", references, count) }?;
-    references.first().map_or(Ok(()), |&reference| Err(refuse_string(reference)))
+    let references = unsafe { host.input("vr", references, count) }?;
+    references.iter().next().map_or(Ok(()), |reference| Err(string_error(reference)))
 }
 
 /// fmi2GetString. There are no String variables.
@@ -79,7 +82,7 @@ pub unsafe extern "C" fn fmi2GetString(
     _values: *mut Text,
 ) -> Status {
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetString, |_| no_strings(references, count)) }
+    unsafe { run(c, Call::GetString, |_, host| no_strings(host, references, count)) }
 }
 
 /// fmi2SetString. There are no String variables.
@@ -91,5 +94,5 @@ pub unsafe extern "C" fn fmi2SetString(
     _values: *const Text,
 ) -> Status {
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetString, |_| no_strings(references, count)) }
+    unsafe { run(c, Call::SetString, |_, host| no_strings(host, references, count)) }
 }

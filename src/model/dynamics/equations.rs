@@ -54,7 +54,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const F
     pub(in crate::model) course: Course,
     driven: bool,
     pub(in crate::model) friction_state: [FrictionState; HOLDS],
-    pub(in crate::model) friction: Friction,
+    friction: Option<Friction>,
     pub(in crate::model) fault: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
@@ -83,10 +83,15 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         }
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
         let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
-        let friction =
-            if FULL { teeth.additions.bodies.friction(state.lock, &inputs, &course) } else { Friction::default() };
+        let friction = FULL.then(|| teeth.additions.bodies.friction(state.lock, &inputs, &course));
         let (friction_state, fault) = (state.friction, state.fault);
         Self { teeth, inputs, course, driven, friction_state, friction, fault, offset, wrapped }
+    }
+
+    /// Dry friction on all bodies.
+    #[inline(always)]
+    pub(in crate::model) fn friction(&self) -> &Friction {
+        self.friction.as_ref().unwrap_or(&Friction::NONE)
     }
 
     /// Whether inputs change while they act.

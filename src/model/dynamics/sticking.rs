@@ -17,7 +17,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Those on which friction acts.
     fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
-        Self::bodies_that_stick().filter(|&i| self.friction.on(i).is_on())
+        Self::bodies_that_stick().filter(|&i| self.friction().on(i).is_on())
     }
 
     /// Degree of freedom on which the friction of body `i` acts.
@@ -51,7 +51,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     /// Friction on body `i`, and how many bodies it stands for.
     fn friction_on(&self, i: usize) -> (&DryFriction, f64) {
         let count = if (HELD_PLANETS..WHEELS).contains(&i) { self.members(i - HELD_PLANETS) } else { 1.0 };
-        (self.friction.on(i), count)
+        (self.friction().on(i), count)
     }
 
     /// Loads on all rubbing surfaces under the present inputs, given those of side gears and planets.
@@ -59,13 +59,13 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let mut all = [Pressure::default(); HOLDS];
         all[..sides.len()].copy_from_slice(sides);
         all[HELD_PLANETS..HELD_PLANETS + planets.len()].copy_from_slice(planets);
-        all[WHEELS..].copy_from_slice(&self.friction.wheel_pressures(&self.inputs));
+        all[WHEELS..].copy_from_slice(&self.friction().wheel_pressures(&self.inputs));
         all
     }
 
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
     fn pressures(&self, at: &Point<N>, time: f64) -> [Pressure; HOLDS] {
-        let mut all = if self.friction.depends_on_load() {
+        let mut all = if self.friction().depends_on_load() {
             let (sides, planets) = self.mesh_pressures(&self.all_loads::<f64>(at));
             self.pressures_of(&sides, &planets)
         } else {
@@ -73,7 +73,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         };
         if self.is_driven_by_inputs() {
             let (inputs, _) = self.course.after(time, &self.inputs);
-            all[WHEELS..].copy_from_slice(&self.friction.wheel_pressures(&inputs));
+            all[WHEELS..].copy_from_slice(&self.friction().wheel_pressures(&inputs));
         }
         all
     }
@@ -100,18 +100,18 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Adds the torques of brakes that slide, which follow from the inputs alone.
     pub(in crate::model) fn add_brakes(&self, sum: &mut [f64; N]) {
-        let pressures = self.friction.wheel_pressures(&self.inputs);
-        for s in (0..2).filter(|&s| self.friction.wheel[s].is_on()) {
+        let pressures = self.friction().wheel_pressures(&self.inputs);
+        for s in (0..2).filter(|&s| self.friction().wheel[s].is_on()) {
             let direction = self.friction_state[WHEELS + s].mode.direction();
-            sum[self.wheel(s)] -= direction * self.friction.wheel[s].limit(&pressures[s]);
+            sum[self.wheel(s)] -= direction * self.friction().wheel[s].limit(&pressures[s]);
         }
     }
 
     /// Torques of the friction on the wheels [N·m].
     pub(in crate::model) fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let pressures = self.friction.wheel_pressures(&self.inputs);
+        let pressures = self.friction().wheel_pressures(&self.inputs);
         [0, 1].map(|s| {
-            let (friction, i) = (&self.friction.wheel[s], WHEELS + s);
+            let (friction, i) = (&self.friction().wheel[s], WHEELS + s);
             if friction.is_on() {
                 friction.torque(&self.friction_state[i], &self.slip(at, i), &pressures[s])
             } else {
@@ -123,7 +123,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     /// Derivatives of dry friction by the motion of the bodies it holds.
     pub(in crate::model) fn friction_slopes(&self, j: &mut Jacobian<N>) {
         for i in self.bodies_with_friction() {
-            let [k, c] = self.friction.on(i).torque_slopes(&self.friction_state[i]);
+            let [k, c] = self.friction().on(i).torque_slopes(&self.friction_state[i]);
             let body = self.freedom_of(i);
             if i >= WHEELS {
                 // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
@@ -153,10 +153,10 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         j: &mut Jacobian<N>,
     ) {
         let side = self.teeth.lever[1];
-        let [of_side, of_planet] = [self.friction.side.limit_slopes(), self.friction.planet.limit_slopes()];
+        let [of_side, of_planet] = [self.friction().side.limit_slopes(), self.friction().planet.limit_slopes()];
         for s in 0..2 {
             let direction = self.friction_state[s].mode.direction();
-            if direction == 0.0 || !self.friction.side.is_on() {
+            if direction == 0.0 || !self.friction().side.is_on() {
                 continue;
             }
             let torque = in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value());
@@ -172,7 +172,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         }
         for g in 0..G {
             let direction = self.friction_state[2 + g].mode.direction();
-            if direction == 0.0 || !self.friction.planet.is_on() {
+            if direction == 0.0 || !self.friction().planet.is_on() {
                 continue;
             }
             let [l, r] = &loads[g];
@@ -220,7 +220,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
     pub(in crate::model) fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if !self.friction.is_any() {
+        if !self.friction().is_any() {
             return None;
         }
         let pressures = [start, end].map(|(at, time)| self.pressures(at, time));
@@ -228,7 +228,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             .filter_map(|i| {
                 let slips = [self.slip(start.0, i), self.slip(end.0, i)];
                 let ends = [(&slips[0], &pressures[0][i]), (&slips[1], &pressures[1][i])];
-                self.friction.on(i).crossing(&self.friction_state[i], ends[0], ends[1])
+                self.friction().on(i).crossing(&self.friction_state[i], ends[0], ends[1])
             })
             .reduce(f64::min)
     }
@@ -236,10 +236,10 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     /// Distance of each friction from its switch, where it acts.
     pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
         let mut margins = [None; HOLDS];
-        if FULL && self.friction.is_any() {
+        if FULL && self.friction().is_any() {
             let pressures = self.pressures(at, 0.0);
             for i in self.bodies_with_friction() {
-                let margin = self.friction.on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+                let margin = self.friction().on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
                 margins[i] = Some(margin);
             }
         }
@@ -248,12 +248,12 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
     pub(in crate::model) fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
-        if !self.friction.is_any() {
+        if !self.friction().is_any() {
             return false;
         }
         let pressures = self.pressures(at, time);
         self.bodies_with_friction()
-            .any(|i| self.friction.on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]))
+            .any(|i| self.friction().on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]))
     }
 
     /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
@@ -264,7 +264,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         }
         let pressures = self.pressures(at, time);
         for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction.on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
+            anchors[i] = self.friction().on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
         }
     }
 

@@ -75,7 +75,7 @@ pub struct Slip {
 }
 
 /// Friction on one kind of body from all its sources.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct DryFriction {
     parts: [Part; SOURCES],
     count: usize,
@@ -87,7 +87,7 @@ pub struct DryFriction {
 }
 
 /// Limit torque of one source, and where its heat is booked.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Part {
     /// Constant part [N·m].
     pub constant: f64,
@@ -102,9 +102,13 @@ pub struct Part {
 }
 
 impl DryFriction {
+    /// No source.
+    pub const NONE: Self =
+        Self { parts: [Part::NONE; SOURCES], count: 0, stiffness: 0.0, damping_time: 0.0, released: 0 };
+
     /// No source yet; what the spring loses when the last goes off is booked at `released`.
     pub fn new(damping_time: f64, released: usize) -> Self {
-        Self { damping_time, released, ..Self::default() }
+        Self { damping_time, released, ..Self::NONE }
     }
 
     /// Adds a source.
@@ -288,6 +292,9 @@ impl DryFriction {
 }
 
 impl Part {
+    /// No friction.
+    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, static_ratio: 1.0, heat: 0 };
+
     fn at(&self, by: &Pressure) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
@@ -302,7 +309,7 @@ mod tests {
     /// A clutch whose limit torque is its load.
     fn clutch() -> DryFriction {
         let mut clutch = DryFriction::new(DAMPING_TIME, 0);
-        clutch.push(Part { per_load: 1.0, static_ratio: 1.0, ..Part::default() }, STIFFNESS);
+        clutch.push(Part { per_load: 1.0, static_ratio: 1.0, ..Part::NONE }, STIFFNESS);
         clutch
     }
 

@@ -6,7 +6,7 @@ use crate::model::scene::layout::{HELD_PLANETS, WHEELS};
 use crate::model::scene::{Course, Inputs};
 
 /// Friction on each kind of body.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub struct Friction {
     /// On each side gear.
     pub side: DryFriction,
@@ -18,9 +18,13 @@ pub struct Friction {
 }
 
 impl Friction {
+    /// No friction.
+    pub const NONE: Self =
+        Self { side: DryFriction::NONE, planet: DryFriction::NONE, wheel: [DryFriction::NONE; 2], wheel_limit: None };
+
     /// Friction of `sources` with the lock at `lock`, under `inputs` on their `course`. Brakes that are off are none.
     pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, course: &Course) -> Self {
-        let mut all = Self::default();
+        let mut all = Self::NONE;
         let released = |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat);
         all.side = DryFriction::new(DAMPING_TIME, released(|s| s.by_lock));
         all.planet = DryFriction::new(DAMPING_TIME, 0);
@@ -54,7 +58,7 @@ impl Friction {
             self.wheel[s] = DryFriction::new(wheel.damping_time[s], source.heat);
             if limits.iter().any(|limit| limit[s] != 0.0) {
                 let (static_ratio, heat) = (source.static_ratio, source.heat);
-                self.wheel[s].push(Part { per_load: 1.0, static_ratio, heat, ..Part::default() }, wheel.stiffness);
+                self.wheel[s].push(Part { per_load: 1.0, static_ratio, heat, ..Part::NONE }, wheel.stiffness);
             }
         }
         self.wheel_limit = Some(wheel.limit);

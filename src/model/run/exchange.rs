@@ -196,11 +196,11 @@ impl Simulation {
                 let step = Step { h, time: state.time, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;
                 let outcome = equations.record(model, &step, &mut Records { work, heat, bias, fatigue });
-                let mut anchors = equations.friction().map(|state| state.anchor);
+                let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, 0.0, &mut anchors);
                 equations.anchor(&anchors);
                 is_due = equations.is_due(&end, 0.0);
-                state.friction = *equations.friction();
+                state.friction = *equations.friction_state();
                 outcome
             });
             outcome.map_err(|jump| StepFailure { time: state.time, message: jump.to_string() })?;
@@ -235,7 +235,7 @@ impl Simulation {
             let mut equations = equations;
             if equations.is_due(&state.point(), 0.0) {
                 equations.settle(&state.point(), 0.0, &mut state.heat);
-                state.friction = *equations.friction();
+                state.friction = *equations.friction_state();
             }
         });
         break_tooth(model, inputs, state);

@@ -102,6 +102,9 @@ pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_D
 /// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
 pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
+    if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {
+        return;
+    }
     let (q, before) = (state.q, state.v);
     let rigid = matches!(&model.gears, Gears::Rigid(_));
     let mut work = 0.0;

@@ -51,7 +51,7 @@ pub struct Records<'a> {
 /// Equations whose accepted steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     /// State of the dry friction.
-    fn friction(&self) -> &[FrictionState; HOLDS];
+    fn friction_state(&self) -> &[FrictionState; HOLDS];
     /// Whether friction is due to switch, `time` [s] after the inputs were set.
     fn is_due(&self, at: &Point<N>, time: f64) -> bool;
     /// Drags the anchors of bodies that slide.
@@ -65,7 +65,7 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
 }
 
 impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<N> for Equations<'_, N, G, P, FULL> {
-    fn friction(&self) -> &[FrictionState; HOLDS] {
+    fn friction_state(&self) -> &[FrictionState; HOLDS] {
         &self.friction_state
     }
 
@@ -116,7 +116,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<
 }
 
 impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
-    fn friction(&self) -> &[FrictionState; HOLDS] {
+    fn friction_state(&self) -> &[FrictionState; HOLDS] {
         &self.friction_state
     }
 

@@ -53,7 +53,7 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
     let mut good = (point, time);
     let mut outcome = Ok(());
     let mut switched = true;
-    let mut anchors = equations.friction().map(|state| state.anchor);
+    let mut anchors = equations.friction_state().map(|state| state.anchor);
     while switched && time < end && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, fatigue, .. } = state;
@@ -77,10 +77,10 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
         equations.anchor(&anchors);
         if switched {
             equations.settle(&point, time, &mut state.heat);
-            anchors = equations.friction().map(|state| state.anchor);
+            anchors = equations.friction_state().map(|state| state.anchor);
         }
     }
-    state.friction = *equations.friction();
+    state.friction = *equations.friction_state();
     state.set_point(&good.0);
     state.time += good.1;
     outcome.map_err(|failure| explain(failure, state.time, model))

@@ -311,8 +311,8 @@ fn fill(c: ComponentPointer, r: &mut Random, f: &mut Flaws, right: usize, functi
 
 /// fmi2Instantiate with anything; what is made is freed.
 fn instantiate(r: &mut Random) -> CallResult {
-    let lines = super::unit::Lines::default();
-    let callbacks = super::unit::callbacks(&lines);
+    let recorder = super::unit::Recorder::default();
+    let callbacks = recorder.callbacks();
     let right = CString::new(guid()).unwrap_or_default();
     let (kind, name, id) = (r.below(4) as i32 - 1, r.below(4), r.below(4));
     let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
@@ -326,7 +326,7 @@ fn instantiate(r: &mut Random) -> CallResult {
     if c.is_null() == expected {
         outcome.broken = Some(format!("kind {kind}, name {name}, GUID {id}: made {}", !c.is_null()));
     }
-    let silent = lines.lock().is_ok_and(|lines| lines.is_empty());
+    let silent = recorder.lines().is_empty();
     if c.is_null() && silent && !told.is_null() {
         outcome.broken = Some("refused without a line in the log".into());
     }

@@ -1,46 +1,15 @@
 //! An instance as the driver holds it, and what it logs.
 
-use std::ffi::{CStr, CString, c_void};
+use std::ffi::CString;
 use std::ptr;
-use std::sync::Mutex;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::guid;
 
-/// A line of the log.
-#[derive(Clone, Debug)]
-pub struct Line {
-    /// Status it was sent with.
-    pub status: Status,
-    /// Text.
-    pub message: String,
-}
+#[path = "../../../../tests/common/recorder.rs"]
+mod recorder;
 
-/// Lines since the last call.
-pub type Lines = Mutex<Vec<Line>>;
-
-/// Variadic in C, but no argument ever follows the message.
-unsafe extern "C" fn logger(env: *mut c_void, _instance: Text, status: Status, _category: Text, message: Text) {
-    // SAFETY: `env` is the lines that `Unit` keeps alive; the text comes from the FMU and ends with NUL
-    let (lines, message) = unsafe { (&*env.cast::<Lines>(), CStr::from_ptr(message)) };
-    if let Ok(mut lines) = lines.lock() {
-        lines.push(Line { status, message: message.to_string_lossy().into_owned() });
-    }
-}
-
-/// Callbacks that log into `lines`.
-pub fn callbacks(lines: &Lines) -> CallbackFunctions {
-    // SAFETY: on the platforms this runs on, fixed arguments reach a plain function as they reach a variadic one
-    let logger =
-        unsafe { std::mem::transmute::<unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text), Logger>(logger) };
-    CallbackFunctions {
-        logger: Some(logger),
-        allocate_memory: None,
-        free_memory: None,
-        step_finished: None,
-        component_environment: ptr::from_ref(lines).cast_mut().cast(),
-    }
-}
+pub use recorder::{Line, Recorder};
 
 /// An instance of the driver's.
 pub struct Unit {
@@ -49,7 +18,7 @@ pub struct Unit {
     /// What it was made for.
     pub kind: i32,
     /// What it said since the last call.
-    pub lines: Box<Lines>,
+    pub recorder: Box<Recorder>,
     /// Whether its log is filtered by category.
     pub is_filtered: bool,
     /// A state to keep the present in, for comparison; NULL until it is needed.
@@ -61,17 +30,17 @@ pub struct Unit {
 impl Unit {
     /// A fresh instance; none if it is refused.
     pub fn new(kind: i32) -> Option<Self> {
-        let lines = Box::new(Mutex::new(Vec::new()));
+        let recorder = Box::<Recorder>::default();
         let guid = CString::new(guid()).ok()?;
-        let callbacks = callbacks(&lines);
+        let callbacks = recorder.callbacks();
         // SAFETY: all pointers are valid through the call, and the lines as long as the instance
         let c = unsafe { fmi2Instantiate(c"unit".as_ptr(), kind, guid.as_ptr(), ptr::null(), &callbacks, 0, 0) };
-        (!c.is_null()).then(|| Self { c, kind, lines, is_filtered: false, kept: ptr::null_mut(), refused: 0 })
+        (!c.is_null()).then(|| Self { c, kind, recorder, is_filtered: false, kept: ptr::null_mut(), refused: 0 })
     }
 
     /// What was said since this was last asked.
     pub fn said(&self) -> Vec<Line> {
-        self.lines.lock().map_or_else(|_| Vec::new(), |mut lines| std::mem::take(&mut *lines))
+        std::mem::take(&mut *self.recorder.lines())
     }
 
     /// All that the instance is, as bytes; none where the standard forbids to ask (after an error).

@@ -1,9 +1,8 @@
 //! The study's straight case through the C functions; expected values are the study's loads and speed, and statics.
 
-mod common;
-
 use bevel_differential::fmi2::Status;
-use common::Host;
+
+use crate::common::Host;
 
 const LOAD: f64 = 835.0; // N·m on each half-shaft
 const SPEED: f64 = 2861.0 * std::f64::consts::PI / 180.0; // rad/s of the carrier
@@ -68,7 +67,7 @@ fn outputs_in_initialisation_mode_follow_what_is_set() {
 }
 
 #[test]
-fn describing_and_warning_go_to_the_log_while_the_status_stays_ok() {
+fn descriptions_and_warnings_are_logged_by_calls_that_return_ok() {
     let host = Host::new();
     host.start();
     let log = host.log();

@@ -1,48 +1,47 @@
-//! FMU states: a restored simulation goes on bit by bit, and bytes that are not right are refused.
-
-mod common;
+//! FMU states: a restored simulation continues bit by bit, and invalid bytes are refused.
 
 use std::ptr;
 
 use bevel_differential::fmi2::*;
-use common::{Host, assert_tells};
+
+use crate::common::{Host, assert_contains};
 
 #[test]
-fn a_restored_state_goes_on_bit_by_bit() {
+fn a_restored_state_continues_bit_by_bit() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
-        host.journey(0, 5);
+        host.record_steps(0, 5);
         let state = host.get_state();
-        let expected = host.journey(5, 10);
+        let expected = host.record_steps(5, 10);
         assert_eq!(host.set_state(state), Status::Ok);
-        assert!(host.journey(5, 10) == expected, "level {level}");
-        // a state may be restored often, and overwritten
+        assert!(host.record_steps(5, 10) == expected, "level {level}");
+        // a state can be restored repeatedly, and overwritten
         assert_eq!(host.set_state(state), Status::Ok);
-        assert!(host.journey(5, 3) == expected[..3]);
+        assert!(host.record_steps(5, 3) == expected[..3]);
         let mut reused = state;
         // SAFETY: a live component and a live state
         assert_eq!(unsafe { fmi2GetFMUstate(host.c, &mut reused) }, Status::Ok);
         assert_eq!(reused, state);
-        let later = host.journey(8, 7);
+        let later = host.record_steps(8, 7);
         assert!(later == expected[3..]);
         assert_eq!(host.set_state(state), Status::Ok);
-        assert!(host.journey(8, 7) == later);
+        assert!(host.record_steps(8, 7) == later);
         host.free_state(state);
     }
 }
 
 #[test]
-fn a_serialised_state_goes_on_bit_by_bit_in_another_instance() {
+fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
-        host.journey(0, 5);
+        host.record_steps(0, 5);
         assert_eq!(host.set("contact.damping", 7e4), Status::Ok, "tunable, so part of the state");
         let state = host.get_state();
         let bytes = host.serialize(state);
         let expected_now = host.outputs();
-        let expected = host.journey(5, 10);
+        let expected = host.record_steps(5, 10);
         host.free_state(state);
 
         let other = Host::new();
@@ -53,16 +52,16 @@ fn a_serialised_state_goes_on_bit_by_bit_in_another_instance() {
         other.free_state(copy);
         assert_eq!(other.get_integer("scene.gear_contact"), level);
         assert!(other.outputs() == expected_now);
-        assert!(other.journey(5, 10) == expected, "level {level}");
+        assert!(other.record_steps(5, 10) == expected, "level {level}");
     }
 }
 
 #[test]
-fn states_of_every_phase_can_be_kept_and_restored() {
+fn states_of_every_phase_can_be_stored_and_restored() {
     let host = Host::on_level(3);
     let before = host.get_state();
     host.start();
-    let expected = host.journey(0, 3);
+    let expected = host.record_steps(0, 3);
     assert_eq!(host.terminate(), Status::Ok);
     let after = host.get_state();
     for state in [before, after] {
@@ -73,7 +72,7 @@ fn states_of_every_phase_can_be_kept_and_restored() {
     assert_eq!(host.set_state(before), Status::Ok);
     assert_eq!(host.get("inertia.left_end"), 0.5);
     host.start();
-    assert!(host.journey(0, 3) == expected);
+    assert!(host.record_steps(0, 3) == expected);
     assert_eq!(host.set_state(after), Status::Ok);
     assert_eq!(host.step(3e-3, 1e-3), Status::Error, "terminated again");
     host.free_state(before);
@@ -81,33 +80,33 @@ fn states_of_every_phase_can_be_kept_and_restored() {
 }
 
 #[test]
-fn a_good_state_rescues_an_instance_whose_step_failed() {
+fn a_stored_state_recovers_an_instance_whose_step_failed() {
     let host = Host::on_level(3);
     host.start();
-    host.journey(0, 2);
+    host.record_steps(0, 2);
     let state = host.get_state();
-    let expected = host.journey(2, 2);
+    let expected = host.record_steps(2, 2);
     assert_eq!(host.set_state(state), Status::Ok);
     assert_eq!(host.set("left.load_torque", 1e7), Status::Ok);
     assert_eq!(host.step(2e-3, 1e-2), Status::Discard);
     assert_eq!(host.set_state(state), Status::Ok);
-    assert!(host.journey(2, 2) == expected);
+    assert!(host.record_steps(2, 2) == expected);
     host.free_state(state);
 }
 
 #[test]
-fn damaged_truncated_and_foreign_bytes_are_refused_and_nothing_is_lost() {
+fn damaged_truncated_and_foreign_bytes_are_refused_and_change_nothing() {
     let host = Host::on_level(3);
     host.start();
-    host.journey(0, 2);
+    host.record_steps(0, 2);
     let state = host.get_state();
     let bytes = host.serialize(state);
     let refuse = |bytes: &[u8], words: &[&str]| {
         let (status, made) = host.deserialize(bytes);
         assert_eq!(status, Status::Error);
         assert!(made.is_null());
-        assert_tells(&host.last(), &["fmi2DeSerializeFMUstate"]);
-        assert_tells(&host.last(), words);
+        assert_contains(&host.last_message(), &["fmi2DeSerializeFMUstate"]);
+        assert_contains(&host.last_message(), words);
     };
     for length in 0..bytes.len() {
         refuse(&bytes[..length], &["truncated"]);
@@ -124,22 +123,22 @@ fn damaged_truncated_and_foreign_bytes_are_refused_and_nothing_is_lost() {
         changed[at] ^= by;
         changed
     };
-    refuse(&changed(0, 1), &["no serialised state"]);
+    refuse(&changed(0, 1), &["not a serialised state"]);
     refuse(&changed(8, 1), &["format 4"]);
     refuse(&changed(12, 1), &["another version"]);
     refuse(&changed(bytes.len() / 2, 1), &["checksum"]);
-    refuse(&[bytes.as_slice(), &[0]].concat(), &["do not belong"]);
-    refuse(&vec![0; bytes.len()], &["no serialised state"]);
+    refuse(&[bytes.as_slice(), &[0]].concat(), &["surplus bytes"]);
+    refuse(&vec![0; bytes.len()], &["not a serialised state"]);
 
-    // an existing state is not touched by a refused blob
+    // refused bytes do not change an existing state
     let mut kept = state;
-    // SAFETY: a live component, bytes as told, a live state
+    // SAFETY: a live component, the bytes, a live state
     let status = unsafe { fmi2DeSerializeFMUstate(host.c, bytes.as_ptr().cast(), bytes.len() - 1, &mut kept) };
     assert_eq!((status, kept), (Status::Error, state));
     assert_eq!(host.serialize(state), bytes);
-    let expected = host.journey(2, 2);
+    let expected = host.record_steps(2, 2);
     assert_eq!(host.set_state(state), Status::Ok);
-    assert!(host.journey(2, 2) == expected);
+    assert!(host.record_steps(2, 2) == expected);
     host.free_state(state);
 }
 
@@ -151,11 +150,11 @@ fn a_wrong_size_and_null_pointers_are_refused() {
     let mut bytes = host.serialize(state);
     let (short, long) = (bytes.len() - 1, bytes.len() + 1);
     bytes.extend([0; 8]);
-    // SAFETY: a live component; room for the sizes told; NULL is what is tested
+    // SAFETY: a live component; memory of these sizes; NULL is what is tested
     unsafe {
         assert_eq!(fmi2SerializeFMUstate(host.c, state, bytes.as_mut_ptr().cast(), short), Status::Error);
         assert_eq!(fmi2SerializeFMUstate(host.c, state, bytes.as_mut_ptr().cast(), long), Status::Error);
-        assert_tells(&host.last(), &[&long.to_string(), &(long - 1).to_string()]);
+        assert_contains(&host.last_message(), &[&long.to_string(), &(long - 1).to_string()]);
         assert_eq!(fmi2SerializeFMUstate(host.c, state, ptr::null_mut(), long - 1), Status::Error);
         assert_eq!(fmi2SerializedFMUstateSize(host.c, ptr::null_mut(), &mut 0), Status::Error);
         assert_eq!(fmi2SerializedFMUstateSize(host.c, state, ptr::null_mut()), Status::Error);

@@ -1,12 +1,11 @@
-//! Which call is legal in which state: the tables of FMI 2.0.4, typed a second time.
-
-mod common;
+//! Which call is legal in which state: the tables of FMI 2.0.4, typed independently of the source.
 
 use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
-use common::{Host, assert_tells, reference};
+
+use crate::common::{Host, assert_contains, reference};
 
 const PHASES: [&str; 6] =
     ["instantiated", "initialization mode", "step complete", "step failed", "terminated", "error"];
@@ -14,14 +13,14 @@ const PHASES: [&str; 6] =
 const EXCHANGE_PHASES: [&str; 6] =
     ["instantiated", "initialization mode", "event mode", "continuous-time mode", "terminated", "error"];
 
-/// Into the state `error`.
+/// Brings `host` into the state `error`.
 fn fail_to_start(host: &Host) {
     assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
     assert_eq!(host.exit(), Status::Error);
 }
 
-/// An instance for model exchange in the phase of that number.
+/// An instance for model exchange in `EXCHANGE_PHASES[phase]`.
 fn exchange_host_in(phase: usize) -> Host {
     let host = Host::for_exchange();
     match phase {
@@ -39,7 +38,7 @@ fn exchange_host_in(phase: usize) -> Host {
     host
 }
 
-/// An instance in the phase of that number.
+/// An instance for co-simulation in `PHASES[phase]`.
 fn host_in(phase: usize) -> Host {
     let host = Host::new();
     match phase {
@@ -49,7 +48,7 @@ fn host_in(phase: usize) -> Host {
         3 => {
             host.start();
             assert_eq!(host.set("left.load_torque", 1e7), Status::Ok);
-            assert_eq!(host.step(0.0, 1e-2), Status::Discard, "ten tons per tooth must break the step");
+            assert_eq!(host.step(0.0, 1e-2), Status::Discard, "a load of 1e7 N·m must break the step");
         }
         4 => {
             host.start();
@@ -63,10 +62,10 @@ fn host_in(phase: usize) -> Host {
 
 type Call = (&'static str, &'static str, fn(ComponentPointer) -> Status);
 
-/// Name, legal phases as a string of x and -, and the call with arguments that are right.
+/// Name, legal phases marked by x, and the call with valid arguments.
 #[rustfmt::skip] // a table
 fn calls() -> Vec<Call> {
-    // SAFETY, for all: a live component and arguments that are valid through the call
+    // SAFETY, for all: a live component and arguments that are valid during the call
     vec![
         ("fmi2SetDebugLogging",          "xxxxxx", |c| unsafe { fmi2SetDebugLogging(c, 1, 0, ptr::null()) }),
         ("fmi2SetupExperiment",          "x-----", |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) }),
@@ -103,11 +102,11 @@ fn calls() -> Vec<Call> {
     ]
 }
 
-/// The same for model exchange. In the state `error` there are no values where initialisation failed: marked by e.
+/// The same for model exchange. Marks: e, no values after a failed initialisation; o, not for this kind of instance.
 #[rustfmt::skip] // a table
 fn exchange_calls() -> Vec<Call> {
     const N: usize = EVENT_INDICATORS;
-    // SAFETY, for all: a live component and arguments that are valid through the call
+    // SAFETY, for all: a live component and arguments that are valid during the call
     vec![
         ("fmi2SetupExperiment",          "x-----", |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0) }),
         ("fmi2EnterInitializationMode",  "x-----", |c| unsafe { fmi2EnterInitializationMode(c) }),
@@ -128,7 +127,7 @@ fn exchange_calls() -> Vec<Call> {
         ("fmi2GetDirectionalDerivative", "-xxxxx", |c| unsafe {
             fmi2GetDirectionalDerivative(c, ptr::null(), 0, ptr::null(), 0, ptr::null(), ptr::null_mut())
         }),
-        ("fmi2EnterEventMode",           "---x--", |c| unsafe { fmi2EnterEventMode(c) }),
+        ("fmi2EnterEventMode",           "--xx--", |c| unsafe { fmi2EnterEventMode(c) }),
         ("fmi2NewDiscreteStates",        "--x---", |c| unsafe { fmi2NewDiscreteStates(c, &mut EventInfo::default()) }),
         ("fmi2EnterContinuousTimeMode",  "--x---", |c| unsafe { fmi2EnterContinuousTimeMode(c) }),
         ("fmi2CompletedIntegratorStep",  "---x--", |c| unsafe { fmi2CompletedIntegratorStep(c, 1, &mut 0, &mut 0) }),
@@ -152,14 +151,14 @@ fn in_model_exchange_every_call_is_legal_exactly_where_the_standard_says() {
             let status = call(host.c);
             match legal {
                 'x' => assert_eq!(status, Status::Ok, "{name} in {}: {:?}", EXCHANGE_PHASES[phase], host.log()),
-                // legal there, but not what can be asked of this kind or in this case
+                // legal in the state, but not for this kind of instance or after this error
                 'e' | 'o' => {
                     assert_eq!(status, Status::Error, "{name} in {}", EXCHANGE_PHASES[phase]);
-                    assert_tells(&host.last(), &[name]);
+                    assert_contains(&host.last_message(), &[name]);
                 }
                 _ => {
                     assert_eq!(status, Status::Error, "{name} in {}", EXCHANGE_PHASES[phase]);
-                    assert_tells(&host.last(), &[name, EXCHANGE_PHASES[phase]]);
+                    assert_contains(&host.last_message(), &[name, EXCHANGE_PHASES[phase]]);
                 }
             }
         }
@@ -167,7 +166,7 @@ fn in_model_exchange_every_call_is_legal_exactly_where_the_standard_says() {
 }
 
 #[test]
-fn calls_of_the_other_kind_are_refused_wherever_they_would_be_legal() {
+fn calls_of_the_other_kind_are_refused_in_states_where_they_are_legal() {
     for (name, legal, call) in exchange_calls().into_iter().filter(|(name, ..)| {
         ["fmi2GetDerivatives", "fmi2GetEventIndicators", "fmi2GetContinuousStates", "fmi2GetNominals"]
             .iter()
@@ -175,17 +174,17 @@ fn calls_of_the_other_kind_are_refused_wherever_they_would_be_legal() {
     }) {
         let host = host_in(1);
         assert_eq!((call(host.c), &legal[1..2]), (Status::Error, "x"), "{name}");
-        assert_tells(&host.last(), &[name, "co-simulation"]);
+        assert_contains(&host.last_message(), &[name, "co-simulation"]);
     }
     let (steps, exchange) = (host_in(2), exchange_host_in(2));
     let state = exchange.get_state();
     assert_eq!(steps.set_state(state), Status::Error);
-    assert_tells(&steps.last(), &["fmi2SetFMUstate", "ModelExchange", "CoSimulation"]);
+    assert_contains(&steps.last_message(), &["fmi2SetFMUstate", "ModelExchange", "CoSimulation"]);
     exchange.free_state(state);
 }
 
 #[test]
-fn every_call_is_legal_exactly_where_the_standard_says_and_refusals_name_call_and_state() {
+fn every_call_is_legal_exactly_where_the_standard_says_and_errors_name_call_and_state() {
     for (name, legal, call) in calls() {
         for (phase, legal) in legal.chars().enumerate() {
             let host = host_in(phase);
@@ -194,7 +193,7 @@ fn every_call_is_legal_exactly_where_the_standard_says_and_refusals_name_call_an
                 assert_eq!(status, Status::Ok, "{name} in {}: {:?}", PHASES[phase], host.log());
             } else {
                 assert_eq!(status, Status::Error, "{name} in {}", PHASES[phase]);
-                assert_tells(&host.last(), &[name, PHASES[phase]]);
+                assert_contains(&host.last_message(), &[name, PHASES[phase]]);
             }
         }
     }
@@ -204,10 +203,10 @@ fn every_call_is_legal_exactly_where_the_standard_says_and_refusals_name_call_an
 fn a_refused_call_leaves_the_simulation_as_it_was() {
     let reference_host = Host::on_level(3);
     reference_host.start();
-    let expected = reference_host.journey(0, 5);
+    let expected = reference_host.record_steps(0, 5);
     let host = Host::on_level(3);
     host.start();
-    let mut seen = host.journey(0, 2);
+    let mut seen = host.record_steps(0, 2);
     let stop_free: [fn(ComponentPointer) -> Status; 4] = [
         // SAFETY: a live component
         |c| unsafe { fmi2EnterInitializationMode(c) },
@@ -219,12 +218,12 @@ fn a_refused_call_leaves_the_simulation_as_it_was() {
         |c| unsafe { fmi2SetupExperiment(c, 0, 0.0, 5.0, 0, 0.0) },
     ];
     assert!(stop_free.iter().all(|call| call(host.c) == Status::Error));
-    seen.extend(host.journey(2, 3));
+    seen.extend(host.record_steps(2, 3));
     assert!(seen == expected);
 }
 
 #[test]
-fn a_null_component_is_an_error_and_never_a_crash() {
+fn a_null_component_is_an_error() {
     for (name, _, call) in calls() {
         assert_eq!(call(ptr::null_mut()), Status::Error, "{name}");
     }
@@ -236,38 +235,38 @@ fn a_null_component_is_an_error_and_never_a_crash() {
 fn outputs_cannot_be_read_before_initialisation() {
     let host = Host::new();
     assert_eq!(host.try_get("left.speed").0, Status::Error);
-    assert_tells(&host.last(), &["fmi2GetReal", "left.speed", "instantiated"]);
+    assert_contains(&host.last_message(), &["fmi2GetReal", "left.speed", "instantiated"]);
     assert_eq!(host.try_get("left.load_torque"), (Status::Ok, 835.0));
 }
 
 #[test]
-fn what_cannot_be_derived_is_refused_with_its_name() {
+fn a_derivative_that_does_not_exist_is_refused_by_name() {
     let host = host_in(2);
     let (load, speed, module) = (reference("left.load_torque"), reference("left.speed"), reference("geometry.module"));
-    let told = |words: &[&str]| assert_tells(&host.last(), words);
-    // SAFETY: a live component and arguments valid through the call
+    let logged = |words: &[&str]| assert_contains(&host.last_message(), words);
+    // SAFETY: a live component and arguments valid during the call
     unsafe {
         assert_eq!(fmi2SetRealInputDerivatives(host.c, &speed, 1, &1, &0.0), Status::Error);
-        told(&["left.speed", "not an input"]);
+        logged(&["left.speed", "not an input"]);
         for order in [0, 3, -1] {
             assert_eq!(fmi2SetRealInputDerivatives(host.c, &load, 1, &order, &0.0), Status::Error);
-            told(&["left.load_torque", &order.to_string(), "1 to 2"]);
+            logged(&["left.load_torque", &order.to_string(), "1 to 2"]);
         }
         assert_eq!(fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &f64::NAN), Status::Discard);
-        told(&["left.load_torque", "NaN"]);
+        logged(&["left.load_torque", "NaN"]);
         assert_eq!(fmi2GetRealOutputDerivatives(host.c, &speed, 1, &2, &mut 0.0), Status::Error);
-        told(&["left.speed", "order 2"]);
+        logged(&["left.speed", "order 2"]);
         assert_eq!(fmi2GetRealOutputDerivatives(host.c, &load, 1, &1, &mut 0.0), Status::Error);
-        told(&["left.load_torque", "set by the host"]);
+        logged(&["left.load_torque", "set by the host"]);
         assert_eq!(fmi2GetDirectionalDerivative(host.c, &load, 1, &load, 1, &1.0, &mut 0.0), Status::Error);
-        told(&["left.load_torque", "no derivative"]);
+        logged(&["left.load_torque", "no derivative"]);
         assert_eq!(fmi2GetDirectionalDerivative(host.c, &speed, 1, &module, 1, &1.0, &mut 0.0), Status::Error);
-        told(&["geometry.module", "neither"]);
+        logged(&["geometry.module", "neither"]);
         assert_eq!(
             fmi2GetDirectionalDerivative(host.c, &speed, 1, &load, 1, &f64::INFINITY, &mut 0.0),
             Status::Discard
         );
-        told(&["inf", "finite"]);
+        logged(&["inf", "finite"]);
         assert_eq!(fmi2GetIntegerStatus(host.c, 0, &mut 0), Status::Discard);
         assert_eq!(fmi2GetRealStatus(host.c, DO_STEP_STATUS, &mut 0.0), Status::Discard);
     }

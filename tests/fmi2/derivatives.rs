@@ -1,29 +1,15 @@
-//! Derivatives of inputs and outputs, and directional derivatives, against steps and differences.
-
-mod common;
+//! Derivatives of inputs and outputs against steps and differences.
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::units::{NEWTON, NEWTON_METRE, ONE, PASCAL, RAD_PER_S2, WATT};
 use bevel_differential::variables::{Access, OutputSource, table};
-use common::{Host, assert_tells, reference};
 
-fn tell(host: &Host, name: &str, order: i32, value: f64) {
+use crate::common::{Host, assert_contains, reference};
+
+fn set_derivative(host: &Host, name: &str, order: i32, value: f64) {
     // SAFETY: a live component and one value each
     let status = unsafe { fmi2SetRealInputDerivatives(host.c, &reference(name), 1, &order, &value) };
     assert_eq!(status, Status::Ok, "{:?}", host.log());
-}
-
-fn along(host: &Host, unknown: &str, known: &[(&str, f64)]) -> f64 {
-    let references: Vec<u32> = known.iter().map(|(name, _)| reference(name)).collect();
-    let change: Vec<f64> = known.iter().map(|(_, change)| *change).collect();
-    let mut value = f64::NAN;
-    // SAFETY: a live component and arrays of the lengths told
-    let status = unsafe {
-        let (known, count) = (references.as_ptr(), references.len());
-        fmi2GetDirectionalDerivative(host.c, &reference(unknown), 1, known, count, change.as_ptr(), &mut value)
-    };
-    assert_eq!(status, Status::Ok, "{unknown}: {:?}", host.log());
-    value
 }
 
 fn rate(host: &Host, name: &str) -> f64 {
@@ -35,19 +21,19 @@ fn rate(host: &Host, name: &str) -> f64 {
 }
 
 /// A torque-driven differential whose wheels have inertia, on a level.
-fn driven_by_torque(level: i32) -> Host {
+pub fn driven_by_torque(level: i32) -> Host {
     let host = Host::on_level(level);
     assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
     host
 }
 
 #[test]
-fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
+fn torques_with_two_derivatives_give_the_momentum_of_their_integral() {
     for level in [1, 2, 3] {
         let host = driven_by_torque(level);
         host.start();
         let inertia = {
-            // the whole turns with the carrier: momentum by an impulse of 1 N·m·s without any load
+            // everything rotates with the carrier: inertia from an impulse of 1 N·m·s without load
             let trial = driven_by_torque(1);
             assert_eq!(trial.set_many(&["left.load_torque", "right.load_torque"], &[0.0; 2]), Status::Ok);
             assert_eq!(trial.set("carrier.torque_command", 100.0), Status::Ok);
@@ -57,13 +43,13 @@ fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
             1.0 / (trial.get("carrier.speed") - before)
         };
         let before = host.get("carrier.speed");
-        tell(&host, "carrier.torque_command", 1, 2000.0);
-        tell(&host, "carrier.torque_command", 2, -3e4);
+        set_derivative(&host, "carrier.torque_command", 1, 2000.0);
+        set_derivative(&host, "carrier.torque_command", 2, -3e4);
         let h = 0.05;
         host.steps(0.0, h, 1);
         let impulse = 2000.0 * h * h / 2.0 - 3e4 * h * h * h / 6.0;
         let gained = (host.get("carrier.speed") - before) * inertia;
-        // teeth swing a little about what the whole does
+        // the teeth vibrate about the mean motion
         let bound = if level == 1 { 1e-9 } else { 2e-2 };
         assert!((gained / impulse - 1.0).abs() < bound, "level {level}: {gained} instead of {impulse} N·m·s");
         assert_eq!(host.get("carrier.torque_command"), 1670.0 + 2000.0 * h - 1.5e4 * h * h);
@@ -71,33 +57,33 @@ fn torques_that_rise_as_parabolas_give_the_momentum_of_their_integral() {
 }
 
 #[test]
-fn imposed_speeds_follow_their_derivatives_and_take_the_torque_of_their_acceleration() {
+fn imposed_speeds_follow_their_derivatives_and_need_the_torque_of_their_acceleration() {
     for level in [1, 2, 3] {
         let host = Host::on_level(level);
         host.start();
         let (speed, angle) = (host.get("carrier.speed"), host.get("carrier.angle"));
         let torque = host.get("carrier.torque");
-        tell(&host, "carrier.speed_command", 1, 200.0);
+        set_derivative(&host, "carrier.speed_command", 1, 200.0);
         let h = 0.02;
         host.steps(0.0, h, 1);
         assert!((host.get("carrier.speed") - speed - 200.0 * h).abs() < 1e-9);
         let turned = host.get("carrier.angle") - angle;
         assert!((turned - speed * h - 100.0 * h * h).abs() < 1e-9, "{turned}");
-        // left to itself the course goes on
+        // without further calls the course continues
         host.steps(h, h, 1);
         assert!((host.get("carrier.speed") - speed - 400.0 * h).abs() < 1e-9);
         // 1 kg·m² of wheels and 0.02 kg·m² of carrier and gears, at least
         let more = host.get("carrier.torque") - torque;
-        // lumped meshes still swing about it
+        // lumped meshes still vibrate
         assert!(level == 2 || (200.0..230.0).contains(&more), "level {level}: {more} N·m");
-        // of the energy that went through
+        // relative to the energy turned over
         let through = host.get("power.in") * 2.0 * h;
         assert!(host.get("solver.energy_residual").abs() < 1e-6 * through, "{}", host.get("solver.energy_residual"));
     }
 }
 
 #[test]
-fn ends_of_shafts_that_are_accelerated_take_the_work_of_their_inertia() {
+fn accelerated_shaft_ends_need_the_work_of_their_inertia() {
     for level in [1, 3] {
         let host = driven_by_torque(level);
         assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
@@ -106,7 +92,7 @@ fn ends_of_shafts_that_are_accelerated_take_the_work_of_their_inertia() {
         }
         host.start();
         for side in ["left", "right"] {
-            tell(&host, &format!("{side}.speed_command"), 1, 200.0);
+            set_derivative(&host, &format!("{side}.speed_command"), 1, 200.0);
         }
         let h = 0.02;
         host.steps(0.0, h, 1);
@@ -117,7 +103,7 @@ fn ends_of_shafts_that_are_accelerated_take_the_work_of_their_inertia() {
 }
 
 #[test]
-fn one_long_step_on_a_course_comes_to_what_many_short_ones_come_to() {
+fn one_long_step_with_derivatives_equals_many_short_steps() {
     for level in [1, 3] {
         let run = |h: f64, with_rates: bool| {
             let host = Host::on_level(level);
@@ -127,13 +113,13 @@ fn one_long_step_on_a_course_comes_to_what_many_short_ones_come_to() {
             let steps = (0.01 / h).round() as usize;
             for i in 0..steps {
                 let t = i as f64 * h;
-                // held at the middle of short steps
+                // short steps hold the value of their middle
                 let at = if with_rates { t } else { t + 0.5 * h };
                 assert_eq!(host.set("left.load_torque", 835.0 + 3e4 * at), Status::Ok);
                 assert_eq!(host.set("planet.spin_command", 200.0 * at), Status::Ok);
                 if with_rates {
-                    tell(&host, "left.load_torque", 1, 3e4);
-                    tell(&host, "planet.spin_command", 1, 200.0);
+                    set_derivative(&host, "left.load_torque", 1, 3e4);
+                    set_derivative(&host, "planet.spin_command", 1, 200.0);
                 }
                 assert_eq!(host.step(t, h), Status::Ok, "{:?}", host.log());
             }
@@ -147,21 +133,21 @@ fn one_long_step_on_a_course_comes_to_what_many_short_ones_come_to() {
 }
 
 #[test]
-fn a_value_set_anew_holds_unless_its_derivative_is_told_again() {
+fn an_input_set_without_a_derivative_is_held_constant() {
     let host = Host::on_level(1);
     host.start();
-    tell(&host, "left.load_torque", 1, 1e4);
+    set_derivative(&host, "left.load_torque", 1, 1e4);
     assert_eq!(host.set("left.load_torque", 500.0), Status::Ok, "in either order before a step");
     host.steps(0.0, 1e-3, 1);
     assert_eq!(host.get("left.load_torque"), 510.0);
     assert_eq!(host.set("left.load_torque", 600.0), Status::Ok);
     host.steps(1e-3, 1e-3, 1);
     assert_eq!(host.get("left.load_torque"), 600.0);
-    // the range is checked where the step will end
-    tell(&host, "left.load_torque", 1, 1e12);
+    // the range is checked at the end of the step
+    set_derivative(&host, "left.load_torque", 1, 1e12);
     assert_eq!(host.step(2e-3, 1e-3), Status::Error);
-    assert_tells(&host.last(), &["left.load_torque", "N.m", "100000000"]);
-    tell(&host, "left.load_torque", 1, 0.0);
+    assert_contains(&host.last_message(), &["left.load_torque", "N.m", "100000000"]);
+    set_derivative(&host, "left.load_torque", 1, 0.0);
     host.steps(2e-3, 1e-3, 1);
 }
 
@@ -169,7 +155,7 @@ fn a_value_set_anew_holds_unless_its_derivative_is_told_again() {
 fn a_course_is_part_of_the_state() {
     let host = Host::on_level(3);
     host.start();
-    tell(&host, "left.load_torque", 1, 1e4);
+    set_derivative(&host, "left.load_torque", 1, 1e4);
     host.steps(0.0, 1e-3, 1);
     let state = host.get_state();
     let bytes = host.serialize(state);
@@ -188,17 +174,17 @@ fn a_course_is_part_of_the_state() {
     host.free_state(state);
 }
 
-/// Outputs whose derivatives are known by time: not of the books, nor such as jump.
-fn smooth_outputs() -> Vec<&'static str> {
+/// Outputs with continuous derivatives: neither sums of the ledger nor counts.
+pub fn smooth_outputs() -> Vec<&'static str> {
     let rows = table().outputs.iter().map(|&i| &table().rows[i]);
     let smooth = rows.filter(|row| !matches!(row.access, Access::Output(OutputSource::Books(_))));
     smooth.map(|row| row.name).filter(|name| !name.ends_with("_pairs")).collect()
 }
 
 #[test]
-fn output_derivatives_are_what_differences_of_outputs_come_to() {
+fn output_derivatives_equal_differences_of_outputs() {
     for level in [1, 2, 3] {
-        // rolling under a torque that rises, so that everything moves
+        // rolling under a rising torque, so that everything moves
         let begin = || {
             let host = driven_by_torque(level);
             assert_eq!(host.set_integer("scene.start", 2), Status::Ok);
@@ -206,8 +192,8 @@ fn output_derivatives_are_what_differences_of_outputs_come_to() {
             assert_eq!(host.set("right.load_torque", 700.0), Status::Ok);
             host.start();
             host.steps(0.0, 1e-3, 13);
-            tell(&host, "carrier.torque_command", 1, 1e4);
-            tell(&host, "left.load_torque", 1, -5e3);
+            set_derivative(&host, "carrier.torque_command", 1, 1e4);
+            set_derivative(&host, "left.load_torque", 1, -5e3);
             host
         };
         let (host, h) = (begin(), 2e-7);
@@ -219,12 +205,12 @@ fn output_derivatives_are_what_differences_of_outputs_come_to() {
         };
         for name in smooth_outputs() {
             assert_eq!(host.set_state(state), Status::Ok);
-            let told = rate(&host, name);
+            let computed = rate(&host, name);
             let [a, b, c] = [0, 1, 2].map(|n| at(n, name));
-            let differs = (-3.0 * a + 4.0 * b - c) / (2.0 * h);
-            // a difference of numbers that are right to some last places, over h
+            let difference = (-3.0 * a + 4.0 * b - c) / (2.0 * h);
+            // rounding errors of the values, divided by h
             let unit = table().rows[reference(name) as usize].unit.unwrap();
-            // accelerations come of torques of 1 kN·m, ratios of such torques
+            // accelerations result from torques of 1 kN·m, efficiencies are ratios of such torques
             let least = if unit == RAD_PER_S2 {
                 1e3
             } else if unit == ONE {
@@ -234,23 +220,29 @@ fn output_derivatives_are_what_differences_of_outputs_come_to() {
             };
             let size = a.abs().max(least);
             let floor = if [WATT, NEWTON, NEWTON_METRE, RAD_PER_S2, PASCAL].contains(&unit) { 1e-3 } else { 1e-8 };
-            let noise = 1e-5 * differs.abs() + 2e-11 * size / h + floor;
-            assert!((told - differs).abs() <= noise, "level {level}: d({name})/dt = {told}, differences {differs}");
+            let noise = 1e-5 * difference.abs() + 2e-11 * size / h + floor;
+            assert!(
+                (computed - difference).abs() <= noise,
+                "level {level}: d({name})/dt = {computed}, differences {difference}"
+            );
         }
-        // the ledger: heat by its power
+        // the ledger: heat and its power
         assert_eq!(host.set_state(state), Status::Ok);
-        let told = rate(&host, "heat.contact");
+        let computed = rate(&host, "heat.contact");
         let [a, b] = [0, 5].map(|n| at(n, "heat.contact"));
-        let differs = (b - a) / (5.0 * h);
-        assert!((told - differs).abs() <= 1e-3 * differs.abs() + 1e-6, "level {level}: {told} W, {differs} W");
+        let difference = (b - a) / (5.0 * h);
+        assert!(
+            (computed - difference).abs() <= 1e-3 * difference.abs() + 1e-6,
+            "level {level}: {computed} W, {difference} W"
+        );
         host.free_state(state);
     }
 }
 
 #[test]
-fn derivatives_told_before_the_start_act_at_the_start() {
+fn derivatives_set_before_initialisation_act_from_the_start() {
     let host = Host::on_level(1);
-    tell(&host, "carrier.speed_command", 1, 100.0);
+    set_derivative(&host, "carrier.speed_command", 1, 100.0);
     host.start();
     assert_eq!(rate(&host, "carrier.speed"), 100.0);
     let held = Host::on_level(1);
@@ -263,79 +255,8 @@ fn a_parabola_that_leaves_the_range_in_between_is_refused() {
     let host = Host::on_level(1);
     host.start();
     let h = 1e-3;
-    tell(&host, "left.load_torque", 1, 4e9 / h);
-    tell(&host, "left.load_torque", 2, -8e9 / (h * h));
+    set_derivative(&host, "left.load_torque", 1, 4e9 / h);
+    set_derivative(&host, "left.load_torque", 2, -8e9 / (h * h));
     assert_eq!(host.step(0.0, h), Status::Error);
-    assert_tells(&host.last(), &["left.load_torque", "within the step"]);
-}
-
-#[test]
-fn directional_derivatives_by_inputs_are_what_differences_of_outputs_come_to() {
-    for level in [1, 2, 3] {
-        let host = driven_by_torque(level);
-        host.start();
-        host.steps(0.0, 1e-3, 5);
-        for input in ["carrier.torque_command", "left.load_torque", "right.load_torque", "carrier.speed_command"] {
-            let value = host.get(input);
-            let d = 1e-3 * value;
-            for name in smooth_outputs() {
-                let told = along(&host, name, &[(input, 2.0)]);
-                let [high, low] = [d, -d].map(|d| {
-                    assert_eq!(host.set(input, value + d), Status::Ok);
-                    host.get(name)
-                });
-                assert_eq!(host.set(input, value), Status::Ok);
-                let differs = (high - low) / d;
-                let bound = 1e-7 * differs.abs() + 1e-9 * (1.0 + high.abs() / d.abs());
-                assert!((told - differs).abs() < bound, "{level}: d({name})/d({input}): {told}, {differs}");
-            }
-        }
-        // exact where it is a matter of a formula: what a wheel gets is its load and its inertia's
-        let by_load = along(&host, "left.shaft_torque", &[("left.load_torque", 1.0)]);
-        let acceleration = along(&host, "left.acceleration", &[("left.load_torque", 1.0)]);
-        assert!((by_load - 1.0 - 0.5 * acceleration).abs() < 1e-9, "{by_load} {acceleration}");
-    }
-}
-
-#[test]
-fn a_half_shaft_answers_to_the_speed_of_its_wheel_at_once() {
-    for level in [1, 3] {
-        let host = Host::on_level(level);
-        assert_eq!(host.set_integer("scene.carrier_drive", 2), Status::Ok);
-        assert_eq!(host.set_boolean("effects.half_shaft", 1), Status::Ok);
-        for side in ["left", "right"] {
-            assert_eq!(host.set_integer(&format!("scene.{side}_drive"), 2), Status::Ok);
-        }
-        host.start();
-        host.steps(0.0, 1e-3, 2);
-        let (torque, speed) = (host.get("left.shaft_torque"), host.get("left.speed_command"));
-        let by_speed = along(&host, "left.shaft_torque", &[("left.speed_command", 1.0)]);
-        let damping = host.get("half_shaft.left_damping");
-        assert!(damping > 0.0 && (by_speed + damping).abs() < 1e-6 * damping, "{by_speed} {damping}");
-        let before = host.get("solver.energy_residual");
-        assert_eq!(host.set("left.speed_command", speed + 2.0), Status::Ok);
-        assert!((host.get("left.shaft_torque") - torque + 2.0 * damping).abs() < 1e-6 * torque.abs());
-        assert_eq!(host.get("solver.energy_residual"), before, "nothing has been worked yet");
-        // set back, it leaves no trace
-        assert_eq!(host.set("left.speed_command", speed), Status::Ok);
-        assert_eq!(host.get("left.shaft_torque"), torque);
-    }
-}
-
-#[test]
-fn at_the_start_outputs_are_derived_by_inputs_and_parameters() {
-    let host = driven_by_torque(3);
-    assert_eq!(host.setup(), Status::Ok);
-    assert_eq!(host.enter(), Status::Ok);
-    // preloaded by equal loads, a stiffness twice as large bends by less: a ~ K^(-2/3)
-    let stiffness = host.get("contact.stiffness");
-    let bent = host.get("planet[1].left_transmission_error");
-    let by_stiffness = along(&host, "planet[1].left_transmission_error", &[("contact.stiffness", stiffness)]);
-    assert!((by_stiffness / (-2.0 / 3.0 * bent) - 1.0).abs() < 1e-6, "{by_stiffness} {bent}");
-    // at the end of a range, to one side
-    let other = Host::new();
-    assert_eq!((other.setup(), other.enter()), (Status::Ok, Status::Ok));
-    assert!(along(&other, "left.acceleration", &[("inertia.left_end", 1.0)]).is_finite());
-    let by_speed = along(&host, "carrier.speed", &[("carrier.speed_command", 3.0)]);
-    assert!((by_speed - 3.0).abs() < 1e-9);
+    assert_contains(&host.last_message(), &["left.load_torque", "within the step"]);
 }

@@ -1,18 +1,17 @@
 //! Threads with a stack of 128 KiB are enough for every level, every effect, every method, and both kinds of instances.
 
-mod common;
-
 use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::{Access, table};
-use common::{Host, reference};
+
+use crate::common::{Host, reference};
 
 const STACK: usize = 128 * 1024;
 const SOLID: i32 = 4;
 
-/// What a scene is made of: whole numbers and switches by name.
+/// A scene: integers, enumerations and switches by name.
 type Scene = Vec<(&'static str, i32)>;
 
 fn set(host: &Host, scene: &Scene) {
@@ -26,23 +25,23 @@ fn set(host: &Host, scene: &Scene) {
     assert_eq!(host.set_many(&["inertia.left_end", "inertia.right_end"], &[0.5, 0.5]), Status::Ok);
 }
 
-fn begins(scene: &Scene) -> bool {
+fn starts(scene: &Scene) -> bool {
     let host = Host::new();
     set(&host, scene);
     [host.setup(), host.enter(), host.exit()] == [Status::Ok; 3]
 }
 
-/// A level with every effect that goes with it and with those before.
-fn fullest(level: i32) -> Scene {
+/// A scene of a level with every effect that can be combined.
+fn with_all_effects(level: i32) -> Scene {
     let mut scene = vec![("scene.gear_contact", level), ("geometry.planet_count", 4), ("solid.facets", 8)];
-    if !begins(&scene) {
+    if !starts(&scene) {
         scene[1].1 = 2;
     }
-    assert!(begins(&scene), "level {level}");
+    assert!(starts(&scene), "level {level}");
     for row in table().rows.iter().filter(|row| row.name.starts_with("effects.")) {
         if matches!(row.access, Access::Boolean(_)) {
             scene.push((row.name, 1));
-            if !begins(&scene) {
+            if !starts(&scene) {
                 scene.pop();
             }
         }
@@ -50,11 +49,11 @@ fn fullest(level: i32) -> Scene {
     scene
 }
 
-/// Everything that a host may ask of an instance, once.
-fn all_of(kind: i32, scene: &Scene) {
+/// Calls every function of the kind once.
+fn exercise_all_functions(kind: i32, scene: &Scene) {
     let host = if kind == MODEL_EXCHANGE { Host::for_exchange() } else { Host::new() };
     let (load, speed) = (reference("left.load_torque"), reference("left.speed"));
-    // a refused initialisation first: its messages are the longest
+    // a failed initialisation first: its messages are the longest
     assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
     assert_eq!([host.enter(), host.exit()], [Status::Ok, Status::Error]);
     assert_eq!(host.reset(), Status::Ok);
@@ -72,7 +71,7 @@ fn all_of(kind: i32, scene: &Scene) {
     if kind == MODEL_EXCHANGE {
         host.update();
         let (mut x, mut rates, mut indicators) = ([0.0; STATES], [0.0; STATES], [0.0; EVENT_INDICATORS]);
-        // SAFETY: a live component and room for the counts told
+        // SAFETY: a live component and memory for these counts
         let statuses = unsafe {
             [
                 fmi2EnterContinuousTimeMode(host.c),
@@ -89,8 +88,8 @@ fn all_of(kind: i32, scene: &Scene) {
         host.update();
     } else {
         // SAFETY: a live component, one value each
-        let told = unsafe { fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &1.0) };
-        assert_eq!(told, Status::Ok);
+        let set = unsafe { fmi2SetRealInputDerivatives(host.c, &load, 1, &1, &1.0) };
+        assert_eq!(set, Status::Ok);
         host.steps(0.0, 1e-4, 3);
         // SAFETY: as above
         let status = unsafe { fmi2GetRealOutputDerivatives(host.c, &speed, 1, &1, &mut 0.0) };
@@ -109,35 +108,36 @@ fn all_of(kind: i32, scene: &Scene) {
     assert_eq!(host.terminate(), Status::Ok);
 }
 
-fn in_a_small_stack(kind: i32, scene: Scene) {
-    let thread = std::thread::Builder::new().stack_size(STACK).spawn(move || all_of(kind, &scene)).unwrap();
+fn with_a_small_stack(kind: i32, scene: Scene) {
+    let thread =
+        std::thread::Builder::new().stack_size(STACK).spawn(move || exercise_all_functions(kind, &scene)).unwrap();
     thread.join().unwrap();
 }
 
 #[test]
-fn every_level_with_all_its_effects_needs_no_more_than_a_small_stack() {
+fn a_small_stack_is_enough_for_every_level_with_all_its_effects() {
     for level in 1..=SOLID {
-        let scene = fullest(level);
+        let scene = with_all_effects(level);
         let effects = scene.iter().filter(|(name, on)| name.starts_with("effects.") && *on == 1).count();
         let least = [0, 4, 4, 10, 4][level as usize];
         assert!(effects >= least, "level {level} takes only {scene:?}");
         for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
-            in_a_small_stack(kind, scene.clone());
+            with_a_small_stack(kind, scene.clone());
         }
     }
 }
 
 #[test]
-fn every_method_needs_no_more_than_a_small_stack() {
+fn a_small_stack_is_enough_for_every_method() {
     let Access::Enumeration(methods, ..) = table().rows[reference("solver.method") as usize].access else {
-        panic!("solver.method is no choice")
+        panic!("solver.method is not an enumeration")
     };
-    // the methods differ by the size of their matrices: the most degrees of freedom are those of the fullest teeth
-    let fullest = fullest(3);
+    // the size of the matrices depends on the method; teeth with all effects have the most degrees of freedom
+    let with_all_effects = with_all_effects(3);
     for choice in methods.choices {
-        let mut scene = fullest.clone();
+        let mut scene = with_all_effects.clone();
         scene.push(("solver.method", choice.value));
-        let scene = if begins(&scene) { scene } else { vec![("solver.method", choice.value)] };
-        in_a_small_stack(CO_SIMULATION, scene);
+        let scene = if starts(&scene) { scene } else { vec![("solver.method", choice.value)] };
+        with_a_small_stack(CO_SIMULATION, scene);
     }
 }

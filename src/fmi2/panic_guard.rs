@@ -10,10 +10,10 @@ thread_local! {
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `body`; a panic in it comes back as its message, and nothing is printed.
+/// Runs `body`; returns the message of a panic in it, and prints nothing.
 pub fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
-    // the hook belongs to this library's own copy of std; panics elsewhere in the process keep their way
+    // the hook belongs to this library's copy of std; panics elsewhere in the process keep their hook
     HOOK.call_once(|| {
         let previous = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
@@ -38,7 +38,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panic_comes_back_as_its_message() {
+    fn a_panic_is_returned_as_its_message() {
         assert_eq!(catch(|| 1), Ok(1));
         assert_eq!(catch(|| -> i32 { panic!("step {}", 2) }), Err("step 2".into()));
     }

@@ -1,38 +1,40 @@
-//! Setting and getting: what is refused, how it is told, and that a refused call changes nothing.
-
-mod common;
+//! Setting and getting: what is refused with which message, and that a refused call changes nothing.
 
 use std::ptr;
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::table;
-use common::{Host, assert_tells, reference};
+
+use crate::common::{Host, assert_contains, reference};
 
 #[test]
-fn a_number_that_is_none_is_discarded_and_nothing_is_lost() {
+fn a_value_that_is_not_finite_is_discarded_and_changes_nothing() {
     for level in [1, 3] {
         let plain = Host::on_level(level);
         plain.start();
-        let expected = plain.journey(0, 6);
+        let expected = plain.record_steps(0, 6);
         let host = Host::on_level(level);
         host.start();
-        let mut seen = host.journey(0, 3);
+        let mut seen = host.record_steps(0, 3);
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200] {
-            // the first value is good and must not be applied either
+            // the first value is valid, but must not be set either
             let status = host.set_many(&["right.load_torque", "left.load_torque"], &[1.0, bad]);
             assert_eq!(status, Status::Discard);
-            assert_tells(&host.last(), &["fmi2SetReal", "left.load_torque", &format!("{bad}"), "N.m", "100000000"]);
+            assert_contains(
+                &host.last_message(),
+                &["fmi2SetReal", "left.load_torque", &format!("{bad}"), "N.m", "100000000"],
+            );
         }
-        seen.extend(host.journey(3, 3));
+        seen.extend(host.record_steps(3, 3));
         assert!(seen == expected, "level {level}");
     }
 }
 
 #[test]
-fn a_parameter_that_is_no_number_is_discarded_at_once() {
+fn a_parameter_that_is_not_finite_is_discarded_at_once() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", f64::NAN), Status::Discard);
-    assert_tells(&host.last(), &["geometry.module", "NaN", "0.0002", "0.1", " m"]);
+    assert_contains(&host.last_message(), &["geometry.module", "NaN", "0.0002", "0.1", " m"]);
     assert_eq!(host.get("geometry.module"), 0.0045);
 }
 
@@ -42,14 +44,17 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
     plain.start();
     let expected = plain.outputs();
     let host = Host::new();
-    assert_eq!(host.set("geometry.module", 4.5), Status::Ok, "ranges are checked together, later");
+    assert_eq!(host.set("geometry.module", 4.5), Status::Ok, "initialisation checks all ranges together");
     assert_eq!(host.set_integer("geometry.planet_teeth", -3), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
     assert_eq!(host.exit(), Status::Error);
-    assert_tells(&host.last(), &["geometry.module", "did you mean 4.5 mm", "0.0045", "geometry.planet_teeth", "-3"]);
+    assert_contains(
+        &host.last_message(),
+        &["geometry.module", "did you mean 4.5 mm", "0.0045", "geometry.planet_teeth", "-3"],
+    );
     assert_eq!(host.step(0.0, 1e-3), Status::Error);
     assert_eq!(host.try_get("left.speed").0, Status::Error);
-    assert_eq!(host.get("geometry.module"), 4.5, "what was set can be looked at");
+    assert_eq!(host.get("geometry.module"), 4.5, "the values set can be read");
     assert_eq!(host.reset(), Status::Ok);
     assert_eq!(host.get("geometry.module"), 0.0045);
     host.start();
@@ -57,12 +62,12 @@ fn a_module_of_four_and_a_half_metres_fails_initialisation_with_a_hint_and_works
 }
 
 #[test]
-fn parameters_can_be_repaired_while_still_in_initialisation_mode() {
+fn parameters_can_be_corrected_in_initialisation_mode() {
     let host = Host::new();
     assert_eq!(host.set("geometry.module", 4.5), Status::Ok);
     assert_eq!(host.enter(), Status::Ok);
     assert_eq!(host.try_get("left.speed").0, Status::Error);
-    assert_tells(&host.last(), &["did you mean"]);
+    assert_contains(&host.last_message(), &["did you mean"]);
     assert_eq!(host.set("geometry.module", 0.0045), Status::Ok);
     assert_eq!(host.exit(), Status::Ok);
 }
@@ -71,36 +76,36 @@ fn parameters_can_be_repaired_while_still_in_initialisation_mode() {
 fn outputs_and_fixed_parameters_are_not_set_in_a_running_simulation() {
     let host = Host::new();
     assert_eq!(host.set("left.speed", 1.0), Status::Error);
-    assert_tells(&host.last(), &["left.speed", "output"]);
+    assert_contains(&host.last_message(), &["left.speed", "output"]);
     host.start();
     assert_eq!(host.set("geometry.module", 0.005), Status::Error);
-    assert_tells(&host.last(), &["geometry.module", "fixed"]);
+    assert_contains(&host.last_message(), &["geometry.module", "fixed"]);
     assert_eq!(host.set_integer("geometry.side_teeth", 17), Status::Error);
-    assert_tells(&host.last(), &["geometry.side_teeth", "fixed"]);
+    assert_contains(&host.last_message(), &["geometry.side_teeth", "fixed"]);
     assert_eq!(host.set_boolean("effects.backlash", 0), Status::Error);
-    assert_tells(&host.last(), &["effects.backlash", "fixed"]);
+    assert_contains(&host.last_message(), &["effects.backlash", "fixed"]);
     assert_eq!(host.get("geometry.module"), 0.0045);
     host.steps(0.0, 1e-4, 1);
 }
 
 #[test]
 fn a_tunable_parameter_acts_in_a_running_simulation() {
-    // between two steps the damping is doubled; from then on the runs differ, and not before
+    // the damping is doubled between two steps; the runs differ from there on
     let (plain, tuned) = (Host::on_level(3), Host::on_level(3));
     plain.start();
     tuned.start();
-    assert!(plain.journey(0, 2) == tuned.journey(0, 2));
+    assert!(plain.record_steps(0, 2) == tuned.record_steps(0, 2));
     let damping = tuned.get("contact.damping");
     assert_eq!(tuned.set("contact.damping", 2.0 * damping), Status::Ok);
     assert_eq!(tuned.get("contact.damping"), 2.0 * damping);
-    assert!(plain.journey(2, 2) != tuned.journey(2, 2));
+    assert!(plain.record_steps(2, 2) != tuned.record_steps(2, 2));
     assert_eq!(tuned.set("contact.damping", -1.0), Status::Discard);
-    assert_tells(&tuned.last(), &["contact.damping", "-1"]);
+    assert_contains(&tuned.last_message(), &["contact.damping", "-1"]);
     assert_eq!(tuned.get("contact.damping"), 2.0 * damping);
 }
 
 #[test]
-fn an_enumeration_takes_its_choices_and_lists_them_when_asked_for_another() {
+fn an_enumeration_accepts_its_choices_and_lists_them_for_any_other_value() {
     let host = Host::new();
     for value in 1..=4 {
         assert_eq!(host.set_integer("geometry.addendum_system", value), Status::Ok);
@@ -108,7 +113,10 @@ fn an_enumeration_takes_its_choices_and_lists_them_when_asked_for_another() {
     }
     for value in [0, 5, -1, i32::MAX] {
         assert_eq!(host.set_integer("geometry.addendum_system", value), Status::Error);
-        assert_tells(&host.last(), &["geometry.addendum_system", &value.to_string(), "1 = standard, 2 = gleason"]);
+        assert_contains(
+            &host.last_message(),
+            &["geometry.addendum_system", &value.to_string(), "1 = standard, 2 = gleason"],
+        );
         assert_eq!(host.get_integer("geometry.addendum_system"), 4);
     }
 }
@@ -117,27 +125,27 @@ fn an_enumeration_takes_its_choices_and_lists_them_when_asked_for_another() {
 fn wrong_types_and_unknown_references_are_named() {
     let host = Host::new();
     let unknown = table().rows.len() as u32;
-    // SAFETY: a live component and arguments valid through the call
+    // SAFETY: a live component and arguments valid during the call
     unsafe {
         assert_eq!(fmi2GetReal(host.c, &reference("geometry.planet_teeth"), 1, &mut 0.0), Status::Error);
-        assert_tells(&host.last(), &["fmi2GetReal", "geometry.planet_teeth", "Integer"]);
+        assert_contains(&host.last_message(), &["fmi2GetReal", "geometry.planet_teeth", "Integer"]);
         assert_eq!(fmi2SetInteger(host.c, &reference("geometry.module"), 1, &1), Status::Error);
-        assert_tells(&host.last(), &["fmi2SetInteger", "geometry.module", "Real"]);
+        assert_contains(&host.last_message(), &["fmi2SetInteger", "geometry.module", "Real"]);
         assert_eq!(fmi2GetBoolean(host.c, &reference("left.speed"), 1, &mut 0), Status::Error);
         assert_eq!(fmi2SetBoolean(host.c, &reference("left.speed"), 1, &0), Status::Error);
         assert_eq!(fmi2GetString(host.c, &reference("left.speed"), 1, &mut ptr::null()), Status::Error);
-        assert_tells(&host.last(), &["fmi2GetString", "left.speed", "Real"]);
+        assert_contains(&host.last_message(), &["fmi2GetString", "left.speed", "Real"]);
         assert_eq!(fmi2SetString(host.c, &unknown, 1, &c"x".as_ptr()), Status::Error);
         for unknown in [unknown, u32::MAX] {
             assert_eq!(fmi2GetReal(host.c, &unknown, 1, &mut 0.0), Status::Error);
-            assert_tells(&host.last(), &[&unknown.to_string(), "does not exist"]);
+            assert_contains(&host.last_message(), &[&unknown.to_string(), "does not exist"]);
             assert_eq!(fmi2SetReal(host.c, &unknown, 1, &0.0), Status::Error);
         }
     }
 }
 
 #[test]
-fn null_arrays_are_refused_unless_nothing_is_asked_for() {
+fn null_arrays_are_refused_unless_the_count_is_zero() {
     let host = Host::new();
     let module = reference("geometry.module");
     // SAFETY: a live component; NULL arrays are what is tested
@@ -145,9 +153,9 @@ fn null_arrays_are_refused_unless_nothing_is_asked_for() {
         assert_eq!(fmi2GetReal(host.c, ptr::null(), 0, ptr::null_mut()), Status::Ok);
         assert_eq!(fmi2SetReal(host.c, ptr::null(), 0, ptr::null()), Status::Ok);
         assert_eq!(fmi2GetReal(host.c, ptr::null(), 1, &mut 0.0), Status::Error);
-        assert_tells(&host.last(), &["fmi2GetReal", "vr", "NULL"]);
+        assert_contains(&host.last_message(), &["fmi2GetReal", "vr", "NULL"]);
         assert_eq!(fmi2GetReal(host.c, &module, 1, ptr::null_mut()), Status::Error);
-        assert_tells(&host.last(), &["fmi2GetReal", "value", "NULL"]);
+        assert_contains(&host.last_message(), &["fmi2GetReal", "value", "NULL"]);
         assert_eq!(fmi2SetReal(host.c, &module, usize::MAX, &0.0), Status::Error);
         assert_eq!(fmi2GetStatus(host.c, 0, ptr::null_mut()), Status::Error);
     }
@@ -156,7 +164,7 @@ fn null_arrays_are_refused_unless_nothing_is_asked_for() {
 #[test]
 fn every_parameter_and_input_reads_back_its_start_value() {
     let host = Host::new();
-    for row in table().rows.iter().filter(|row| common::is_real_parameter(&row.access)) {
+    for row in table().rows.iter().filter(|row| crate::common::is_real_parameter(&row.access)) {
         let value = host.get(row.name);
         assert_eq!(host.set(row.name, value), Status::Ok);
         assert_eq!(host.get(row.name), value, "{}", row.name);

@@ -1,31 +1,31 @@
-//! Why a call was not carried out: the status to return and the message to log.
+//! Why a call was refused or failed: the status to return and the message to log.
 
 use super::types::Status;
 
-/// A call that was not carried out, or not as asked.
+/// A call that was refused, failed, or was carried out only in part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Refusal {
-    /// What the host is told.
+pub struct CallError {
+    /// Status that the call returns.
     pub status: Status,
-    /// What the log is told.
+    /// Message for the log.
     pub message: String,
 }
 
-/// Outcome of a call.
-pub type Answer<T = ()> = Result<T, Refusal>;
+/// Result of a call.
+pub type CallResult<T = ()> = Result<T, CallError>;
 
-impl Refusal {
-    /// Refused with fmi2Error.
+impl CallError {
+    /// The call returns fmi2Error.
     pub fn error(message: impl Into<String>) -> Self {
         Self { status: Status::Error, message: message.into() }
     }
 
-    /// Refused with fmi2Discard.
+    /// The call returns fmi2Discard.
     pub fn discard(message: impl Into<String>) -> Self {
         Self { status: Status::Discard, message: message.into() }
     }
 
-    /// Carried out in part: fmi2Warning.
+    /// The call was carried out in part and returns fmi2Warning.
     pub fn warning(message: impl Into<String>) -> Self {
         Self { status: Status::Warning, message: message.into() }
     }

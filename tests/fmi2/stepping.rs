@@ -1,13 +1,12 @@
-//! Steps: which are taken, which are refused, and what remains of one that fails.
-
-mod common;
+//! Steps: which are carried out, which are refused, and the state after a failed step.
 
 use bevel_differential::fmi2::*;
-use common::{Host, assert_tells};
+
+use crate::common::{Host, assert_contains};
 
 fn last_time(host: &Host) -> f64 {
     let mut time = f64::NAN;
-    // SAFETY: a live component and room for one value
+    // SAFETY: a live component and memory for one value
     assert_eq!(unsafe { fmi2GetRealStatus(host.c, LAST_SUCCESSFUL_TIME, &mut time) }, Status::Ok);
     time
 }
@@ -22,12 +21,12 @@ fn with_experiment(tolerance: Option<f64>, start: f64, stop: Option<f64>) -> (Ho
 }
 
 #[test]
-fn a_step_size_that_is_no_positive_number_is_refused() {
+fn a_step_size_that_is_not_finite_and_positive_is_refused() {
     let host = Host::new();
     host.start();
     for h in [0.0, -1e-3, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         assert_eq!(host.step(0.0, h), Status::Error);
-        assert_tells(&host.last(), &["fmi2DoStep", &h.to_string()]);
+        assert_contains(&host.last_message(), &["fmi2DoStep", &h.to_string()]);
     }
     host.steps(0.0, 1e-3, 1);
 }
@@ -36,7 +35,7 @@ fn a_step_size_that_is_no_positive_number_is_refused() {
 fn communication_points_are_compared_with_a_tolerance() {
     let host = Host::new();
     host.start();
-    // adding up steps does not give their multiples
+    // the sum of the steps differs from their multiple by rounding
     let mut t = 0.0;
     for _ in 0..1000 {
         assert_eq!(host.step(t, 1e-4), Status::Ok, "{:?}", host.log());
@@ -46,20 +45,20 @@ fn communication_points_are_compared_with_a_tolerance() {
     let now = last_time(&host);
     for wrong in [now + 1e-5, now - 1e-5, 0.0, f64::NAN, f64::INFINITY] {
         assert_eq!(host.step(wrong, 1e-4), Status::Error);
-        assert_tells(&host.last(), &["communication point", &wrong.to_string(), &now.to_string()]);
+        assert_contains(&host.last_message(), &["communication point", &wrong.to_string(), &now.to_string()]);
     }
     assert_eq!(last_time(&host), now);
 }
 
 #[test]
-fn a_step_taken_twice_or_left_out_is_refused_at_late_times_too() {
+fn a_step_repeated_or_left_out_is_refused_at_late_times_too() {
     for (start, h) in [(1e6, 1e-4), (1e3, 1e-6), (0.0, 1e-9)] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!((status, host.enter(), host.exit()), (Status::Ok, Status::Ok, Status::Ok));
         host.steps(start, h, 1);
         for wrong in [start, start + 3.0 * h] {
             assert_eq!(host.step(wrong, h), Status::Error, "{start} {h} {wrong}");
-            assert_tells(&host.last(), &["communication point", "is not the current time"]);
+            assert_contains(&host.last_message(), &["communication point", "is not the current time"]);
         }
         assert_eq!(host.step(start + h, h), Status::Ok);
     }
@@ -70,7 +69,7 @@ fn a_step_too_small_for_the_time_axis_changes_nothing() {
     for level in [1, 3] {
         let host = Host::on_level(level);
         host.start();
-        host.journey(0, 2);
+        host.record_steps(0, 2);
         let before = host.outputs();
         assert_eq!(host.step(2e-3, 1e-25), Status::Ok);
         assert!(host.outputs() == before);
@@ -87,12 +86,12 @@ fn steps_end_at_the_stop_time_with_a_tolerance() {
         t += 0.1;
     }
     assert_eq!(host.step(t, 0.1), Status::Error);
-    assert_tells(&host.last(), &["stop time", "0.3"]);
+    assert_contains(&host.last_message(), &["stop time", "0.3"]);
 }
 
 #[test]
 fn steps_may_vary_in_size() {
-    // the ideal level in the straight case moves evenly, so the angle tells the time
+    // the ideal level in the straight case moves evenly, so the angle is proportional to time
     let host = Host::new();
     host.set_integer("scene.gear_contact", 1);
     host.start();
@@ -106,16 +105,16 @@ fn steps_may_vary_in_size() {
 }
 
 #[test]
-fn an_experiment_that_makes_no_sense_is_refused() {
+fn an_invalid_experiment_is_refused() {
     for start in [f64::NAN, f64::INFINITY] {
         let (host, status) = with_experiment(None, start, None);
         assert_eq!(status, Status::Error);
-        assert_tells(&host.last(), &["start time"]);
+        assert_contains(&host.last_message(), &["start time"]);
     }
     for stop in [1.0, 0.0, f64::NAN] {
         let (host, status) = with_experiment(None, 1.0, Some(stop));
         assert_eq!(status, Status::Error);
-        assert_tells(&host.last(), &["stop time"]);
+        assert_contains(&host.last_message(), &["stop time"]);
     }
     for tolerance in [0.0, -1.0, f64::NAN] {
         assert_eq!(with_experiment(Some(tolerance), 0.0, None).1, Status::Error);
@@ -137,7 +136,8 @@ fn time_starts_where_the_experiment_says() {
 fn the_experiment_sets_the_tolerance_within_its_range_unless_the_host_chose_one() {
     let tolerance = |host: &Host| host.get("solver.relative_tolerance");
     assert_eq!(tolerance(&with_experiment(Some(1e-4), 0.0, None).0), 1e-4);
-    let range = bevel_differential::variables::table().rows[common::reference("solver.relative_tolerance") as usize]
+    let range = bevel_differential::variables::table().rows
+        [crate::common::reference("solver.relative_tolerance") as usize]
         .range
         .unwrap();
     assert_eq!(tolerance(&with_experiment(Some(1e-30), 0.0, None).0), range.min);
@@ -150,21 +150,21 @@ fn the_experiment_sets_the_tolerance_within_its_range_unless_the_host_chose_one(
 }
 
 #[test]
-fn a_step_that_fails_is_discarded_and_tells_the_last_good_time() {
+fn a_failed_step_is_discarded_with_the_last_successful_time() {
     let host = Host::on_level(3);
     host.start();
-    host.journey(0, 2);
+    host.record_steps(0, 2);
     assert_eq!(host.set("left.load_torque", 1e7), Status::Ok);
     assert_eq!(host.step(2e-3, 1e-2), Status::Discard);
     let last = host.log().pop().unwrap();
     assert_eq!((last.status, last.category.as_str()), (Status::Discard, "logStatusDiscard"));
-    assert_tells(&last.message, &["fmi2DoStep", "tooth would jump", "last successful time"]);
+    assert_contains(&last.message, &["fmi2DoStep", "tooth would jump", "last successful time"]);
     let time = last_time(&host);
     assert!((2e-3..12e-3).contains(&time), "{time}");
-    assert_tells(&last.message, &[&time.to_string()]);
+    assert_contains(&last.message, &[&time.to_string()]);
     assert!(host.outputs().iter().all(|&bits| f64::from_bits(bits).is_finite()));
     let mut status = Status::Ok;
-    // SAFETY: a live component and room for one value
+    // SAFETY: a live component and memory for one value
     assert_eq!(unsafe { fmi2GetStatus(host.c, DO_STEP_STATUS, &mut status) }, Status::Ok);
     assert_eq!(status, Status::Discard);
     assert_eq!(host.step(time, 1e-3), Status::Error, "only after a state is restored or a reset");

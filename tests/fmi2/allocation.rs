@@ -1,44 +1,11 @@
 //! Once initialised, setting inputs, stepping and reading outputs allocate nothing.
 
-mod common;
-
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
 use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::table;
-use common::{Host, reference};
 
-thread_local! {
-    /// Allocations of this thread.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: hands everything to the system's allocator; counting allocates nothing
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promise
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+use crate::common::counting_allocator::allocations;
+use crate::common::{Host, reference};
 
 #[test]
 fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
@@ -48,12 +15,12 @@ fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
         let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
         let mut values = vec![f64::NAN; outputs.len()];
         let inputs = [reference("left.load_torque"), reference("right.load_torque"), reference("contact.damping")];
-        let before = ALLOCATIONS.get();
+        let before = allocations();
         let mut ok = true;
         for i in 0..50 {
             let t = f64::from(i) * 1e-3;
             let loads = [800.0 + 50.0 * (300.0 * t).sin(), 800.0, 5e4 + t];
-            // SAFETY: a live component and arrays of the lengths told
+            // SAFETY: a live component and arrays of these lengths
             unsafe {
                 ok &= fmi2SetReal(host.c, inputs.as_ptr(), 3, loads.as_ptr()) == Status::Ok;
                 ok &= fmi2SetRealInputDerivatives(host.c, inputs.as_ptr(), 1, &1, &2e4) == Status::Ok;
@@ -62,22 +29,22 @@ fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
                 ok &= fmi2GetReal(host.c, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) == Status::Ok;
             }
         }
-        let allocations = ALLOCATIONS.get() - before;
+        let count = allocations() - before;
         assert!(ok && values.iter().all(|v| v.is_finite()), "{:?}", host.log());
-        assert_eq!(allocations, 0, "level {level}");
+        assert_eq!(count, 0, "level {level}");
     }
 }
 
 #[test]
-fn a_solver_of_the_hosts_makes_nothing_allocate() {
+fn model_exchange_allocates_nothing() {
     let host = Host::for_exchange();
     host.start_exchange();
     let (mut states, mut rates) = ([0.0; STATES], [0.0; STATES]);
     let (mut indicators, mut event, mut end) = ([0.0; EVENT_INDICATORS], 0, 0);
-    let before = ALLOCATIONS.get();
+    let before = allocations();
     let mut ok = true;
     for i in 1..50 {
-        // SAFETY: a live component and arrays of the lengths told
+        // SAFETY: a live component and arrays of these lengths
         unsafe {
             ok &= fmi2GetContinuousStates(host.c, states.as_mut_ptr(), STATES) == Status::Ok;
             ok &= fmi2GetDerivatives(host.c, rates.as_mut_ptr(), STATES) == Status::Ok;
@@ -89,7 +56,7 @@ fn a_solver_of_the_hosts_makes_nothing_allocate() {
         }
     }
     assert!(ok, "{:?}", host.log());
-    assert_eq!(ALLOCATIONS.get() - before, 0);
+    assert_eq!(allocations() - before, 0);
 }
 
 #[test]
@@ -97,9 +64,9 @@ fn overwriting_a_state_allocates_nothing() {
     let host = Host::on_level(3);
     host.start();
     let mut state = host.get_state();
-    let before = ALLOCATIONS.get();
+    let before = allocations();
     // SAFETY: a live component and a live state
     let statuses = unsafe { [fmi2GetFMUstate(host.c, &mut state), fmi2SetFMUstate(host.c, state)] };
-    assert_eq!((statuses, ALLOCATIONS.get() - before), ([Status::Ok; 2], 0));
+    assert_eq!((statuses, allocations() - before), ([Status::Ok; 2], 0));
     host.free_state(state);
 }

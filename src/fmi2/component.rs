@@ -1,0 +1,97 @@
+//! What fmi2Component points to, and the frame around every call: one call at a time, in a legal state, without panics.
+
+use std::cell::UnsafeCell;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::call_error::{CallError, CallResult};
+use super::calls::Call;
+use super::host_memory::HostMemory;
+use super::instance::Instance;
+use super::panic_guard;
+use super::types::{ComponentPointer, Status};
+
+/// What fmi2Component points to.
+pub struct Component {
+    /// Set during a call. A second call, from the logger or from another thread, is then refused.
+    busy: AtomicBool,
+    instance: UnsafeCell<Instance>,
+}
+
+struct Release<'a>(&'a AtomicBool);
+
+impl Drop for Release<'_> {
+    fn drop(&mut self) {
+        self.0.store(false, Ordering::Release);
+    }
+}
+
+impl Component {
+    /// Gives `instance` to the host.
+    pub fn into_pointer(instance: Instance) -> ComponentPointer {
+        Box::into_raw(Box::new(Self { busy: AtomicBool::new(false), instance: UnsafeCell::new(instance) })).cast()
+    }
+
+    fn enter(&self) -> Option<Release<'_>> {
+        (!self.busy.swap(true, Ordering::Acquire)).then(|| Release(&self.busy))
+    }
+}
+
+/// Carries out `call` on the instance behind `component` if its state allows it; logs an error and returns the status.
+///
+/// # Safety
+/// `component` is NULL or comes from fmi2Instantiate and was not freed.
+pub unsafe fn run(
+    component: ComponentPointer,
+    call: Call,
+    body: impl FnOnce(&mut Instance, &HostMemory) -> CallResult,
+) -> Status {
+    if component.is_null() || !component.cast::<Component>().is_aligned() {
+        return Status::Error;
+    }
+    // SAFETY: not NULL, so it comes from `Component::into_pointer` by the caller's promise; shared access only
+    let component = unsafe { &*component.cast::<Component>() };
+    let Some(_release) = component.enter() else { return Status::Error };
+    // SAFETY: `busy` was clear and is set until `_release` is dropped, so no other reference to the instance exists
+    let instance = unsafe { &mut *component.instance.get() };
+    let outcome = panic_guard::catch(|| {
+        call.check(instance.now.phase)?;
+        HostMemory::during_call(|host| body(instance, host))
+    });
+    match outcome {
+        Ok(Ok(())) => Status::Ok,
+        failed => report(instance, call, failed),
+    }
+}
+
+/// Logs why a call failed and returns its status.
+#[cold]
+fn report(instance: &mut Instance, call: Call, outcome: Result<CallResult, String>) -> Status {
+    let error = match outcome {
+        Ok(Ok(())) => return Status::Ok,
+        Ok(Err(error)) => error,
+        Err(panic) => {
+            instance.fail();
+            CallError::error(format!(
+                "internal error, please report: {panic}; only fmi2Reset or fmi2SetFMUstate help now"
+            ))
+        }
+    };
+    instance.log.status(error.status, &format!("{}: {}", call.name(), error.message));
+    error.status
+}
+
+/// Frees the instance behind `component`.
+///
+/// # Safety
+/// As `run`, and `component` is not used again.
+pub unsafe fn free(component: ComponentPointer) {
+    if component.is_null() || !component.cast::<Component>().is_aligned() {
+        return;
+    }
+    let component = component.cast::<Component>();
+    // SAFETY: as in `run`; an instance whose call still runs is never freed
+    if unsafe { &*component }.enter().map(std::mem::forget).is_some() {
+        // SAFETY: it came from `Box::into_raw`, no call is running, and none follows
+        let _ = panic_guard::catch(|| drop(unsafe { Box::from_raw(component) }));
+    }
+}

@@ -1,0 +1,49 @@
+//! An allocator that counts what a thread allocates. A test program installs it with `#[global_allocator]`.
+#![allow(dead_code)] // each test file uses a part
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    static LIVE_BYTES: Cell<isize> = const { Cell::new(0) };
+}
+
+/// Number of allocations of this thread.
+pub fn allocations() -> usize {
+    ALLOCATIONS.get()
+}
+
+/// Bytes that this thread allocated and did not free.
+pub fn live_bytes() -> isize {
+    LIVE_BYTES.get()
+}
+
+fn count(allocations: usize, bytes: isize) {
+    ALLOCATIONS.set(ALLOCATIONS.get() + allocations);
+    LIVE_BYTES.set(LIVE_BYTES.get() + bytes);
+}
+
+/// The system's allocator, with counters.
+pub struct CountingAllocator;
+
+// SAFETY: passes everything to the system's allocator; counting allocates nothing
+unsafe impl GlobalAlloc for CountingAllocator {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(1, layout.size() as isize);
+        // SAFETY: the caller's promise
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        count(0, -(layout.size() as isize));
+        // SAFETY: the caller's promise
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        count(1, size as isize - layout.size() as isize);
+        // SAFETY: the caller's promise
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}

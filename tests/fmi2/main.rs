@@ -1,0 +1,26 @@
+//! The C functions as hosts call them, a topic per file. One program, so that it is linked once.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod aliasing;
+mod allocation;
+mod calls;
+mod derivatives;
+mod directional_derivatives;
+mod exchange;
+mod exchange_errors;
+mod exchange_events;
+mod instances;
+mod leaks;
+mod logging;
+mod solver;
+mod stack;
+mod states;
+mod stepping;
+mod straight_case;
+mod values;
+
+/// Counts per thread, for the tests of allocations and leaks.
+#[global_allocator]
+static ALLOCATOR: common::counting_allocator::CountingAllocator = common::counting_allocator::CountingAllocator;
