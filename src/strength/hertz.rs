@@ -63,11 +63,6 @@ impl LineContact {
         (radius > LEAST_RADIUS * at(0.0)).then_some(radius)
     }
 
-    /// Radii of curvature [m] of planet and side gear at cone distance `cone` [m] and place `s` [rad].
-    pub fn radii(&self, cone: f64, s: f64) -> [f64; 2] {
-        [self.pitch_arc[0] + s, self.pitch_arc[1] - s].map(|psi| cone * crate::numeric::tan(psi))
-    }
-
     /// Load per width of a line law w [N/m] at cone distance `cone` [m] under the pair's normal force [N].
     pub fn line_load(&self, force: f64, cone: f64) -> f64 {
         2.0 * force * cone / (self.ends[1] * self.ends[1] - self.ends[0] * self.ends[0])
@@ -123,7 +118,7 @@ mod tests {
     fn the_short_form_of_the_curvature_is_the_sum_of_both() {
         let c = contact();
         for s in [-0.15, 0.0, 0.2] {
-            let [p, g] = c.radii(30e-3, s);
+            let [p, g] = [c.pitch_arc[0] + s, c.pitch_arc[1] - s].map(|psi| 30e-3 * psi.tan());
             let tau = c.relative_radius(s).unwrap();
             assert!((30e-3 * tau * (1.0 / p + 1.0 / g) - 1.0).abs() < 1e-14);
         }

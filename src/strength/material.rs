@@ -35,16 +35,6 @@ impl SnCurve {
         Self { strength: self.strength * factor, ..self }
     }
 
-    /// The same with Haibach's slope 2k − 1 below the knee.
-    pub fn haibach(self) -> Self {
-        Self { endurance_slope: Some(2.0 * self.slope - 1.0), ..self }
-    }
-
-    /// The same with an endurance limit: no damage below the knee.
-    pub fn endless(self) -> Self {
-        Self { endurance_slope: None, ..self }
-    }
-
     /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
     ///
     /// Above the static strength the standard states no life; the slope is continued, so that sums stay smooth.
@@ -59,27 +49,6 @@ impl SnCurve {
             Some(k) => (pow(ratio, k) / self.reference_cycles).clamp(0.0, 1.0),
             None => 0.0,
         }
-    }
-
-    /// Cycles to failure N_f at `stress` [Pa]; infinite where no cycle does damage.
-    pub fn cycles_to_failure(&self, stress: f64) -> f64 {
-        let damage = self.damage_per_cycle(stress);
-        if damage > 0.0 { 1.0 / damage } else { f64::INFINITY }
-    }
-
-    /// Stress [Pa] at which `damage` is done per cycle: the inverse of [`Self::damage_per_cycle`].
-    pub fn stress_of_damage(&self, damage: f64) -> f64 {
-        let relative = damage * self.reference_cycles;
-        if relative.is_nan() || relative <= 0.0 {
-            return 0.0;
-        }
-        let slope = if relative >= 1.0 { Some(self.slope) } else { self.endurance_slope };
-        slope.map_or(self.strength, |k| self.strength * pow(relative, 1.0 / k))
-    }
-
-    /// Strength at the low-cycle end [Pa]: more breaks the tooth, or dents the flank, at once.
-    pub fn static_strength(&self) -> f64 {
-        self.strength * pow(self.reference_cycles / self.static_cycles, 1.0 / self.slope)
     }
 }
 

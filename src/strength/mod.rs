@@ -4,7 +4,6 @@
 //! [`Rating`] holds what is constant for a pair of gears, [`ToothDamage`] what grows; [`Rainflow`] counts the load of
 //! teeth that stand still in mesh.
 
-pub mod agma;
 pub mod counting;
 mod damage;
 pub mod hertz;
@@ -21,7 +20,7 @@ pub use damage::{FlankDamage, Load, ToothDamage};
 pub use hertz::LineContact;
 pub use material::{Material, SnCurve};
 pub use mean_stress::pulsating_range;
-pub use miner::{Bin, Damage};
+pub use miner::Damage;
 pub use rainflow::{Cycle, Rainflow};
 pub use rating::Rating;
 pub use root_stress::{LoadFactors, RootStress};

@@ -78,14 +78,6 @@ impl ToothErrors {
         gap
     }
 
-    /// The part of the gap that the tooth pair has everywhere [m]: that of pitch deviations, as it is at R_m. In
-    /// [`Self::gap`] it grows with R, being a rotation of the teeth about their axes.
-    #[inline]
-    pub fn per_tooth(&self, mesh: MeshId, pair: PairId) -> f64 {
-        let (mesh, pair) = self.in_range(mesh, pair);
-        self.pitch.as_ref().map_or(0.0, |pitch| pitch.gap(mesh, pair))
-    }
-
     /// How far the teeth of planet (`gear` = 0) or side gear (1) number `index` stand off its axis [m], and in which azimuth
     /// from the centre of tooth 0, in the direction in which teeth are numbered [rad].
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
@@ -107,11 +99,6 @@ impl ToothErrors {
         self.pitch.is_some()
             || self.runout.is_some()
             || self.misalignment.as_ref().is_some_and(Misalignment::is_individual)
-    }
-
-    /// Whether the gap of every pair is zero everywhere.
-    pub fn is_perfect(&self) -> bool {
-        self.pitch.is_none() && self.misalignment.is_none() && self.is_uniform_over_face()
     }
 
     #[inline]

@@ -149,11 +149,6 @@ impl SolidMesh {
         self.slices.len()
     }
 
-    /// Softness ε of the greatest overlap [rad].
-    pub fn softness(&self) -> f64 {
-        self.soft.width
-    }
-
     /// Visits each section of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
     #[inline]
     fn sections<T: Smooth>(

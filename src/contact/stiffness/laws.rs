@@ -99,12 +99,6 @@ impl LineWeber {
         Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
     }
 
-    /// Largest line load per cone distance at which the half width of contact is within half the depth of the teeth's
-    /// middles everywhere on the path [N/m²].
-    pub fn limit_load(&self) -> f64 {
-        self.limit
-    }
-
     /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and place `s` [rad], and the tangent dω/dp.
     fn load(&self, p: f64, q: f64) -> (f64, f64, bool) {
         let ratio = q * self.per_local;

@@ -19,12 +19,9 @@ pub use section::{Load, RootSpec, Section, SectionSpec};
 
 use crate::geometry::Pair;
 use crate::geometry::corner::CLIP_MARGIN;
-use crate::numeric::{FRAC_PI_2, Jet};
+use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
 use table::Table;
-
-/// Usual reference line load [N/m] at the mean cone distance.
-pub const REFERENCE_LINE_LOAD: f64 = 400e3;
 
 /// A place where a tooth is thinner along the load than this many modules is no beam.
 const LEAST_DEPTH: f64 = 0.05;
@@ -141,11 +138,6 @@ impl PairStiffness {
             sum += weight / line.compliance(s);
         }
         sum * length / (3.0 * MEAN_INTERVALS as f64 * self.base_pitch)
-    }
-
-    /// Compliance q [1/Pa] under the limit load ω₀ with its derivatives by place, from the table.
-    pub fn limit_compliance(&self, s: f64) -> Jet {
-        self.table.at(s)
     }
 }
 

@@ -212,11 +212,6 @@ impl Section {
         let height = self.base_radius / cos(angle);
         Load { angle, depth: roll + self.base_radius * tan(angle), height, lever: height - self.root_height }
     }
-
-    /// Roll length at the tip circle [m].
-    pub fn tip_roll(&self) -> f64 {
-        sqrt((self.tip_radius - self.base_radius) * (self.tip_radius + self.base_radius))
-    }
 }
 
 #[cfg(test)]

@@ -44,12 +44,6 @@ pub(super) fn of_sectors(pair: &Pair, spec: &GearSpec, gear: usize, density: f64
 }
 
 impl GearSolid {
-    /// Enclosed volume [m³]: the sum of the tetrahedra that the triangles make with the apex.
-    pub fn volume(&self) -> f64 {
-        let corner = |i: u32| self.vertices[i as usize];
-        self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
-    }
-
     /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
     pub fn mass(&self, density: f64) -> GearMass {
         let vertices: Vec<Vector> = self.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
