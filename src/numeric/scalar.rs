@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{cos, pow, sin, sqrt};
 
-/// What a formula may do with its quantities: done by `f64` for values alone, by [`Dual`] for values with derivatives.
+/// Operations of formulas: implemented by `f64` for values alone, by [`Dual`] for values with derivatives.
 pub trait Scalar:
     Copy
     + Add<Output = Self>
@@ -16,7 +16,7 @@ pub trait Scalar:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Whether derivatives come with the values.
+    /// Whether values carry derivatives.
     const HAS_SLOPES: bool;
     /// A constant.
     fn constant(value: f64) -> Self;

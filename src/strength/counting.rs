@@ -1,4 +1,4 @@
-//! How often a tooth is loaded: rolling of a gear relative to the carrier, and which of its flanks a mesh loads.
+//! Load cycles of a tooth: rolling of a gear relative to the carrier, and the flank that a mesh loads.
 //!
 //! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier: a planet's tooth once by
 //! the left and once by the right side gear, on opposite flanks (it is an idler); a side gear's tooth N times, on the
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::numeric::TAU;
 
-/// Rolling of a gear, with the play of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
+/// Rolling of a gear with a dead band of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
 ///
 /// The window of one pitch is pushed along by the gear's angle; only what pushes it counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

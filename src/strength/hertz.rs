@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Pair;
 use crate::numeric::{PI, sin, sqrt};
 
-/// Least curvature radius at which the formula is used, as a part of the pitch point's: nearer to a base circle the
-/// radius goes to zero and the flank is no longer a cylinder in the width of the contact.
+/// Least curvature radius for the formula, relative to that at the pitch point: nearer to a base circle the radius tends
+/// to zero and the flank is no longer a cylinder over the width of the contact.
 const LEAST_RADIUS: f64 = 1e-3;
 
 /// Line contact of a planet with a side gear.
@@ -70,7 +70,7 @@ impl LineContact {
 
     /// Pressure [Pa] of a load per width [N/m] at cone distance `cone` [m] and place `s` [rad].
     ///
-    /// 0 without load; `None` where a radius vanishes or a value makes no sense.
+    /// 0 without load; `None` where a radius vanishes or a value is not finite.
     pub fn pressure_at(&self, line_load: f64, cone: f64, s: f64) -> Option<f64> {
         self.pressure_on(line_load, cone * self.relative_radius(s)?)
     }
@@ -94,11 +94,11 @@ impl LineContact {
         self.pressure_at(self.line_load(force, self.mean_cone), self.mean_cone, s)
     }
 
-    /// Pressure [Pa] that a rating counts with: one pair carries the mesh's whole normal force `force` [N] at the worse
+    /// Pressure [Pa] used in a rating: one pair carries the mesh's whole normal force `force` [N] at the worse
     /// inner point of single contact (ISO 10300-2:2001, Z_M-B of teeth without overlap).
     ///
     /// S–N curves for pitting are meant for this pressure. That of a pair near the end of the path is higher, as the
-    /// radius vanishes toward the base circle, but it stands where sliding wears and relief unloads the flank.
+    /// radius vanishes toward the base circle, but it occurs where sliding wears and relief unloads the flank.
     pub fn rated_pressure(&self, force: f64) -> Option<f64> {
         let [a, b] = self.single.map(|s| self.pressure(force, s));
         Some(a?.max(b?))

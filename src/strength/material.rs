@@ -1,4 +1,4 @@
-//! S–N curves of carburised steel, as ISO 6336-5 and ISO 6336-2/-3 draw them for quality MQ.
+//! S–N curves of carburised steel by ISO 6336-5 and ISO 6336-2/-3 for quality MQ.
 //!
 //! N_f = N_ref (S/σ)^k. The knee is at N_ref and the strength S; the slope k follows from the life factor at the
 //! low-cycle end, k = ln(N_ref/N_static)/ln Y_NT.
@@ -24,7 +24,7 @@ pub struct SnCurve {
 
 impl SnCurve {
     /// Curve through `strength` [Pa] at `reference_cycles` and `life_factor` times it at `static_cycles`; below the knee
-    /// it goes on with the same slope, which errs on the safe side.
+    /// it continues with the same slope, which is conservative.
     pub fn through(strength: f64, reference_cycles: f64, life_factor: f64, static_cycles: f64) -> Self {
         let slope = libm::log(reference_cycles / static_cycles) / libm::log(life_factor);
         Self { strength, slope, reference_cycles, static_cycles, endurance_slope: Some(slope) }
@@ -38,7 +38,6 @@ impl SnCurve {
     /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
     ///
     /// Above the static strength the standard states no life; the slope is continued, so that sums stay smooth.
-    /// Whether the static strength is exceeded is a question of its own: [`Self::static_strength`].
     pub fn damage_per_cycle(&self, stress: f64) -> f64 {
         let ratio = stress / self.strength;
         if ratio.is_nan() || ratio <= 0.0 {
@@ -52,7 +51,7 @@ impl SnCurve {
     }
 }
 
-/// What a gear's teeth bear.
+/// Strength of a gear's teeth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Root bending, pulsating load.

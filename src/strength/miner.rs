@@ -1,4 +1,4 @@
-//! Palmgren–Miner: D = Σ n_i/N_f(σ_i), failure expected at D = 1; and the constant load that does the same.
+//! Palmgren–Miner: D = Σ n_i/N_f(σ_i), failure expected at D = 1.
 
 use serde::{Deserialize, Serialize};
 

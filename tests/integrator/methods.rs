@@ -1,7 +1,7 @@
 //! Every method with what theory says of it, and how the tests run it.
 
 use bevel_differential::integrate::{
-    Aim, Control, DormandPrince, Effort, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
+    Control, DormandPrince, Effort, ErrorNorm, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
     SecondOrder, Statistics, Trial, advance,
 };
 
@@ -94,8 +94,8 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
         let (acceleration, power) = s.evaluate_at(at, time);
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
     };
-    let aim = Aim { weights: s.weights(at), tolerance: ITERATE };
-    M::METHOD.step(s, (at, time), &lin, h, &aim, &mut Statistics::default()).unwrap()
+    let norm = ErrorNorm { weights: s.weights(at), tolerance: ITERATE };
+    M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()
 }
 
 /// `count` equal steps over `length`.

@@ -80,7 +80,7 @@ impl Directions {
             let tangent = psi[i].sin() / psi[i].cos();
             if tangent.value() > 1e-6 { tangent * r } else { T::constant(1e-6 * r) }
         });
-        // the contact point moves across the profile, so that these are the flanks' own speeds along it
+        // speeds of the flanks relative to the contact point, which moves across the profile
         let rolling = own[0] + own[1];
         let load = normal * (1.0 / slice.width);
         let mu = friction.signed(&Sliding { sliding, rolling, load, curvature });

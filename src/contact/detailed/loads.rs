@@ -10,7 +10,7 @@ pub struct DetailedState<T> {
     pub position: [T; 3],
     /// Their rates.
     pub rate: [T; 3],
-    /// Pairs by which the planet has been wrapped, in the sense of x.
+    /// Tooth pairs by which the planet's position was wrapped, positive with x.
     pub wrapped: i64,
 }
 
@@ -31,7 +31,7 @@ pub struct DetailedLoad<T> {
     pub heat: [f64; 2],
 }
 
-/// One loaded slice of one tooth pair, for those who look at loads one by one.
+/// One loaded slice of one tooth pair, for outputs of single loads.
 #[derive(Clone, Copy, Debug)]
 pub struct SliceLoad<'a> {
     /// The pair.
@@ -42,7 +42,7 @@ pub struct SliceLoad<'a> {
     pub place: f64,
     /// Cone distance [m].
     pub cone: f64,
-    /// Part of the face that the slice stands for, by its share of J.
+    /// Fraction of the face that the slice represents, by its share of J.
     pub share: f64,
     /// Normal force per width [N/m].
     pub line_load: f64,
@@ -52,13 +52,13 @@ pub struct SliceLoad<'a> {
     pub s: f64,
     /// Elastic energy [J].
     pub energy: f64,
-    /// Number of the planet's tooth, of the unrolled sequence.
+    /// Teeth in contact, of the unrolled sequence.
     pub name: PairName,
     /// Normal force [N].
     pub normal: f64,
     /// Friction force along the flank, positive toward the planet's root on the planet [N].
     pub friction: f64,
-    /// How the flanks slide, where friction is looked at.
+    /// Sliding of the flanks, if friction is modelled.
     pub sliding: Option<Sliding<f64>>,
     /// Direction parts of the normal: along the planet's axis, along the side gear's axis, along the rotation.
     pub parts: [f64; 3],
@@ -77,9 +77,9 @@ pub struct Slice {
 
 /// What tooth errors add to the gap of a pair, slice by slice [m].
 pub trait Gaps: Send + Sync + std::fmt::Debug {
-    /// Gap e with its first and, where it is asked for, second derivative by s.
+    /// Gap e with its first and, if `twice`, its second derivative by s.
     fn at(&self, pair: PairName, slice: usize, s: f64, twice: bool) -> [f64; 3];
-    /// A gap that no pair falls below (zero or negative).
+    /// Lower bound of all gaps (zero or negative).
     fn least(&self) -> f64;
 }
 

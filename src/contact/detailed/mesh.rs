@@ -24,7 +24,7 @@ pub struct Detailed<S> {
     pub friction: Option<ToothFriction>,
     directions: Directions,
     whole: f64,
-    /// Cone distance of the resultant of error-free teeth [m]: damping is that of the whole face, shared out.
+    /// Cone distance of the resultant of error-free teeth [m]: damping is that of the whole face, distributed over the slices.
     resultant: f64,
 }
 
@@ -57,7 +57,7 @@ impl<S: Spring> Detailed<S> {
         moment / self.resultant
     }
 
-    /// Loads at `state`; each loaded slice is shown to `look`.
+    /// Loads at `state`; calls `look` with each loaded slice.
     #[inline(always)]
     pub fn load<T: Scalar>(
         &self,
@@ -77,7 +77,7 @@ impl<S: Spring> Detailed<S> {
             heat: [0.0; 2],
         };
         let [q, x, w] = state.position;
-        // what may close a gap beyond the approach of error-free teeth
+        // closes gaps beyond the approach of error-free teeth
         let slack = gaps.map_or(0.0, |g| -g.least()) + (-w.value()).max(0.0);
         let inner = self.slices[0].cone;
         for (flank, sign) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)] {
@@ -93,7 +93,7 @@ impl<S: Spring> Detailed<S> {
                     Flank::Coast => -(pair.number + state.wrapped),
                 };
                 let name = PairName { planet, side, flank, tooth };
-                // the place of a mesh that knows no pairs stays
+                // without tooth pairs the place does not move
                 let s = (x - x.value()) * pair.s_slope + pair.s;
                 self.add_pair(&mut out, engagement, gaps, name, pair, (s, approach, w), state, &mut look);
             };

@@ -1,8 +1,8 @@
-//! A tooth that has lost a piece: where material is missing the gap is the depth removed, and nothing touches.
+//! Broken tooth: where material is missing the gap is the removed depth, and nothing touches.
 //!
 //! Under the laws that integrate over the face the piece covers the slices beyond R_e − f b, f its fraction of the face
-//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece is gone
-//! at once: on both flanks, in every mesh the tooth comes to, and for good.
+//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece
+//! breaks off instantly and permanently, on both flanks and in every mesh of the tooth.
 
 use super::spec::{FaultyGear, ToothFaultSpec};
 use super::{MeshId, PairId};
@@ -44,7 +44,7 @@ impl Chip {
         }))
     }
 
-    /// Time at which the piece breaks off by itself [s], if it does.
+    /// Time at which the piece breaks off without a trigger [s], if it does.
     pub fn onset(&self) -> Option<f64> {
         (self.onset > 0.0).then_some(self.onset)
     }
@@ -63,7 +63,7 @@ impl Chip {
         if r > self.from { self.depth } else { 0.0 }
     }
 
-    /// Gap [m] of a pair at cone distance `r` [m] once the piece is gone.
+    /// Gap [m] of a pair at cone distance `r` [m] after the piece broke off.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64) -> f64 {
         if self.is_in(mesh, pair) { self.missing(r) } else { 0.0 }

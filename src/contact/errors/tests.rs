@@ -37,7 +37,7 @@ fn all() -> ToothErrorSpec {
 }
 
 #[test]
-fn perfect_teeth_have_no_gap() {
+fn error_free_teeth_have_no_gap() {
     let perfect = errors(ToothErrorSpec::default(), 2);
     assert!(perfect.is_uniform_over_face() && !perfect.is_individual());
     for s in [-0.3, 0.0, 0.2] {
@@ -46,7 +46,7 @@ fn perfect_teeth_have_no_gap() {
 }
 
 #[test]
-fn parts_add_up_and_say_what_they_are() {
+fn errors_add_up_and_report_whether_they_are_uniform_or_individual() {
     let none = ToothErrorSpec::default();
     let a = all();
     let parts = [
@@ -133,7 +133,7 @@ fn misalignment_follows_its_closed_forms() {
 }
 
 #[test]
-fn runout_is_one_wave_per_revolution_with_the_eccentricity_for_amplitude() {
+fn runout_is_one_wave_per_revolution_with_the_eccentricity_as_amplitude() {
     let p = pair();
     for (gear, spec) in [
         (0, ToothErrorSpec { planet_runout: 40e-6, ..ToothErrorSpec::default() }),

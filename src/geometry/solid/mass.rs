@@ -1,7 +1,7 @@
-//! What a gear weighs: volume, mass and moments of inertia of its solid, by parry3d.
+//! Mass properties of a gear: mass and moments of inertia of its solid, by parry3d.
 //!
-//! The solid is the one that is exported (`manifold`). A gear is z of one tooth's sectors: of the sector's mass z times as
-//! much, and so of its moments about the axis and the apex, of those across the axis the mean of any two at a right angle.
+//! The solid is the one that is exported (`manifold`). A gear consists of z sectors of one tooth: its mass and
+//! its moments about the axis and the apex are z times the sector's; across the axis the mean of any two at a right angle.
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
