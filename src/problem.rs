@@ -7,7 +7,7 @@ use std::fmt;
 pub struct Problem {
     /// Dotted name of the offending variable, e.g. `geometry.module`.
     pub variable: &'static str,
-    /// What is wrong: value, unit, allowed range and, where the mistake is known, a hint.
+    /// The error: value, unit, allowed range and, where the cause is known, a hint.
     pub message: String,
 }
 

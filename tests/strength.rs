@@ -130,7 +130,7 @@ fn root_stress_is_linear_in_force_and_factors_and_total() {
 }
 
 #[test]
-fn a_tooth_without_a_root_is_refused_not_computed() {
+fn a_tooth_without_a_root_has_no_form() {
     let sound = Profile::of(&default_pair(), 0, 0.25);
     let wrong = |change: &dyn Fn(&mut Profile)| {
         let mut profile = sound;

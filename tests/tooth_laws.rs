@@ -160,7 +160,7 @@ fn the_table_equals_the_formulas_within_a_millionth() {
         }
     };
     compare("golden".into(), &golden());
-    // the planet undercut: the path is clipped where Hertz's logarithm runs off
+    // the planet undercut: the path is clipped where Hertz's logarithm diverges
     let clipped = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
     assert_eq!(Pair::new(&clipped).path.clipped, [true, false]);
     compare("clipped".into(), &stiffness(&clipped, 0.25));
@@ -174,7 +174,7 @@ fn the_table_equals_the_formulas_within_a_millionth() {
 }
 
 #[test]
-fn every_buildable_pair_is_stiff_or_told_why_not() {
+fn every_buildable_pair_has_a_stiffness_or_an_error_with_its_cause() {
     let (mut sound, mut refused, mut cut) = (0, std::collections::BTreeMap::new(), 0);
     for spec in random_pairs(1).filter(buildable).take(1500) {
         let pair = Pair::new(&spec);

@@ -98,7 +98,7 @@ impl Action {
 
     /// Turns a contact's vectors from the frame of the mesh into that of gear `i`: z along its axis from apex to heel, x
     /// along the middle of the tooth from which `tooth_azimuth` [rad] counts to the tooth in contact. What lies on the
-    /// flank at the same height in the frame of the mesh comes to lie on the error-free flank of that tooth.
+    /// flank at the same height in the frame of the mesh then lies on the error-free flank of that tooth.
     pub fn in_gear(&self, contact: &Contact, i: usize, tooth_azimuth: f64, turn: f64) -> Contact {
         let angle = self.rotation(contact, i, tooth_azimuth, turn);
         let [axis, toward] = self.axes(i);
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_continue_the_path_and_their_normals_have_the_levers_of_the_gap() {
+    fn corners_continue_the_path_and_their_normals_have_the_moment_arms_of_the_gap() {
         for (z_p, z_s) in [(10, 16), (9, 14), (14, 14)] {
             let pair = Pair::new(&GearSpec { planet_teeth: z_p, side_teeth: z_s, ..GearSpec::default() });
             let action = Action::new(&pair);

@@ -2,8 +2,8 @@
 //!
 //! With Δ the arc by which the gear with the corner has turned past the end of the path, the corner stands at azimuth
 //! χ = χ_end + Δ/sinδ_b1 about its own axis. Spherical trigonometry gives its polar angle φ₂ and azimuth η about the
-//! mate's axis; the mate's flank passes through it when the mate is turned by θ₂ = η − inv₂(φ₂) + inv₂(δ₂). What is
-//! left to the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂: zero with zero slope at the path's end, ≈ cΔ².
+//! mate's axis; the mate's flank passes through it when the mate is turned by θ₂ = η − inv₂(φ₂) + inv₂(δ₂). The
+//! difference to the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂: zero with zero slope at the path's end, ≈ cΔ².
 //!
 //! The closed form costs five transcendental functions. The hot path reads a quintic Hermite table made from its
 //! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.

@@ -48,7 +48,7 @@ pub struct Step<'a, const N: usize, P> {
 /// Decision of the observer after an accepted step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on to the end of the interval.
+    /// Continue to the end of the interval.
     Continue,
     /// Stop here: the equations change.
     Stop,

@@ -74,7 +74,7 @@ mod tests {
     fn solution_satisfies<const N: usize>(random: &mut impl FnMut() -> f64) {
         let mut m: Matrix<N> = std::array::from_fn(|_| std::array::from_fn(|_| random()));
         for i in 0..N {
-            m[i][i] += N as f64; // as a step's matrix, it is led by its diagonal
+            m[i][i] += N as f64; // dominated by its diagonal, like a step's matrix
         }
         let b: [f64; N] = std::array::from_fn(|_| random());
         let mut x = b;

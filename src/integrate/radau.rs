@@ -102,7 +102,7 @@ impl Method for Radau {
                 combine(&mut z[i], &T[i], 1.0, &w);
             }
 
-            // changes shrink by about the same factor each time: what is to come is a geometric series
+            // changes shrink by about the same factor each time: the remaining ones are a geometric series
             let size = norm.size(&change[0]).max(norm.size(&change[1])).max(norm.size(&change[2]));
             let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
             if !sum.is_finite() {

@@ -2,7 +2,7 @@
 //!
 //! G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
-//! smooth forcing (Prothero–Robinson), which is what a damped mesh rolling through its tooth cycle is.
+//! smooth forcing (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle.
 
 use super::method::{ErrorNorm, Method, Trial};
 use super::rosenbrock::{self, Tableau};

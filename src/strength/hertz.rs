@@ -24,7 +24,7 @@ pub struct LineContact {
     /// Mean cone distance R_m [m].
     pub mean_cone: f64,
     /// Inner and outer cone distance R_i, R_e [m].
-    pub ends: [f64; 2],
+    pub cone_range: [f64; 2],
     /// Arcs ψ from the tangent points of planet and side gear to the pitch point [rad].
     pub pitch_arc: [f64; 2],
     /// Ends of the path of contact [rad].
@@ -40,7 +40,7 @@ impl LineContact {
         Self {
             modulus: young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio)),
             mean_cone: pair.mean_cone,
-            ends: [pair.inner_cone, pair.outer_cone],
+            cone_range: [pair.inner_cone, pair.outer_cone],
             pitch_arc: pair.pitch_arc,
             path: [pair.path.low, pair.path.high],
             single: [pair.path.high - pair.base_pitch, pair.path.low + pair.base_pitch],
@@ -65,7 +65,7 @@ impl LineContact {
 
     /// Load per width of a line law w [N/m] at cone distance `cone` [m] under the pair's normal force [N].
     pub fn line_load(&self, force: f64, cone: f64) -> f64 {
-        2.0 * force * cone / (self.ends[1] * self.ends[1] - self.ends[0] * self.ends[0])
+        2.0 * force * cone / (self.cone_range[1] * self.cone_range[1] - self.cone_range[0] * self.cone_range[0])
     }
 
     /// Pressure [Pa] of a load per width [N/m] at cone distance `cone` [m] and place `s` [rad].
@@ -127,9 +127,9 @@ mod tests {
     #[test]
     fn a_line_law_presses_evenly_over_the_face_and_as_impact_does() {
         let c = contact();
-        for cone in [c.ends[0], 30e-3, c.ends[1]] {
+        for cone in [c.cone_range[0], 30e-3, c.cone_range[1]] {
             let p = c.pressure_at(c.line_load(5e3, cone), cone, 0.1).unwrap();
-            let b = c.ends[1] - c.ends[0];
+            let b = c.cone_range[1] - c.cone_range[0];
             let impact = c.pressure_at(5e3 / b, c.mean_cone, 0.1).unwrap();
             assert!((p / impact - 1.0).abs() < 1e-14);
         }

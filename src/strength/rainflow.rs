@@ -76,8 +76,8 @@ impl Rainflow {
         }
     }
 
-    /// Calls `visit` with what is left as half cycles, the present value taken as the last turning point; the history
-    /// itself stays as it is and may go on.
+    /// Calls `visit` with the remaining half cycles, the present value taken as the last turning point; the history itself is
+    /// unchanged and may continue.
     pub fn rest(&self, mut visit: impl FnMut(Cycle)) {
         let mut last = *self;
         last.limit_fields();

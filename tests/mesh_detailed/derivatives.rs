@@ -11,7 +11,7 @@ use crate::setup::{
 };
 
 #[test]
-fn force_is_minus_the_gradient_of_the_energy_with_gaps_and_seats_that_give_way() {
+fn force_is_minus_the_gradient_of_the_energy_with_gaps_and_displaced_gears() {
     let waves = Waves { size: 1e-5 };
     for kind in KINDS {
         let mut random = Lcg(23);

@@ -15,7 +15,7 @@ fn turning(pair: &Pair, state: &DetailedState<f64>) -> [f64; 2] {
 }
 
 #[test]
-fn friction_takes_the_power_of_sliding_flanks() {
+fn friction_dissipates_the_power_of_sliding_flanks() {
     const MU: f64 = 0.07;
     let (mut worst, mut shares) = (0.0f64, 0);
     for kind in [Kind::Impact, Kind::Line, Kind::LineWeber] {
@@ -73,7 +73,7 @@ fn line_of_action(pair: &Pair) -> (V3, V3, [V3; 2]) {
 }
 
 #[test]
-fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_lever_arms() {
+fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arms() {
     const MU: f64 = 0.1;
     let (mut worst_arm, mut worst_power) = (0.0f64, 0.0f64);
     for of in GEARS {
@@ -88,7 +88,7 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_lever_arms
             let state = random_state(&mut random, pair, 0.0);
             let mut slices = Vec::new();
             let with = rough.load(plain.engagement(), None, NAMES, &state, |slice| {
-                // told positive toward the planet's root
+                // reported positive toward the planet's root
                 let tip_ward = -slice.friction;
                 slices.push((slice.s, slice.cone, slice.normal, tip_ward, slice.pair.spot, slice.pair.flank));
             });

@@ -200,7 +200,7 @@ pub fn friction(spec: ToothFrictionSpec) -> ToothFriction {
     ToothFriction { spec, modulus: 2.07e11 / (2.0 * (1.0 - 0.0625)) }
 }
 
-/// All that a load tells.
+/// All readings of a load.
 pub fn readings<T: Scalar>(load: &DetailedLoad<T>) -> [T; 7] {
     let [q, x, w] = load.force;
     [q, x, w, load.normal, load.planet_axial, load.side_axial, load.tangential]

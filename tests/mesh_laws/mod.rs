@@ -36,7 +36,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether the law knows tooth pairs.
+    /// Whether the law acts on tooth pairs.
     pub fn has_pairs(self) -> bool {
         self != Kind::Lumped
     }

@@ -42,7 +42,7 @@ fn energy_is_the_same_a_base_pitch_further() {
 }
 
 #[test]
-fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
+fn without_corner_contact_each_pair_on_the_path_carries_the_whole_approach() {
     let mut random = Lcg(17);
     for (mesh, pair) in impact_meshes(0.0, false) {
         for _ in 0..STATES {
@@ -53,7 +53,7 @@ fn without_corner_contact_each_pair_on_the_path_bears_the_whole_approach() {
             let (low, high) = (-mesh.engagement.corner[1].end, mesh.engagement.corner[0].end);
             let count =
                 (-20..=20).filter(|&k| (low..=high).contains(&(start + f64::from(k) * pair.base_pitch))).count();
-            let Law::Impact(law) = &mesh.law else { panic!("IMPACT was asked for") };
+            let Law::Impact(law) = &mesh.law else { panic!("the law is IMPACT") };
             let expected = count as f64 * law.energy(mesh.cone * approach);
             let energy = mesh.energy(&at([q, x]));
             assert!((energy - expected).abs() <= 1e-12 * expected, "{q} {x}: {energy} {expected}");

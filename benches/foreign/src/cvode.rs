@@ -1,4 +1,4 @@
-//! Callbacks of CVODE (SUNDIALS), and a loop that lets it step.
+//! Callbacks of CVODE (SUNDIALS), and a loop over its steps.
 
 use std::ffi::{c_int, c_void};
 
@@ -8,10 +8,10 @@ use crate::run::{Entries, MatrixData, Run};
 /// `int CVode(void *mem, double tout, N_Vector y, double *t, int task)`.
 type Cvode = unsafe extern "C" fn(*mut c_void, f64, *mut c_void, *mut f64, c_int) -> c_int;
 
-/// CV_NORMAL: step past the time asked for and interpolate.
+/// CV_NORMAL: step past the requested time and interpolate.
 const NORMAL: c_int = 1;
 
-/// Tells how to get at the numbers in SUNDIALS' vectors and dense matrices.
+/// Sets the access to the entries of SUNDIALS' vectors and dense matrices.
 ///
 /// # Safety
 /// `run` came from [`foreign_new`]; the functions are those of SUNDIALS.
@@ -25,7 +25,7 @@ pub unsafe extern "C" fn foreign_sundials(run: *mut Run, entries: Entries, data:
 /// CVODE's `CVRhsFn`.
 ///
 /// # Safety
-/// Called by CVODE with vectors of the run's size; `user` is the run, told how to get at them.
+/// Called by CVODE with vectors of the run's size; `user` is the run after [`foreign_sundials`].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, user: *mut c_void) -> c_int {
     guarded(|| {
@@ -71,10 +71,10 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
     })
 }
 
-/// Lets CVODE step to each of `count` times and copies u there to `out`; its first error, or 0.
+/// Steps CVODE to each of `count` times and copies u there to `out`; its first error, or 0.
 ///
 /// # Safety
-/// `step` is `CVode`, `memory` what it works on, `vector` has the run's size; the arrays have room for what is told.
+/// `step` is `CVode`, `memory` what it works on, `vector` has the run's size; the arrays have room for `count` times and states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode(
     run: *mut Run,

@@ -71,7 +71,7 @@ pub unsafe extern "C" fn foreign_start(run: *const Run, u: *mut f64) -> f64 {
     state.time
 }
 
-/// Calls of right-hand side and Jacobian since the last time this was asked.
+/// Calls of right-hand side and Jacobian since the last call of this function.
 ///
 /// # Safety
 /// `run` came from [`foreign_new`]; `counts` has room for two.

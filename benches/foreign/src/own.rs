@@ -5,7 +5,7 @@ use std::ffi::c_int;
 use crate::boundary::guarded;
 use crate::run::{OUTPUTS, Run, outputs};
 
-/// Makes room for `count` times, which is not to be paid for while the clock runs.
+/// Reserves memory for `count` times, outside the timed part.
 ///
 /// # Safety
 /// `run` came from [`foreign_new`].
@@ -44,7 +44,7 @@ pub unsafe extern "C" fn foreign_own(run: *mut Run, times: *const f64, count: us
 /// Outputs at the times that the program's own method reached; returns how many there are. Its account is the message.
 ///
 /// # Safety
-/// `run` came from [`foreign_new`]; `out` has room for [`OUTPUTS`] numbers for each time asked for.
+/// `run` came from [`foreign_new`]; `out` has room for [`OUTPUTS`] numbers for each requested time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_reached(run: *mut Run, out: *mut f64) -> c_int {
     guarded(|| {

@@ -74,7 +74,7 @@ mod tests {
     use crate::geometry::GearSpec;
 
     #[test]
-    fn the_normal_has_unit_length_and_the_base_circles_as_lever_arms() {
+    fn the_normal_has_unit_length_and_the_moment_arms_of_the_base_circles() {
         let pair = Pair::new(&GearSpec { shaft_angle: 1.3, ..GearSpec::default() });
         let normals = ContactNormals::new(&pair);
         for flank in [Flank::Drive, Flank::Coast] {

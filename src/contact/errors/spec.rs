@@ -81,7 +81,7 @@ pub struct ToothFaultSpec {
     pub gear: FaultyGear,
     /// Which planet (0 to N − 1), or which side gear (0 left, 1 right).
     pub index: i32,
-    /// Number of the tooth, from 0, counted as [`super::PairId`] says.
+    /// Number of the tooth, from 0, counted as in [`super::PairId`].
     pub tooth: i32,
     /// Missing part of the face width, from the heel inward: 0 to 1.
     pub missing_fraction: f64,

@@ -55,8 +55,8 @@ pub struct SolidSpec {
     pub displaced: Vec<[Displacement; 2]>,
 }
 
-/// ε in heights of arc, so that the patch has the half-width of most of a facet and hands over from one to the next
-/// without a ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
+/// ε in heights of arc, so that the patch is almost as wide as a facet and passes from one to the next without a
+/// ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
 const SOFTNESS: f64 = 1.25;
 
 /// Upper bound of a flank's length [rad].

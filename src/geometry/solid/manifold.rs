@@ -82,7 +82,7 @@ const ROUNDING: f64 = 1e-9;
 struct NodeRow {
     /// Cone distance R [m].
     cone: f64,
-    /// What crowning takes off the flanks there [m].
+    /// Material that crowning removes from the flanks there [m].
     missing: f64,
 }
 
@@ -100,7 +100,7 @@ impl NodeRow {
     }
 }
 
-/// What the surface of a gear, or of a sector of it, is made from.
+/// Data of the surface of a gear or of a sector of it.
 struct Surface<'a> {
     gear: &'a Gear,
     /// Nodes of a tooth. In a whole gear the last of its outline is left out: it is the first of the next.

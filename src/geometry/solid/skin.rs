@@ -2,7 +2,7 @@
 //!
 //! All faces of the teeth are cones with their apex in the pitch apex. So a band of them about the heel represents them
 //! all, and a length at the cone distance R is R/R_e of that at the heel. Three neighbouring teeth suffice, as every
-//! azimuth folds into the middle one. The ends of the face are left out: whatever of a gear lies within R_i and R_e lies
+//! azimuth folds into the middle one. The ends of the face are left out: everything of a gear between R_i and R_e lies
 //! within these cones, and so do its ends. parry3d works in millimetres; all results are angles from the apex.
 
 use nalgebra::Vector3;

@@ -8,7 +8,7 @@ use super::{GearSolid, Outline, Part, Shape};
 use crate::geometry::involute::direction;
 use crate::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
-/// Gears of all kinds that `checks::errors` lets pass, with what makes them special.
+/// Gears of all kinds without `checks::errors`, with their special property.
 pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {
     let base = GearSpec::default();
     let teeth = |planet_teeth, side_teeth| GearSpec { planet_teeth, side_teeth, ..base };
