@@ -54,7 +54,7 @@ fn run(case: &Case, outputs: &[u32]) -> (f64, f64) {
     let mut ok = true;
     let begin = Instant::now();
     for k in 0..(LENGTH / STEP).round() as u32 {
-        // SAFETY: a live component and arrays of the lengths told
+        // SAFETY: a live component and arrays of the given lengths
         unsafe {
             ok &= fmi2DoStep(host.c, f64::from(k) * STEP, STEP, 1) == Status::Ok;
             ok &= fmi2GetReal(host.c, outputs.as_ptr(), outputs.len(), values.as_mut_ptr()) == Status::Ok;

@@ -1,13 +1,13 @@
-//! What can be wrong with a value: which one, where it may lie, and what to do about it.
+//! Validation errors: the offending variable, its allowed range, and a hint.
 
 use std::fmt;
 
-/// A value that cannot be used, told so that the reader knows what to change.
+/// A validation error with a hint what to change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
     /// Dotted name of the offending variable, e.g. `geometry.module`.
     pub variable: &'static str,
-    /// What is wrong: value, unit, allowed range and, where the mistake is known, a hint.
+    /// The error: value, unit, allowed range and, where the cause is known, a hint.
     pub message: String,
 }
 

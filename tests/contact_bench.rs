@@ -69,7 +69,7 @@ fn a_free_body_is_stopped_at_hertz_depth_by_hertz_force() {
 }
 
 #[test]
-fn a_dead_zone_lets_a_body_swing_as_far_as_its_energy_says() {
+fn a_body_in_a_dead_zone_swings_as_far_as_its_energy_allows() {
     for case in golden()["deadzone_free_period"].as_array().expect("a table") {
         let depth = f(case, "x_max") - f(case, "gap_total") / 2.0;
         let energy = elastic(f(case, "k"), 1.0).energy(depth);

@@ -1,8 +1,8 @@
 //! Gaps by misalignment and runout against explicit flanks that are displaced in space and turned until they touch.
 //!
 //! The planet's flank, and the side gear's, are moved by about a micrometre. Then the side gear's rotation at first touch
-//! on the sphere of radius R is looked for over the whole flank, and compared with that of the undisplaced gears: their
-//! difference, times R sinδ_b, is what the displacement opens. Axes, flanks and displacements are vectors in the world;
+//! on the sphere of radius R is searched for over the whole flank, and compared with that of the undisplaced gears: their
+//! difference, times R sinδ_b, is the gap that the displacement opens. Axes, flanks and displacements are vectors in the world;
 //! nothing here uses the normal, the place of contact, or mirror symmetry.
 
 mod mesh_explicit;
@@ -13,7 +13,7 @@ use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 use mesh_explicit::{Toothed, V3, about, gears};
 use std::f64::consts::{PI, TAU};
 
-/// Size of the displacements [m], small enough that what is left of second order is a thousandth of the gap.
+/// Size of the displacements [m], small enough that second-order terms are a thousandth of the gap.
 const SMALL: f64 = 1e-6;
 
 /// One mesh at side `side` in the world: x along the carrier axis, z the way a planet is carried forward.

@@ -1,4 +1,4 @@
-//! What cannot be built is refused, what is unusual is warned of, and what is usual passes in silence.
+//! Gears that cannot be built give errors, unusual ones warnings, and usual ones no message.
 
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
@@ -37,7 +37,7 @@ fn assert_refused(spec: &GearSpec, words: &[&str]) {
 }
 
 #[test]
-fn usual_gears_pass_in_silence() {
+fn usual_gears_give_no_message() {
     assert_eq!(found(&usual()), (Vec::new(), Vec::new()));
 }
 
@@ -51,19 +51,19 @@ fn standard_addenda_undercut_a_ten_tooth_planet() {
 }
 
 #[test]
-fn a_wide_face_a_pointed_tooth_and_a_thin_rim_are_warned_of() {
+fn a_wide_face_a_pointed_tooth_and_a_thin_rim_give_warnings() {
     assert_warns(&GearSpec::default(), &["geometry.face_width", "0.471 R_e", "above the usual R_e/3"]);
     assert_warns(&explicit([1.75, 0.5], [0.25, 2.0]), &["pointed planet teeth"]);
     assert_warns(&GearSpec { planet_bore: 22e-3, ..usual() }, &["geometry.planet_bore", "thinner than 2 modules"]);
 }
 
 #[test]
-fn a_contact_ratio_below_one_is_warned_of() {
+fn a_contact_ratio_below_one_gives_a_warning() {
     assert_warns(&explicit([0.6, 0.8], [0.3, 0.9]), &["contact ratio 0."]);
 }
 
 #[test]
-fn planets_that_strike_their_neighbours_are_warned_of() {
+fn planets_that_strike_their_neighbours_give_a_warning() {
     let four = |planet_teeth, side_teeth| GearSpec { planet_teeth, side_teeth, planet_count: 4, ..usual() };
     let mitre = four(14, 14);
     let tip = Pair::new(&mitre).gears[0].tip.to_degrees();
@@ -75,7 +75,7 @@ fn planets_that_strike_their_neighbours_are_warned_of() {
 }
 
 #[test]
-fn a_fillet_for_which_there_is_no_room_is_warned_of() {
+fn a_fillet_that_does_not_fit_gives_a_warning() {
     let spec = GearSpec { root_fillet: 1.0, ..usual() };
     let words =
         ["geometry.root_fillet: the planet's root fillet is cut to", "not 4.500 mm = 1.000 m", "rounded out whole"];
@@ -86,7 +86,7 @@ fn a_fillet_for_which_there_is_no_room_is_warned_of() {
 }
 
 #[test]
-fn what_cannot_be_built_is_refused() {
+fn gears_that_cannot_be_built_give_errors() {
     assert_refused(&GearSpec { face_width: 41e-3, ..usual() }, &["geometry.face_width", "no teeth at the toe"]);
     assert_refused(&GearSpec { backlash: 20e-3, ..usual() }, &["geometry.backlash", "whole tooth"]);
     assert_refused(&GearSpec { backlash: 9e-3, ..usual() }, &["geometry.backlash", "flanks meet below its tip"]);

@@ -1,4 +1,4 @@
-//! A mass hits a wall under F = F_el (1 + λ ḋ) and returns with the exact relation's speed, whatever the elastic law.
+//! A mass hits a wall under F = F_el (1 + λ ḋ) and rebounds with the speed of the exact relation for any elastic law.
 
 use bevel_differential::contact::damping::{Damping, restitution};
 use bevel_differential::integrate::{
@@ -74,7 +74,7 @@ fn integrated_impacts_return_with_the_speed_of_the_exact_relation() {
 }
 
 #[test]
-fn an_undamped_impact_returns_as_fast_as_it_came() {
+fn an_undamped_impact_rebounds_with_its_initial_speed() {
     for exponent in [1.0, 1.5] {
         assert!((rebound(exponent, 0.0).0 - 1.0).abs() < 1e-7);
     }

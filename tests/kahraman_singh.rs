@@ -6,11 +6,11 @@
 //!
 //! (A. Kahraman, R. Singh, Non-linear dynamics of a spur gear pair, Journal of Sound and Vibration 142:49, 1990). Teeth
 //! that lift off soften the resonance, which leans to lower frequencies: between the jumps there are two motions, and
-//! which one is taken depends on where the frequency came from.
+//! which one occurs depends on the direction of the frequency sweep.
 //!
 //! f is made of the program's own mesh with one linear spring, x of its relative position, and the motion of its own
-//! integrator. What the equation has and a mesh has not is added by the test: the damping, which acts in the gap too, and
-//! the excitation, whose phase is an imposed motion.
+//! integrator. The test adds the terms that a mesh does not have: the damping, which acts in the gap too, and the
+//! excitation, whose phase is an imposed motion.
 
 use std::f64::consts::TAU;
 
@@ -103,8 +103,8 @@ struct Sweep {
 }
 
 const PERIODS: u32 = 400;
-/// Periods of each point over which the standard deviation is taken: by then what the point before left is gone. Over
-/// twice as many it is the same to all digits known.
+/// Periods of each point over which the standard deviation is taken: the transient of the previous point has decayed. Over
+/// twice as many it is the same to all stated digits.
 const TAKEN: u32 = 100;
 
 impl Sweep {
@@ -158,7 +158,7 @@ fn only_jump(sweep: &[(u32, f64)]) -> (u32, u32) {
     (changes[0].1, changes[0].2)
 }
 
-/// Frequencies at which both sweeps find the same motion, and its standard deviation, known to these digits.
+/// Frequencies at which both sweeps find the same motion, and its standard deviation to these digits.
 const KNOWN: [(u32, f64); 4] = [(500, 0.01176), (900, 0.16286), (1000, 0.13308), (1200, 0.09421)];
 /// The last digit.
 const DIGIT: f64 = 1e-5;
@@ -190,7 +190,7 @@ fn falling_frequency_jumps_down_between_0_710_and_0_708() {
 }
 
 #[test]
-fn teeth_that_part_and_meet_cost_less_with_kinks_seen_ahead() {
+fn separating_teeth_cost_fewer_steps_with_predicted_kinks() {
     let attempts = |frequency: u32, kinks: bool| {
         let mut sweep = Sweep::new(kinks);
         let deviation = sweep.at(f64::from(frequency) * 1e-3);

@@ -25,7 +25,7 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, written down again from docs/theory.md: the larger gear's is given, the working depth 2 m.
+/// Addenda of planet and side gear, independently from docs/theory.md: the larger gear's is given, the working depth 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let ratio = f64::from(spec.side_teeth) * d_p.cos() / (f64::from(spec.planet_teeth) * d_s.cos());
@@ -66,12 +66,12 @@ struct Seen {
 }
 
 impl Seen {
-    /// Physics.md's q and x at side gear rotation `alpha`.
+    /// q and x of docs/theory.md at side gear rotation `alpha`.
     fn position(&self, alpha: f64) -> [f64; 2] {
         [self.pair.lever()[1] * alpha - self.travel, self.x]
     }
 
-    /// Where along the path the program has the loaded pair `p` at rotation `alpha`.
+    /// Place along the path at which the program has the loaded pair `p` at rotation `alpha`.
     fn place(&self, p: &ToothPair, alpha: f64) -> f64 {
         let approach = -self.push * self.position(alpha)[0] - self.pair.normal_backlash / 2.0;
         match p.spot {
@@ -81,12 +81,12 @@ impl Seen {
         }
     }
 
-    /// Rotation at which the program's tooth pair at `s` first bears, with its kind of contact; None within REACH.
+    /// Rotation at which the program's tooth pair at `s` first carries load, with its kind of contact; None within REACH.
     fn bears(&self, s: f64) -> Option<(f64, Spot)> {
         self.first(|seen, p, alpha| (seen.place(p, alpha) - s).abs() < 0.25 * seen.pair.base_pitch)
     }
 
-    /// Rotation at which any pair bears, by bisection to the last bit.
+    /// Rotation at which any pair carries load, by bisection to the last bit.
     fn first(&self, wanted: impl Fn(&Self, &ToothPair, f64) -> bool) -> Option<(f64, Spot)> {
         let loaded = |alpha: f64| {
             let mut spot = None;
@@ -157,7 +157,7 @@ fn approach(seen: &Seen, alpha: f64) -> f64 {
 }
 
 #[test]
-fn assembled_teeth_and_gaps_stand_where_the_program_s_phases_say() {
+fn assembled_teeth_and_gaps_agree_with_the_program_s_phases() {
     for (z_p, z_s, counts) in CASES {
         for &n in counts {
             let spec = spec(z_p, z_s, n, 0.0);
@@ -176,7 +176,7 @@ fn assembled_teeth_and_gaps_stand_where_the_program_s_phases_say() {
 }
 
 #[test]
-fn odd_counts_that_break_the_assembly_condition_are_refused() {
+fn odd_counts_that_violate_the_assembly_condition_are_rejected() {
     for (z_p, z_s, n) in [(10, 16, 3), (9, 14, 3), (11, 15, 4)] {
         assert!(assembly::phases(&spec(z_p, z_s, n, 0.0)).is_err(), "{z_p}/{z_s} {n}");
     }
@@ -209,7 +209,7 @@ impl Tally {
 }
 
 #[test]
-fn every_tooth_pair_bears_at_the_rotation_at_which_rotated_flanks_touch() {
+fn every_tooth_pair_carries_from_the_rotation_at_which_rotated_flanks_touch() {
     let mut tally = Tally::default();
     for backlash in [0.0, 1e-4] {
         for_each_mesh(backlash, 4, |seen, touches, name| tally.compare(seen, touches, name));
@@ -219,7 +219,7 @@ fn every_tooth_pair_bears_at_the_rotation_at_which_rotated_flanks_touch() {
 }
 
 #[test]
-fn rotated_flanks_of_random_pairs_touch_where_the_program_says() {
+fn rotated_flanks_of_random_pairs_touch_as_the_program_computes() {
     let (mut random, mut tally) = (Lcg(77), Tally::default());
     for _ in 0..60 {
         let spec = random_spec(&mut random, true);

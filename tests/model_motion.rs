@@ -78,7 +78,7 @@ fn an_ideal_differential_accelerates_by_its_closed_form() {
         assert!((m.side_speed[0] + m.side_speed[1] - 2.0 * m.carrier_speed).abs() < 1e-12 * m.carrier_speed);
         assert!(m.side_speed[0] < m.side_speed[1], "the lighter side is faster");
     }
-    // the gears pass on different torques only to accelerate the planets: T_L − T_R = N I_p (z_s/z_p) ψ̈
+    // the gears transmit different torques only to accelerate the planets: T_L − T_R = N I_p (z_s/z_p) ψ̈
     let radius = 0.036;
     let f = *s.forces();
     let difference = (f.side_tangential[0] - f.side_tangential[1]) * radius;
@@ -107,7 +107,7 @@ fn an_ideal_torque_driven_differential_with_unequal_ends_follows_its_mass_matrix
 }
 
 #[test]
-fn a_jump_of_an_imposed_speed_is_booked_as_work() {
+fn a_jump_of_an_imposed_speed_is_counted_as_work() {
     for contact in [GearContact::Ideal, GearContact::Tooth] {
         let mut p = Parameters::default();
         p.scene.gear_contact = contact;
@@ -147,7 +147,7 @@ fn one_long_step_equals_many_short_ones() {
 }
 
 #[test]
-fn pairs_that_come_and_go_abruptly_leave_the_energy_balanced() {
+fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     let (mut p, inputs) = turn();
     p.effects.corner_contact = false;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();

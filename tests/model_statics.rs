@@ -1,4 +1,4 @@
-//! What holds without motion: preload, sharing of load, the cogging well of free planets and its threshold.
+//! Statics: preload, sharing of load, the cogging well of free planets and its threshold.
 
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
@@ -136,7 +136,7 @@ impl Statics {
 }
 
 #[test]
-fn the_cogging_well_is_as_deep_as_its_potential_says() {
+fn the_cogging_well_has_the_depth_of_its_potential() {
     let statics = Statics::new();
     let energy = |psi: f64| statics.side(1.0, psi, LOAD).0 + statics.side(-1.0, psi, LOAD).0;
     let levels: Vec<f64> = (0..=200).map(|k| energy(f64::from(k) * std::f64::consts::PI / 1000.0)).collect();
@@ -148,7 +148,7 @@ fn the_cogging_well_is_as_deep_as_its_potential_says() {
 #[test]
 fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() {
     let statics = Statics::new();
-    // 27.35 N·m is what an independent computation of the same potential gives (tests/python/test_cogging.py)
+    // 27.35 N·m is the result of an independent computation of the same potential (tests/python/test_cogging.py)
     assert!((statics.steepest() - 27.35).abs() < 0.02, "steepest slope {} N·m", statics.steepest());
     let threshold = statics.threshold();
     assert!((threshold / statics.steepest() - 1.0).abs() < 0.01, "threshold {threshold} N·m");
@@ -185,13 +185,13 @@ fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() 
 }
 
 #[test]
-fn a_load_no_tooth_can_carry_is_refused_with_a_hint() {
+fn a_load_no_tooth_can_carry_is_an_error_with_a_hint() {
     let mut inputs = Inputs::default();
     inputs.load_torque[1] = 1e7;
     let problems = Simulation::start(&Parameters::default(), &inputs, 0.0).unwrap_err();
     assert_eq!(problems[0].variable, "right.load_torque");
     assert!(problems[0].message.contains("working depth"), "{}", problems[0]);
-    // met on the way it is a step failure with time and cause, and the state stays good
+    // during a run it is a step failure with time and cause, and the state stays valid
     let mut s = started(&Parameters::default(), &Inputs::default());
     s.advance(0.01).unwrap();
     let before = s.clone();
@@ -199,7 +199,7 @@ fn a_load_no_tooth_can_carry_is_refused_with_a_hint() {
     let failure = s.advance(0.02).unwrap_err();
     assert!(failure.message.contains("a tooth would jump"), "{failure}");
     assert!(failure.time >= 0.01 && failure.time < 0.02 && s.state().is_valid());
-    // from before the load everything goes on
+    // from the state before the load the run continues
     let mut s = before;
     s.advance(0.03).unwrap();
 }

@@ -61,7 +61,7 @@ fn worst_depth(pair: &Pair, mesh: &SolidMesh, flank: Flank) -> f64 {
     for position in sweep(pair, flank, DEPTH, 60) {
         let solid = loads(mesh, position);
         engagement.pairs(position, |p| {
-            // below the base circle a flank is a meridian, of which the gap of tip corners knows nothing
+            // below the base circle a flank is a meridian, which the gap of tip corners does not contain
             if p.spot == Spot::Path {
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
                 assert!(solid.iter().all(|l| l.flank == flank));
@@ -89,7 +89,7 @@ fn depth_converges_with_the_square_of_the_facets_to_the_approach_on_the_path_of_
 }
 
 #[test]
-fn both_tip_corners_reach_as_deep_as_spherical_trigonometry_says() {
+fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
     let pair = Pair::new(&GearSpec::default());
     let engagement = Engagement::new(&pair, true, 0.1);
     let mesh = aligned(&pair, 512, 0.1);
@@ -101,7 +101,7 @@ fn both_tip_corners_reach_as_deep_as_spherical_trigonometry_says() {
                 let which = match p.spot {
                     Spot::Path => return,
                     Spot::PlanetTip => 0,
-                    // where the planet's flank has become a meridian, the closed form goes on along the involute
+                    // where the planet's flank has become a meridian, the closed form continues along the involute
                     Spot::SideTip if p.s < -pair.pitch_arc[0] + 0.005 => return,
                     Spot::SideTip => 1,
                 };
@@ -180,7 +180,7 @@ fn the_force_has_no_jumps_beyond_a_thousandth_from_eight_facets_on() {
         let points = sweep(&pair, Flank::Drive, DEPTH, 5_000);
         let force = |x: f64| mesh.force(&MeshState { position: [points[0][0], x], ..MeshState::default() }).force;
         let apart = |a: f64, b: f64| (0..2).map(|i| (force(a)[i] - force(b)[i]).abs()).fold(0.0, f64::max);
-        // follow the steepest change down to where only a jump would be left of it
+        // follow the steepest change down to a scale at which only a jump would remain
         let steepest = |n: usize| {
             let [mut a, mut b] = [points[n][1], points[n + 1][1]];
             for _ in 0..24 {
@@ -196,13 +196,13 @@ fn the_force_has_no_jumps_beyond_a_thousandth_from_eight_facets_on() {
         });
         let jump = steps.iter().take(40).map(|&n| steepest(n)).fold(0.0, f64::max);
         let scale = force(points[0][1])[0].abs();
-        // overlaps are taken as linear between corners, which the slopes of normals make them but nearly
+        // overlaps are taken as linear between corners, which holds but nearly with the slopes of normals
         assert!(jump < 1e-3 * scale, "{facets} {smoothing}: {jump} of {scale}");
     }
 }
 
 #[test]
-fn resultants_lie_on_the_line_of_action_with_the_levers_of_virtual_work() {
+fn resultants_lie_on_the_line_of_action_with_the_moment_arms_of_virtual_work() {
     let pair = Pair::new(&GearSpec::default());
     let mesh = aligned(&pair, 256, 1.0);
     let engagement = Engagement::new(&pair, true, 0.1);
@@ -280,7 +280,7 @@ fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides(
 }
 
 #[test]
-fn gears_turned_on_by_whole_pitches_touch_alike_under_the_next_numbers() {
+fn gears_turned_by_whole_pitches_touch_alike_with_the_next_pair_numbers() {
     let pair = Pair::new(&GearSpec::default());
     let mesh = aligned(&pair, 16, 1.0);
     for [q, x] in sweep(&pair, Flank::Coast, DEPTH, 7) {

@@ -1,5 +1,5 @@
-//! Loads of single sections of solid teeth, aligned and displaced: they are what the energy gives way by, they close the
-//! balance of torques, and they lie where a calculation of slices puts them.
+//! Loads of single sections of solid teeth, aligned and displaced: they derive from the energy, they balance the torques,
+//! and they lie where a calculation by slices has them.
 
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::errors::ToothErrorSpec;
@@ -15,7 +15,7 @@ const IMPACT: Impact = Impact { stiffness: 1.82463e10, exponent: 1.5, damping: 0
 const DAMPING: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 1e4 };
 /// Sections of these tests: enough for the midpoint rule.
 const SECTIONS: usize = 20;
-/// A section's force is shown as one along the mean normal of its patch, which is rough by this where corners bear.
+/// A section's force is reported along the mean normal of its patch: relative error of that where corners carry load.
 const ROUGH: f64 = 0.01;
 
 fn pair() -> Pair {
@@ -64,7 +64,7 @@ fn displacements() -> [Displacement; 5] {
 }
 
 #[test]
-fn forces_of_the_sections_are_what_the_energy_gives_way_by() {
+fn forces_of_the_sections_are_the_gradient_of_the_energy() {
     let pair = pair();
     let h = 1e-7;
     for displaced in displacements() {
@@ -153,12 +153,12 @@ fn solved(target: f64, force: impl Fn(f64) -> f64) -> f64 {
 }
 
 #[test]
-fn the_load_goes_where_the_first_order_gap_says_and_as_far() {
+fn the_load_shifts_by_the_amount_of_the_first_order_gap() {
     let pair = pair();
     let (alpha, [planet, side]) = (pair.pressure_angle, pair.gears.map(|g| g.pitch));
     let none = Displacement::default();
     // gap at the pitch point of a planet moved outward and of one moved forward, and of a side gear moved outward
-    // (src/contact/errors/misalignment.rs); +1 where the heel bears
+    // (src/contact/errors/misalignment.rs); +1 where the heel carries
     let by = 8e-5;
     let outward = by * alpha.sin() * planet.sin();
     let side_outward = by * alpha.sin() * side.sin();
@@ -239,7 +239,7 @@ fn an_error_of_the_shaft_angle_leaves_the_load_even_and_moves_contact_to_where_b
     }
 }
 
-/// A turn with solid teeth in which everything is out of place.
+/// A turn with solid teeth in which every gear is misaligned.
 fn turn(errors: ToothErrorSpec, spin: f64, carrier: f64, load: [f64; 2]) -> Simulation {
     let mut p = Parameters::default();
     p.scene.gear_contact = GearContact::Solid;
@@ -312,7 +312,7 @@ fn mirrored_scenes_have_mirrored_loads() {
 }
 
 #[test]
-fn sections_of_all_planets_bear_the_side_gears_torque() {
+fn sections_of_all_planets_carry_the_side_gears_torque() {
     let errors = ToothErrorSpec { planet_axial_offset: 5e-5, axis_offset: 5e-5, ..ToothErrorSpec::default() };
     for errors in [ToothErrorSpec::default(), errors] {
         let mut simulation = turn(errors, 200f64.to_radians(), 954f64.to_radians(), [835.0; 2]);
@@ -323,7 +323,7 @@ fn sections_of_all_planets_bear_the_side_gears_torque() {
                 .iter()
                 .map(|l| {
                     let [point, [planet, _, across]] = [l.touch.expect("solid teeth").point, l.parts];
-                    // the part along the planet's axis is told as it pushes the planet
+                    // the part along the planet's axis is reported as it acts on the planet
                     l.cone * (point[0] * across + point[2] * planet) * l.normal
                 })
                 .sum();

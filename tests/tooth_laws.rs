@@ -13,6 +13,12 @@ fn places(stiffness: &PairStiffness) -> impl Iterator<Item = f64> {
     (-8..=48).map(move |j| low + (high - low) * (f64::from(j) + 0.37) / 40.0)
 }
 
+/// Compliance Q [1/Pa] at place `s` under the limit load ω₀, from that at the reference load.
+fn limit_compliance(stiffness: &PairStiffness, s: f64) -> f64 {
+    assert!(stiffness.limit >= stiffness.reference);
+    stiffness.line().compliance(s) - STEEL.local() * (stiffness.limit / stiffness.reference).ln()
+}
+
 fn assert_derivatives(law: &impl Spring, p: f64, s: f64, span: f64) {
     let e = law.at(p, s);
     let difference = |f: fn(&Elastic) -> f64, dp: f64, ds: f64| {
@@ -63,7 +69,7 @@ fn force_and_slopes_have_no_jumps_at_the_path_s_ends_nor_at_the_load_limit() {
     }
     // at the limit load the arc is ω₀ Q
     for s in places(&stiffness) {
-        let p = stiffness.limit * stiffness.limit_compliance(s).v;
+        let p = stiffness.limit * limit_compliance(&stiffness, s);
         let (below, above) = (weber.at(p * (1.0 - 1e-12), s), weber.at(p * (1.0 + 1e-12), s));
         assert!((below.torque / above.torque - 1.0).abs() < 1e-10);
         assert!((below.stiffness / above.stiffness - 1.0).abs() < 1e-10);
@@ -78,7 +84,7 @@ fn the_load_solves_the_compliance_equation_exactly() {
     let local = STEEL.local();
     let mut worst = 0f64;
     for s in places(&stiffness) {
-        let q = stiffness.limit_compliance(s).v;
+        let q = limit_compliance(&stiffness, s);
         let mut last = 0.0;
         for j in 0..=500 {
             let p = 1e-12 * 10f64.powf(f64::from(j) / 50.0);
@@ -154,7 +160,7 @@ fn the_table_equals_the_formulas_within_a_millionth() {
         }
     };
     compare("golden".into(), &golden());
-    // the planet undercut: the path is clipped where Hertz's logarithm runs off
+    // the planet undercut: the path is clipped where Hertz's logarithm diverges
     let clipped = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
     assert_eq!(Pair::new(&clipped).path.clipped, [true, false]);
     compare("clipped".into(), &stiffness(&clipped, 0.25));
@@ -168,7 +174,7 @@ fn the_table_equals_the_formulas_within_a_millionth() {
 }
 
 #[test]
-fn every_buildable_pair_is_stiff_or_told_why_not() {
+fn every_buildable_pair_has_a_stiffness_or_an_error_with_its_cause() {
     let (mut sound, mut refused, mut cut) = (0, std::collections::BTreeMap::new(), 0);
     for spec in random_pairs(1).filter(buildable).take(1500) {
         let pair = Pair::new(&spec);

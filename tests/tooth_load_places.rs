@@ -1,4 +1,4 @@
-//! Loads of single tooth pairs as forces at points: what a load history for FEA is made of.
+//! Loads of single tooth pairs as forces at points, the rows of a load history for FEA.
 
 use std::f64::consts::{PI, TAU};
 
@@ -26,7 +26,7 @@ fn loads(simulation: &Simulation) -> Vec<ToothLoad> {
     all
 }
 
-/// Runs a turn and shows each instant.
+/// Runs a turn and calls `look` at each instant.
 fn instants(p: &Parameters, inputs: &Inputs, mut look: impl FnMut(&mut Simulation)) {
     let mut simulation = Simulation::start(p, inputs, 0.0).expect("a scene");
     for k in 1..=60 {
@@ -70,7 +70,7 @@ fn moments_of_the_forces_at_their_points_are_the_tooth_torques() {
             }
             let forces = *simulation.forces();
             let radius = pair.outer_pitch_diameter(1) / 2.0;
-            // friction of corners is reckoned with arms of the prolonged path
+            // friction of corners uses the moment arms of the prolonged path
             let tolerance = if friction > 0.0 && beyond { 5e-3 } else { 1e-9 };
             corners += usize::from(beyond);
             for s in 0..2 {

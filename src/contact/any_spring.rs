@@ -1,4 +1,4 @@
-//! The elastic laws behind one face, for a mesh in full detail.
+//! All elastic laws behind one interface, for the detailed mesh.
 
 use super::impact::Impact;
 use super::spring::{Elastic, Spring};

@@ -1,6 +1,6 @@
-//! Damping of a tooth pair on top of any elastic law, and the coefficient of restitution it makes.
+//! Damping of a tooth pair on top of any elastic law, and the resulting coefficient of restitution.
 //!
-//! `Step` is the damping of Adams IMPACT, C·STEP(d, 0, 0, d_max, 1)·ḋ, which knows nothing of the elastic force.
+//! `Step` is the damping of Adams IMPACT, C·STEP(d, 0, 0, d_max, 1)·ḋ, independent of the elastic force.
 //! `HuntCrossley` is F = F_el (1 + λ ḋ): it starts and ends at zero with the elastic force, so that no impact begins with
 //! a jump. Neither lets the flanks pull: F ≥ 0.
 //!
@@ -21,7 +21,7 @@
 use super::impact::Force;
 use crate::problem::Problem;
 
-/// Smallest coefficient of restitution that can be asked for: D is 20 there.
+/// Smallest coefficient of restitution accepted: D is 20 there.
 const LEAST_RESTITUTION: f64 = 0.05;
 
 /// Damping law of a tooth pair.
@@ -80,7 +80,7 @@ fn balance(damping: f64, e: f64) -> f64 {
 }
 
 /// The root in (`low`, `high`) of a function that falls through zero once: secant steps kept inside a shrinking bracket,
-/// with bisection where they would crawl.
+/// with bisection where they converge slowly.
 fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let (mut at_low, mut at_high) = (f(low), f(high));
     for round in 0..200 {
@@ -106,8 +106,8 @@ pub fn dimensionless_damping(restitution: f64) -> Result<f64, Problem> {
         return Err(Problem::new(
             "contact.restitution",
             format!(
-                "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, the damping that Hunt and \
-                 Crossley's law needs grows without bound: it never stops a body altogether"
+                "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
+                 damping without bound, since it never stops a body completely"
             ),
         ));
     }
@@ -135,7 +135,7 @@ mod tests {
     }
 
     #[test]
-    fn step_damping_is_impacts_to_the_bit() {
+    fn step_damping_equals_that_of_impact_bit_for_bit() {
         for exponent in [1.0, 1.3, 1.5, 2.0, 2.5] {
             let law = Impact { stiffness: 3e9, exponent, damping: 4e4, per_full_depth: 1e4 };
             let damping = Damping::Step { coefficient: law.damping, per_full_depth: law.per_full_depth };
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn restitutions_out_of_range_are_refused_by_name() {
+    fn restitutions_out_of_range_are_rejected_by_name() {
         for e in [-0.1, 0.0, 0.049, 1.001, f64::NAN, f64::INFINITY] {
             let problem = dimensionless_damping(e).unwrap_err();
             assert_eq!(problem.variable, "contact.restitution");

@@ -1,4 +1,4 @@
-//! Gaps of individual tooth pairs, slice by slice: errors of the teeth, and a broken tooth once it is broken.
+//! Gaps of individual tooth pairs, slice by slice: tooth errors and a broken tooth.
 
 use super::detailed::{Gaps, PairName};
 use super::errors::Chip;
@@ -19,15 +19,15 @@ pub struct FlankGaps {
     pub cones: Vec<f64>,
     /// Numbers of planets, planet teeth and side gear teeth.
     pub counts: [i64; 3],
-    /// A gap that no pair falls below [m].
+    /// Lower bound of all gaps [m].
     pub least: f64,
 }
 
-/// Step over which the slope of a gap is differenced [rad]: its curvature enters the Jacobian alone.
+/// Step for differences of a gap's slope [rad]: the curvature enters the Jacobian only.
 const STEP: f64 = 1e-5;
 
 impl FlankGaps {
-    /// Perfect teeth of `pair`.
+    /// Error-free teeth of `pair`.
     pub fn perfect(pair: &Pair, planets: i32, cones: Vec<f64>) -> Self {
         let teeth = pair.gears.map(|g| i64::from(g.teeth));
         Self { errors: None, chip: None, cones, counts: [i64::from(planets), teeth[0], teeth[1]], least: 0.0 }
@@ -38,7 +38,7 @@ impl FlankGaps {
     /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
     fn ids(&self, name: PairName) -> (MeshId, PairId) {
         let [planets, z_p, z_s] = self.counts;
-        // planets whose meshes stand half a pitch on (assembly::phases) have their tooth 0 half a pitch forward
+        // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 half a pitch forward
         let halves = 2 * z_s * name.planet as i64 / planets;
         let odd = halves % 2;
         let forward = if name.side == 1 && z_p % 2 == 1 { 0 } else { odd };

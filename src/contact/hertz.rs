@@ -17,7 +17,7 @@ pub fn stiffness(r_p: f64, r_s: f64, young_modulus: f64, poisson_ratio: f64) -> 
 #[cfg(test)]
 mod tests {
     #[test]
-    fn the_study_s_stiffness_without_its_slip() {
+    fn stiffness_equals_that_of_the_study_without_its_arithmetic_error() {
         let k = super::stiffness(22.5e-3, 36e-3, 2.07e11, 0.25);
         assert!((k / 1.7321e10 - 1.0).abs() < 1e-5, "{k}");
         // in N/mm^1.5, as the study prints it

@@ -1,17 +1,17 @@
-//! Where the force of a mesh has a kink: flanks touch or part, a pair comes or goes at a tip corner, or passes from the
+//! Kinks of a mesh's force: flanks touch or separate, a pair enters or leaves contact at a tip corner, or passes from the
 //! corner to the path.
 //!
-//! A one-step method loses its order over a kink, and its error estimate does not tell. Positions, unlike forces, run
-//! smoothly on, so that a kink can be seen ahead from the present rates and a step be made to end on it.
+//! A one-step method loses its order over a kink, and its error estimate does not show it. Positions are smooth, unlike
+//! forces, so that a kink can be predicted from the present rates and a step can be made to end on it.
 
 use super::pairs::{Engagement, Flank, Spot};
 
-/// Parts of a step within which a kink is worth to end on: one that lies at either end already does no harm.
+/// Fractions of a step between which it is cut at a kink: one at either end does no harm.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
-/// Pairs of a motion that are looked at. One past more of them, by a whole turn of a gear and more, resolves none: gears at
-/// absurd speeds would have them looked for without end.
+/// Largest number of pairs searched in a motion. A motion past more of them, a whole turn of a gear and more, resolves
+/// none, and at absurd speeds the search would not end.
 const MOST_PAIRS: i64 = 256;
-/// Halvings of the step by which a kink is found: to some hundred-thousandths of it.
+/// Bisections that locate a kink, to some hundred-thousandths of the step.
 const HALVINGS: u32 = 15;
 
 impl Engagement {
@@ -47,7 +47,7 @@ impl Engagement {
         first
     }
 
-    /// Calls `visit` with the fractions of the motion at which pairs come or go abruptly, for want of corner contact.
+    /// Calls `visit` with the fractions of the motion at which pairs enter or leave contact abruptly, without corner contact.
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
@@ -84,7 +84,7 @@ impl Engagement {
     }
 }
 
-/// The fraction at which `changed` turns true, just past it, where that is worth knowing.
+/// The fraction just past the point at which `changed` turns true, if it lies within [`WORTHWHILE`].
 #[inline(never)]
 fn first_change(changed: impl Fn(f64) -> bool) -> Option<f64> {
     if changed(WORTHWHILE.0) || !changed(WORTHWHILE.1) {

@@ -44,7 +44,7 @@ impl PairLaw for Impact {
     }
 }
 
-/// The elastic part of IMPACT with a damping of one's choice.
+/// The elastic part of IMPACT with another damping law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
     /// Elastic part; its own damping is not used.

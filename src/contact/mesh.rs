@@ -1,4 +1,4 @@
-//! The elastic potential of one mesh: from it force, Jacobian, energy and heat, all at one place.
+//! The elastic potential of one mesh, and force, Jacobian, energy and heat derived from it.
 //!
 //! V(q, x) = Σ U(d, s) over the tooth pairs. Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
@@ -29,8 +29,8 @@ pub enum Law {
     Solid(Box<SolidMesh>),
 }
 
-/// Evaluates an expression with `law` bound to the law in use and `single` telling whether it knows no tooth pairs, or
-/// another with `solid` bound to a mesh of solid teeth.
+/// Evaluates an expression with `law` bound to the law in use and `single` true for one spring per mesh, or another
+/// expression with `solid` bound to a mesh of solid teeth.
 macro_rules! with_law {
     ($of:expr, $law:ident, $single:ident => $body:expr, $solid:ident => $other:expr) => {
         match $of {
@@ -114,18 +114,18 @@ impl Mesh {
         self.engagement.approach(q)
     }
 
-    /// The fraction of the motion of `h` [s] from `state` on after which the first kink of the force lies; a mesh that
-    /// knows no tooth pairs has one where flanks touch or part.
+    /// The fraction of the motion of `h` [s] from `state` on after which the first kink of the force lies; a mesh of
+    /// one spring has one where flanks touch or separate.
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
-        // between facets the force of solid teeth is smooth enough to be stepped over
+        // the force of solid teeth is smooth enough between facets
         if matches!(self.law, Law::Solid(_)) {
             return None;
         }
         self.engagement.kink(state.position, state.rate.map(|rate| h * rate))
     }
 
-    /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh that knows no tooth pairs has one, at s = 0.
+    /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh of one spring has one, at s = 0.
     #[inline(always)]
     fn visit<const SINGLE: bool>(&self, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
         if !SINGLE {
@@ -144,7 +144,7 @@ impl Mesh {
         (rate, law.respond(self.cone * pair.depth, rate, pair.s))
     }
 
-    /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth know no such pairs.
+    /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth have no such pairs.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
         with_law!(&self.law, law, SINGLE => {
             self.visit::<SINGLE>(state.position, |pair| visit(pair, &self.respond(law, pair, state).1.force));

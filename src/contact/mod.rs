@@ -1,4 +1,7 @@
-//! Tooth contact: the law of one pair, and the elastic potential of a mesh.
+//! Tooth contact: laws of one tooth pair, the elastic potential of a mesh with its forces and derivatives, tooth errors,
+//! friction along the flanks, and contact of solid teeth.
+//!
+//! Everything here is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to `model`.
 
 pub mod any_spring;
 pub mod damping;

@@ -1,4 +1,4 @@
-//! Which tooth pairs of a mesh touch, where, and how deep.
+//! Tooth pairs in contact: their place and penetration.
 //!
 //! Coordinates: q = sinδ_bs·α − σ·sinδ_bp·ψ, the relative position measured from "tooth in the middle of the gap", and
 //! x = σ·sinδ_bp·ψ + h, the planet's travel along the line of action. Both are arcs on the unit sphere [rad].
@@ -41,7 +41,7 @@ pub struct ToothPair {
     pub number: i64,
     /// Arc Δ past the end of the path [rad]; the position s on the path if on it.
     pub place: f64,
-    /// Place s by the planet's rotation [rad]: runs on smoothly past the ends of the path.
+    /// Place s by the planet's rotation [rad]: continues smoothly past the ends of the path.
     pub s: f64,
     /// ∂s/∂x; q does not move it.
     pub s_slope: f64,
@@ -54,7 +54,7 @@ pub struct ToothPair {
 }
 
 impl ToothPair {
-    /// The one pair of a mesh that knows no tooth pairs, at the pitch point.
+    /// The one pair of a mesh of one spring, at the pitch point.
     #[inline(always)]
     pub fn single(flank: Flank, depth: f64) -> Self {
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
@@ -93,11 +93,11 @@ pub struct Engagement {
 struct Window {
     /// Its lower end [rad].
     low: f64,
-    /// Tooth pairs that fit in: a fixed count, so that no wild trial state can keep a step busy.
+    /// Tooth pairs that fit in: a fixed count, which bounds the work of any trial state.
     candidates: usize,
 }
 
-/// Approach [rad] up to which the narrow window serves: some tenths of a millimetre, beyond any working load.
+/// Approach [rad] up to which the narrow window is used: some tenths of a millimetre, beyond any working load.
 const WORKING_APPROACH: f64 = 5e-3;
 
 /// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
@@ -134,7 +134,7 @@ impl Engagement {
         }
     }
 
-    /// Whether tip corners carry beyond the path; if not, pairs come and go abruptly.
+    /// Whether tip corners carry beyond the path; if not, pairs enter and leave contact abruptly.
     #[inline(always)]
     pub fn corner_contact(&self) -> bool {
         self.corner_contact
@@ -202,8 +202,8 @@ impl Engagement {
         [place - self.high, if self.corner_contact { self.low - place + approach } else { self.low - place }]
     }
 
-    /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach, the
-    /// penetrating ones among them; `slack` is how much of the approach only material in excess can close.
+    /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach,
+    /// including the penetrating ones; `slack` is the part of the approach that only excess material can close.
     #[inline(always)]
     pub fn near(&self, flank: Flank, x: f64, approach: f64, slack: f64, mut visit: impl FnMut(&ToothPair)) {
         // sign = ∂a/∂q = −∂s/∂x
@@ -212,9 +212,9 @@ impl Engagement {
         let window = &self.windows[usize::from(approach > WORKING_APPROACH)];
         let first = ceil((window.low - start) * self.per_base_pitch - ROUNDING);
         let mut s = start + first * self.base_pitch;
-        // a wild trial state may stand further off than can be counted
+        // the number of an extreme trial state may be beyond an integer's range
         let first = first as i64;
-        // flanks that only material in excess brings together have the side gear ahead of its path's end
+        // where only excess material closes the gap, the side gear is ahead of its path's end
         let low = self.low + (approach - slack).min(0.0);
         for i in 0..window.candidates as i64 {
             let place = s;
@@ -241,7 +241,7 @@ impl Engagement {
             } else {
                 continue;
             };
-            // one place to be visited from, so that the visitor is compiled into the loop
+            // a single call, so that the visitor is inlined into the loop
             visit(&ToothPair {
                 flank,
                 spot,

@@ -1,4 +1,4 @@
-//! What a user gives to define the contact law.
+//! User parameters of the contact law.
 
 use serde::{Deserialize, Serialize};
 

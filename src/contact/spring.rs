@@ -1,7 +1,7 @@
-//! What a mesh needs to know of the elasticity of one tooth pair, whatever the law.
+//! Elasticity of one tooth pair: the interface that all laws share.
 
 /// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
-/// place on the path of contact [rad]. Beyond the path's ends s runs on, so that a corner in contact has a place too.
+/// place on the path of contact [rad]. s continues beyond the path's ends for corners in contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Elastic {
     /// U [J].

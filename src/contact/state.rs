@@ -1,4 +1,4 @@
-//! Position and motion of a mesh, and the forces that answer them with their derivatives.
+//! State of a mesh, and its forces with their derivatives.
 
 /// Mesh state: q, x and their rates.
 #[derive(Clone, Copy, Debug, Default)]

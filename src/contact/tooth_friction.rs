@@ -3,7 +3,7 @@
 use crate::friction::{Conditions, ToothFrictionSpec, outside, signed_coefficient};
 use crate::numeric::Scalar;
 
-/// How two flanks slide on each other.
+/// Sliding of two flanks on each other.
 #[derive(Clone, Copy, Debug)]
 pub struct Sliding<T> {
     /// Sliding speed, with sign [m/s].
@@ -32,7 +32,7 @@ impl ToothFriction {
         signed_coefficient(&self.spec, &self.conditions(at))
     }
 
-    /// What of these conditions lies outside the range that the law was published for.
+    /// The first quantity outside the published range of the law, if any.
     pub fn outside(&self, at: &Sliding<f64>) -> Option<String> {
         outside(&self.spec, &self.conditions(at)).map(|outside| outside.to_string())
     }

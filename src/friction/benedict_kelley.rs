@@ -9,8 +9,8 @@
 use super::{Conditions, Outside, ToothFrictionSpec, smooth};
 use crate::numeric::Scalar;
 
-/// Least argument of the logarithm: one decade. Fast, lightly loaded contacts carry a full film, which the discs did not
-/// have; the formula would go on to negative friction.
+/// Least argument of the logarithm: one decade. Fast, lightly loaded contacts carry a full film, which the disc tests did
+/// not cover; there the formula would give negative friction.
 const LEAST_DECADE: f64 = 10.0;
 
 /// Largest roughness factor in AGMA 925-A03; reached at R_a = ⅔ · 1.13 µm.
@@ -33,7 +33,7 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
     decades * (0.0127 * roughness_factor(spec.micrometres()))
 }
 
-/// The quantity outside of what the formula is published for, if any.
+/// The quantity outside the published range of the formula, if any.
 pub fn outside(spec: &ToothFrictionSpec, at: &Conditions<f64>) -> Option<Outside> {
     let roughest = 1.13 * (1.0 - 1.0 / ROUGHEST);
     Outside::test(("roughness R_a", "µm"), spec.micrometres(), [0.0, roughest], "AGMA 925-A03").or_else(|| {
@@ -70,7 +70,7 @@ mod tests {
     }
 
     #[test]
-    fn full_films_and_rough_flanks_are_told() {
+    fn full_films_and_rough_flanks_are_reported() {
         assert_eq!(outside(&spec(), &AT), None);
         let fast = Conditions { sliding: 30.0, rolling: 60.0, line_load: 1e4, ..AT };
         assert_eq!(coefficient(&spec(), &fast), 0.0127 * (1.13 / (1.13 - 0.5)));

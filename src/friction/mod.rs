@@ -1,4 +1,5 @@
-//! Tooth friction: the coefficient that a flank's sliding speed, rolling speed and load give, signed and smooth.
+//! Tooth friction: coefficient from sliding speed, rolling speed and load of a contact, signed and smooth. One law a file;
+//! the forces that follow from it belong to `contact`.
 //!
 //! The magnitude of the sliding speed enters every law as v_m = √(v² + v_ε²), and the sign as v/v_m. So the signed
 //! coefficient
@@ -7,14 +8,13 @@
 //! h(v) = μ(v_m) · v / v_m
 //! ```
 //!
-//! is odd and has all derivatives through v = 0, with the slope μ(v_ε)/v_ε there, and no law sees its own singularity
-//! at zero sliding. The root is preferred to tanh(v/v_ε): it costs no exponential, serves law and sign at once, and
-//! differs from Coulomb's step by (v_ε/v)²/2 only, 5e-5 at a hundred v_ε. What it does not do is stick: a flank under
-//! load creeps with a speed of v_ε times the part of the friction limit that it has to carry.
+//! is odd and has all derivatives through v = 0, with the slope μ(v_ε)/v_ε there, and no law is
+//! evaluated at its singularity at zero sliding. The root is preferred to tanh(v/v_ε): it needs no exponential, applies to
+//! law and sign at once, and differs from Coulomb's step by (v_ε/v)²/2 only, 5e-5 at a hundred v_ε. It does not stick: a
+//! flank under load creeps at v_ε times the fraction of the friction limit that it carries.
 //!
-//! Loads, radii and speeds far outside what gears see are held at fixed bounds (see [`smooth`]), so that the coefficient
-//! is finite and lies within ±[`LARGEST`] for all finite arguments. Where a published law has been left, [`outside`]
-//! tells.
+//! Loads, radii and speeds far outside the range of gears are limited (see [`smooth`]), so that the coefficient is finite
+//! and lies within ±[`LARGEST`] for all finite arguments. [`outside`] reports arguments outside a law's published range.
 
 pub mod benedict_kelley;
 pub mod coulomb;
@@ -32,20 +32,20 @@ pub use spec::{FrictionLaw, ToothFrictionSpec};
 /// Largest coefficient any law may return: that of unlubricated steel starts beyond it.
 pub const LARGEST: f64 = 0.3;
 
-/// Width below [`LARGEST`] that is left unchanged no more: coefficients up to 0.2 are the law's own.
+/// Width of the transition below [`LARGEST`]: coefficients up to 0.2 stay unchanged.
 const NEAR_LARGEST: f64 = 0.1;
 
-/// Speed beyond which a speed counts as this one [m/s]; keeps squares finite.
+/// Limit of speeds [m/s]; keeps squares finite.
 const FASTEST: f64 = 1e6;
 
-/// Bounds of line load [N/m] and curvature radius [m]; from 1.5 times the lower to half of the upper they do nothing.
+/// Bounds of line load [N/m] and curvature radius [m]; from 1.5 times the lower to half of the upper they have no effect.
 const LINE_LOAD: [f64; 2] = [1e3, 1e9];
 const RADIUS: [f64; 2] = [1e-4, 1e2];
 
 /// Bounds of the modulus [Pa]: softer than rubber, harder than diamond.
 const MODULUS: [f64; 2] = [1e5, 1e13];
 
-/// What the contact of two flanks is doing at one place.
+/// Operating conditions of a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conditions<T> {
     /// Sliding speed u₁ − u₂ [m/s], signed.
@@ -66,7 +66,7 @@ impl<T: Scalar> Conditions<T> {
         (self.line_load / self.radius * (self.modulus / crate::numeric::PI)).sqrt()
     }
 
-    /// The same with positive magnitudes in place of signed or vanishing ones: what the laws may be asked at.
+    /// The same with positive magnitudes in place of signed or vanishing ones: arguments valid for every law.
     fn regularised(&self, slowest: f64) -> Self {
         Self {
             sliding: magnitude(limited(self.sliding), slowest),
@@ -109,7 +109,7 @@ pub fn signed_coefficient<T: Scalar>(spec: &ToothFrictionSpec, conditions: &Cond
 
 /// The first quantity that lies outside the range the chosen law was published for, if any.
 ///
-/// Every mesh passes the pitch point, where the sliding speed is zero and no law was measured; that alone is not told.
+/// Every mesh passes the pitch point, where the sliding speed is zero and no law was measured; that alone is not reported.
 pub fn outside(spec: &ToothFrictionSpec, conditions: &Conditions<f64>) -> Option<Outside> {
     match spec.law {
         FrictionLaw::CoulombStribeck => None,

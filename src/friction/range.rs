@@ -1,4 +1,4 @@
-//! Where a published law has been left.
+//! Arguments outside the published range of a law.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ pub struct Outside {
     pub low: f64,
     /// Upper end of the range.
     pub high: f64,
-    /// Where the range is from.
+    /// Source of the range.
     pub source: &'static str,
 }
 

@@ -1,4 +1,4 @@
-//! Bounds without corners: a quantity is itself on one side of a band, the bound on the other, and C² between.
+//! Smooth bounds: a quantity is unchanged on one side of a band, equals the bound on the other, and is C² between.
 //!
 //! With t = (x − a)/h, the band |t| < 1 is bridged by a + h (1 + t)³(3 − t)/16, whose slope runs from 0 to 1 and whose
 //! curvature vanishes at both ends. Beyond the band the value is exact, unlike with exponentials and roots, so that a

@@ -1,4 +1,4 @@
-//! What a user gives to define tooth friction.
+//! User parameters of tooth friction.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,11 +9,11 @@ use crate::problem::Problem;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[repr(i32)]
 pub enum FrictionLaw {
-    /// Given coefficient, with a Stribeck peak at low speed if wanted.
+    /// Given coefficient, with an optional Stribeck peak at low speed.
     CoulombStribeck = 1,
     /// Benedict and Kelley's local coefficient from disc tests.
     BenedictKelley = 2,
-    /// Mean coefficient of ISO/TR 14179-2, taken with the place's own speed, load and curvature.
+    /// Mean coefficient of ISO/TR 14179-2, evaluated at local speed, load and curvature.
     Iso14179 = 3,
     /// Xu and Kahraman's fit to elastohydrodynamic solutions.
     XuKahraman = 4,
@@ -32,8 +32,8 @@ pub struct ToothFrictionSpec {
     pub stribeck_speed: f64,
     /// Speed v_ε over which friction changes its sign [m/s].
     pub regularisation_speed: f64,
-    /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]: what
-    /// all three published laws ask for, so that no temperature is needed beside it.
+    /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]:
+    /// the quantity that all three published laws use, so that no temperature is needed.
     pub oil_viscosity: f64,
     /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
     /// phosphate esters, 1.5 traction fluids.
@@ -59,7 +59,7 @@ impl Default for ToothFrictionSpec {
 }
 
 impl ToothFrictionSpec {
-    /// What is wrong with these values, if anything: the first that no law could use.
+    /// Validation error of the first value that no law could use, if any.
     pub fn problem(&self) -> Option<Problem> {
         let positive = [
             ("tooth_friction.stribeck_speed", self.stribeck_speed, "m/s"),

@@ -1,4 +1,4 @@
-//! What must hold for every law.
+//! Properties of every law.
 
 use super::*;
 use crate::numeric::Dual;

@@ -3,7 +3,7 @@
 //!
 //! SR = v_s/V_e with the entraining speed V_e = v_Σ/2 [m/s], P the largest Hertzian pressure [GPa], ν₀ the dynamic
 //! viscosity at the inlet [cP], R the relative radius of curvature [m], S the rms roughness [µm], taken as √(π/2) R_a as
-//! on a Gaussian surface. The fit vanishes with the sliding, as a film without limiting shear stress has it.
+//! on a Gaussian surface. The fit vanishes with the sliding, like a film without limiting shear stress.
 //!
 //! Source: Xu (2005), Development of a generalized mechanical efficiency prediction methodology for gear pairs, thesis,
 //! Ohio State University; Xu, Kahraman, Anderson, Maddock (2007), J. Mech. Des. 129, p. 58. Coefficients and units were
@@ -15,10 +15,10 @@ use crate::numeric::Scalar;
 /// b₁ … b₉, at their own indices.
 const B: [f64; 10] = [0.0, -8.916465, 1.03303, 1.036077, -0.354068, 2.812084, -0.100601, 0.752755, -0.390958, 0.620305];
 
-/// Slide-to-roll ratio that counts as the largest: 2 is a surface at rest, 1 the largest that was fitted.
+/// Upper bound of the slide-to-roll ratio and half its transition: 2 is a surface at rest, 1 the largest fitted.
 const MOST_SLIDING: [f64; 2] = [3.0, 1.0];
 
-/// Largest roughness that enters [µm]: e^S soon loses its sense.
+/// Upper bound of the roughness [µm]: e^S has no meaning far beyond the fit.
 const ROUGHEST: f64 = 1.5;
 
 /// rms over arithmetic mean roughness of a Gaussian surface, √(π/2).
@@ -36,7 +36,7 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
     let entraining = at.rolling * 0.5;
     let ratio = smooth::ceiling(at.sliding / entraining, MOST_SLIDING[0], MOST_SLIDING[1]);
     let pressure = at.pressure() * 1e-9; // GPa
-    // thinner than 1 cP the logarithm would turn and the exponential grow without end
+    // below 1 cP the logarithm changes its sign and the exponential grows without bound
     let viscosity = spec.centipoise().max(1.0);
     let product = ratio * pressure * libm::log10(viscosity);
     let constant = B[1] + B[9] * libm::exp(rms(spec).min(ROUGHEST));
@@ -50,7 +50,7 @@ pub fn coefficient<T: Scalar>(spec: &ToothFrictionSpec, at: &Conditions<T>) -> T
     (f + powers).exp()
 }
 
-/// The quantity outside of what the formula was fitted to, if any. The numbers were not checked against the thesis's own
+/// The quantity outside the range of the fit, if any. The numbers were not checked against the thesis's own
 /// table of cases.
 pub fn outside(spec: &ToothFrictionSpec, at: &Conditions<f64>) -> Option<Outside> {
     let entraining = 0.5 * at.rolling;

@@ -1,4 +1,4 @@
-//! Where a tooth pair touches, as vectors: on the line of action, and at tip corners beyond its ends.
+//! Points and normals of contact as vectors: on the line of action, and at tip corners beyond its ends.
 //!
 //! Frame of a mesh: apex at the origin, z along the planet's axis from apex to heel, x in the plane of both axes toward
 //! the side gear's axis a_s = (sinΣ, 0, cosΣ). With P₀ along the pitch line and Q₀ ⟂ P₀ in that plane toward the planet's
@@ -16,7 +16,7 @@ use super::corner::CornerGap;
 use super::pair::Pair;
 use crate::numeric::{PI, TAU, atan2, cos, sin, sqrt};
 
-/// Approaches up to which corners are looked for [rad]: beyond every tooth that holds.
+/// Largest approach for which corners are tabulated [rad]: beyond that of any tooth that does not break.
 const REACH: f64 = 0.1;
 
 /// A place of contact on the unit sphere; multiply by the cone distance for a point.
@@ -60,7 +60,7 @@ impl Action {
         if i == 0 { [Vector3::z(), Vector3::x()] } else { [Vector3::new(ss, 0.0, cs), Vector3::new(-cs, 0.0, ss)] }
     }
 
-    /// Contact at `place` in the frame of the mesh, `turn` = ±1 telling which of the mirror images.
+    /// Contact at `place` in the frame of the mesh; `turn` = ±1 selects the mirror image.
     pub fn contact(&self, place: Where, turn: f64) -> Contact {
         let (point, normal) = match place {
             Where::Path(s) => self.on_path(s, turn),
@@ -98,7 +98,7 @@ impl Action {
 
     /// Turns a contact's vectors from the frame of the mesh into that of gear `i`: z along its axis from apex to heel, x
     /// along the middle of the tooth from which `tooth_azimuth` [rad] counts to the tooth in contact. What lies on the
-    /// flank at the same height in the frame of the mesh comes to lie on the error-free flank of that tooth.
+    /// flank at the same height in the frame of the mesh then lies on the error-free flank of that tooth.
     pub fn in_gear(&self, contact: &Contact, i: usize, tooth_azimuth: f64, turn: f64) -> Contact {
         let angle = self.rotation(contact, i, tooth_azimuth, turn);
         let [axis, toward] = self.axes(i);
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_continue_the_path_and_their_normals_have_the_levers_of_the_gap() {
+    fn corners_continue_the_path_and_their_normals_have_the_moment_arms_of_the_gap() {
         for (z_p, z_s) in [(10, 16), (9, 14), (14, 14)] {
             let pair = Pair::new(&GearSpec { planet_teeth: z_p, side_teeth: z_s, ..GearSpec::default() });
             let action = Action::new(&pair);

@@ -1,4 +1,4 @@
-//! Whether N planets fit, and where in its tooth cycle each mesh stands.
+//! Assembly of N planets, and the phase of each mesh in its tooth cycle.
 //!
 //! N equally spaced planets assemble if 2 z_s / N is an integer. Mesh i on the left side is then
 //! h_iL = p_b frac(z_s φ_i / 2π) into its cycle (0 or half a pitch); the right side adds half a pitch for odd z_p.
@@ -14,7 +14,7 @@ pub fn azimuth(i: usize, count: i32) -> f64 {
     crate::numeric::TAU * i as f64 / f64::from(count)
 }
 
-/// Phases of each planet, or why they do not assemble.
+/// Phases of each planet, or a validation error if they do not assemble.
 pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
     let (n, z_s) = (spec.planet_count, spec.side_teeth);
     if 2 * z_s % n != 0 {

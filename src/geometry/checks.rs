@@ -1,4 +1,4 @@
-//! What cannot be built (errors) and what a gear engineer would question (warnings).
+//! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
 
 use super::solid::Foot;
 use super::{GearSpec, Pair};
@@ -12,18 +12,18 @@ const MM: f64 = 1e3;
 const FACE_WIDTH_LIMIT: f64 = 1.0 / 3.0;
 /// A tip land narrower than this many modules is called pointed.
 const POINTED_LAND: f64 = 0.2;
-/// Teeth reach at most so near to the apex, as a share of the outer cone distance: nearer they have no size to speak of.
+/// Least inner cone distance over the outer one: nearer to the apex teeth have practically no size.
 const LEAST_INNER_CONE: f64 = 0.1;
 /// Least root angle [rad]: a gear needs a body.
 const LEAST_ROOT_ANGLE: f64 = 0.02;
 /// A rim thinner than this many modules at the toe weakens the root.
 const RIM: f64 = 2.0;
-/// Numbers of planets that there may be.
+/// Admissible numbers of planets.
 const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
-/// A fillet smaller than wanted by less than this share is rounding.
+/// A fillet smaller than specified by less than this fraction is a rounding error.
 const SHARE_OF_FILLET: f64 = 1e-9;
 
-/// Why the pair makes no differential: the geometry of a pair holds for other angles too.
+/// Error if the pair cannot form a differential: the geometry of a pair holds for other angles too.
 pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
     (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
         Problem::new(
@@ -37,7 +37,7 @@ pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
     })
 }
 
-/// Why the pair cannot be built; empty if it can.
+/// Reasons why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     if pair.inner_cone <= LEAST_INNER_CONE * pair.outer_cone {
@@ -114,7 +114,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found
 }
 
-/// What is unusual about a pair that can be built.
+/// Warnings about a pair that can be built.
 pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     let m = pair.module;
@@ -176,7 +176,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         found.push(Problem::new(
             "geometry.addendum_system",
             format!(
-                "contact ratio {:.3} is below 1: motion is passed on by tip corners in between",
+                "contact ratio {:.3} is below 1: tip corners transmit the motion in between",
                 pair.path.contact_ratio
             ),
         ));
@@ -185,7 +185,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
 }
 
 /// Angle between the tip cones of neighbouring planets, `count` of them, where they are nearest [rad]; negative where the
-/// cones overlap. There neighbours turn against each other, so that no tooth finds a gap.
+/// cones overlap. Neighbours turn in opposite directions there, so that teeth do not mesh.
 pub fn between_planets(pair: &Pair, count: i32) -> f64 {
     TAU / f64::from(count) - 2.0 * pair.gears[0].tip
 }
@@ -210,7 +210,7 @@ fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
     ))
 }
 
-/// A fillet at the root of gear `i` for which its gaps have no room.
+/// Warning if the root fillet of gear `i` does not fit its gaps.
 fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
     let wanted = spec.root_fillet * pair.module / pair.outer_cone;
     let foot = Foot::new(&pair.gears[i], wanted);

@@ -2,11 +2,11 @@
 //!
 //! With Δ the arc by which the gear with the corner has turned past the end of the path, the corner stands at azimuth
 //! χ = χ_end + Δ/sinδ_b1 about its own axis. Spherical trigonometry gives its polar angle φ₂ and azimuth η about the
-//! mate's axis; the mate's flank passes through it when the mate is turned by θ₂ = η − inv₂(φ₂) + inv₂(δ₂). What is
-//! left to the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂: zero with zero slope at the path's end, ≈ cΔ².
+//! mate's axis; the mate's flank passes through it when the mate is turned by θ₂ = η − inv₂(φ₂) + inv₂(δ₂). The
+//! difference to the conjugate position is the gap g(Δ) = s − sinδ_b2 θ₂: zero with zero slope at the path's end, ≈ cΔ².
 //!
 //! The closed form costs five transcendental functions. The hot path reads a quintic Hermite table made from its
-//! values and exact derivatives: twice continuously differentiable, so that no step of an integrator can feel it.
+//! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
 
 use super::pair::Pair;
 use crate::numeric::{Jet, Scalar, atan2, cos, sin, sqrt, tan};
@@ -23,7 +23,7 @@ const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 /// A path clipped at a base circle ends this far before it, in base pitches (0.3 % of a contact ratio of one): on the
 /// circle itself the flank's curvature is infinite.
 pub(crate) const CLIP_MARGIN: f64 = 3e-3;
-/// Steps per base pitch, and their number, in which the end of the table is looked for.
+/// Steps per base pitch, and their number, in the search for the end of the table.
 const SEARCH: (f64, i32) = (64.0, 256);
 
 /// Gap function of one corner.
@@ -39,7 +39,7 @@ pub struct CornerGap {
     cells: Box<[[f64; 6]; CELLS]>,
 }
 
-/// Where a corner touches: gap with derivatives, and the polar angles about both axes.
+/// Contact of a corner: gap with derivatives, and polar angles about both axes.
 #[derive(Clone, Copy, Debug)]
 pub struct CornerContact {
     /// Gap g [rad] with its derivatives by Δ.
@@ -83,7 +83,7 @@ impl ClosedForm {
 
 impl CornerGap {
     /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or four
-    /// base pitches beyond the path's end, whichever comes first; it goes on growing quadratically from there.
+    /// base pitches beyond the path's end, whichever comes first; it continues quadratically from there.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
         let natural = pair.tip_arc[i] - pair.pitch_arc[i];
@@ -117,13 +117,13 @@ impl CornerGap {
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
             let to = f64::from_bits((first + j as u64) << SHIFT);
-            // beyond the span the gap goes on growing as it does there
+            // beyond the span the gap continues quadratically
             let right = if to <= span { exact.at(to).gap } else { grow(exact.at(span).gap, to - span) };
             *cell = quintic_hermite(left, right, to - from);
             least_curvature = least_curvature.min(0.5 * right.dd);
             (from, left) = (to, right);
         }
-        // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers what may lie between knots
+        // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers values between knots
         Self { end, exact, first, spread: 1.0 / (0.9 * least_curvature), cells }
     }
 

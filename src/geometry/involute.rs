@@ -72,7 +72,7 @@ impl Gear {
 
     /// Outward unit normal of the left (`+1`) or right (`−1`) flank at polar angle `polar`, tangent to the sphere.
     pub fn flank_normal(&self, polar: f64, side: f64) -> Vector3<f64> {
-        // lever arm of the normal about the axis is sinδ_b everywhere: its azimuthal part is sinδ_b / sinφ
+        // the moment arm of the normal about the axis is sinδ_b everywhere: its azimuthal part is sinδ_b / sinφ
         let azimuth = side * self.half_angle(polar);
         let e_polar = Vector3::new(cos(polar) * cos(azimuth), cos(polar) * sin(azimuth), -sin(polar));
         let e_azimuth = Vector3::new(-sin(azimuth), cos(azimuth), 0.0);

@@ -122,7 +122,7 @@ impl Pair {
         self.outer_cone * tan(self.limit_tip_angle(i) - self.gears[i].pitch)
     }
 
-    /// Lever arms of the normal force per unit of cone distance, sinδ_b of planet and side gear.
+    /// sinδ_b of planet and side gear: moment arms of the normal force per unit of cone distance.
     pub fn lever(&self) -> [f64; 2] {
         self.gears.map(|g| sin(g.base))
     }
@@ -145,7 +145,7 @@ fn path(pitch_arc: [f64; 2], tip_arc: [f64; 2], base_pitch: f64) -> Path {
     Path { low: l, high: h, clipped, unclipped_ratio: (high - low) / base_pitch, contact_ratio: (h - l) / base_pitch }
 }
 
-/// Planar approximation on the back cones (Tredgold): what the study uses.
+/// Planar approximation on the back cones (Tredgold), as used by the study.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tredgold {
     /// Teeth of the virtual gears z_v = z / cosδ.

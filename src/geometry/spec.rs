@@ -1,4 +1,4 @@
-//! What a user gives to define the gears: the inputs of every geometry formula.
+//! User parameters of the gears: the inputs of every geometry formula.
 
 use serde::{Deserialize, Serialize};
 

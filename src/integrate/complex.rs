@@ -4,7 +4,7 @@
 //!
 //!   (a I − D − K B / a) U_v = r_v + K r_q / a,   U_q = (r_q + B U_v) / a.
 //!
-//! Where D and −K B take energy up or away, as those of a mechanical system do, a and 1/a of positive real part keep the
+//! Where D and −K B store or dissipate energy, as those of a mechanical system do, a and 1/a of positive real part keep the
 //! pivots away from zero without exchanging rows.
 
 use std::ops::{Add, Mul, Sub};

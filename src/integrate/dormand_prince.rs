@@ -5,13 +5,13 @@
 //! Differential Equations I, 2nd ed., Springer 1993, section II.6. The error estimate is the difference to the embedded
 //! solution.
 //!
-//! Stable only while h |λ| < 3.3 on the negative real axis and h ω < 1 on the imaginary one, to which a mesh of stiff
-//! teeth ties its steps: it is here to be compared with.
+//! Stable only while h |λ| < 3.3 on the negative real axis and h ω < 1 on the imaginary one, which limits the
+//! steps of a mesh of stiff teeth: it is here for comparison.
 //!
-//! The first stage is the evaluation that the driver makes at the start of a step for the ledger, so that the last stage
-//! need not be handed on from step to step.
+//! The first stage is the driver's evaluation at the start of a step for the ledger, so that the last stage need not be
+//! passed on from step to step.
 
-use super::method::{Aim, Method, Trial, combine};
+use super::method::{ErrorNorm, Method, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
@@ -32,7 +32,7 @@ const A: [&[f64]; 6] = [
 const ERROR: [f64; 7] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339200.0, 22.0 / 525.0, -1.0 / 40.0];
 
-/// Weights of the stages in the term Θ²(1−Θ)² of the continuous extension, beside the cubic through both ends.
+/// Weights of the stages in the term Θ²(1−Θ)² of the continuous extension, in addition to the cubic through both ends.
 const QUARTIC: [f64; 7] = [
     -12_715_105_075.0 / 11_282_082_432.0,
     0.0,
@@ -54,7 +54,7 @@ impl Method for DormandPrince {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &Aim<N>,
+        _: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];

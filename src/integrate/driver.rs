@@ -5,11 +5,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::method::{Aim, Method, Trial};
+use super::method::{ErrorNorm, Method, Trial};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
-/// What the step-size controller remembers from one call to the next.
+/// State of the step-size controller between calls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Control {
     /// Predicted size of the next step [s].
@@ -20,7 +20,7 @@ pub struct Control {
     pub last_error: f64,
     /// Whether the last accepted step ended on a kink.
     pub on_kink: bool,
-    /// Size of step [s] that was right after the last kink: what follows a kink is faster than what came before.
+    /// Size of step [s] that was right after the last kink: motion after a kink is faster than before.
     pub after_kink: f64,
 }
 
@@ -31,7 +31,7 @@ impl Control {
     }
 }
 
-/// An accepted step as its observer sees it.
+/// An accepted step, as passed to the observer.
 pub struct Step<'a, const N: usize, P> {
     /// Step size [s].
     pub h: f64,
@@ -45,10 +45,10 @@ pub struct Step<'a, const N: usize, P> {
     pub power: [P; 3],
 }
 
-/// What an observer wants after an accepted step.
+/// Decision of the observer after an accepted step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on to the end of the interval.
+    /// Continue to the end of the interval.
     Continue,
     /// Stop here: the equations change.
     Stop,
@@ -59,10 +59,10 @@ pub enum Flow {
 pub enum Failure<E> {
     /// The step size fell below what time can resolve.
     StepTooSmall {
-        /// The step size asked for [s].
+        /// The step size required [s].
         size: f64,
     },
-    /// The attempts granted were not enough.
+    /// The budget of attempts was exhausted.
     TooManySteps,
     /// A step of fixed size could not be solved.
     Diverged,
@@ -80,15 +80,15 @@ const LARGEST_GROWTH: f64 = 6.0;
 const AFTER_KINK_GROWTH: f64 = 4.0;
 const LEAST_SHRINK: f64 = 1.25;
 const LARGEST_SHRINK: f64 = 5.0;
-/// How many times the tolerance the ledger of a step may be off, relative to the energy that the step dealt with: heat is
-/// a quadrature beside the motion, and kinks in it are felt less by the motion.
+/// Allowed imbalance of a step's ledger in tolerances, relative to the energy exchanged in the step: heat is a quadrature
+/// along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
-/// Times in a row that a step is shortened for its ledger alone; what still does not close is no matter of step size.
+/// Largest number of consecutive steps shortened for the ledger alone: an imbalance that remains does not depend on size.
 const UNBALANCED: u32 = 8;
-/// An error remembered as smaller would make the predictive controller timid.
+/// Least error remembered: a smaller one would make the predictive controller too cautious.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 
-/// How well to integrate, what is remembered and counted, and how much work is granted.
+/// Tolerance, step-size control, counters and work budget of an integration.
 pub struct Effort<'a> {
     /// Relative tolerance of the local error.
     pub tolerance: f64,
@@ -96,7 +96,7 @@ pub struct Effort<'a> {
     pub control: &'a mut Control,
     /// Counts.
     pub statistics: &'a mut Statistics,
-    /// Attempts at steps that may still be made.
+    /// Attempts at steps that are left.
     pub budget: &'a mut u64,
 }
 
@@ -130,9 +130,9 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
         } else if let Some(fraction) = system.kink(point, h) {
             (h, cut, to_kink) = (h * fraction, true, true);
         }
-        let aim = Aim { weights: system.weights(point), tolerance };
-        let trial = method.step(system, (point, *time), &lin, h, &aim, statistics);
-        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &aim));
+        let norm = ErrorNorm { weights: system.weights(point), tolerance };
+        let trial = method.step(system, (point, *time), &lin, h, &norm, statistics);
+        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &norm));
         match trial {
             Some(trial) if error <= 1.0 => {
                 if let Some(fraction) =
@@ -246,15 +246,15 @@ impl Control {
 
 /// Largest component of the error over what is allowed; NaN if anything is not finite.
 #[inline(always)]
-fn error_norm<const N: usize>(trial: &Trial<N>, aim: &Aim<N>) -> f64 {
-    let weight = &aim.weights;
+fn error_norm<const N: usize>(trial: &Trial<N>, norm: &ErrorNorm<N>) -> f64 {
+    let weight = &norm.weights;
     let (mut largest, mut sum) = (0.0f64, 0.0);
     for i in 0..N {
         let q = (trial.error.q[i] * weight.q[i]).abs();
         let v = (trial.error.v[i] * weight.v[i]).abs();
         largest = largest.max(q).max(v);
-        // max() passes over NaN, a sum does not, nor does a product with zero
+        // max() ignores NaN, a sum does not, nor does a product with zero
         sum += q + v + 0.0 * (trial.end.q[i] + trial.end.v[i]);
     }
-    if sum.is_finite() { largest / aim.tolerance } else { f64::NAN }
+    if sum.is_finite() { largest / norm.tolerance } else { f64::NAN }
 }

@@ -1,9 +1,9 @@
-//! A system behind a table of functions: methods beside the default one are compiled once per size, not once per kind of
-//! equations. A call through the table costs some nanoseconds, a hundredth of what it calls.
+//! A system behind a table of functions: methods other than the default one are compiled once per size, not once per kind
+//! of equations. A call through the table costs some nanoseconds, a hundredth of the called function.
 
 use super::system::{Linearisation, Matrix, Point, SecondOrder};
 
-/// The functions of a [`SecondOrder`] system that can stand in a table.
+/// The functions of a [`SecondOrder`] system that can be called through a table.
 pub trait Object<const N: usize, P> {
     /// See [`SecondOrder::rates`].
     fn rates(&self, v: &[f64; N]) -> [f64; N];

@@ -9,10 +9,10 @@
 //!
 //!   (I − s D − s² K B) δ = v₀ + s a(q, v) − v,   v += θ δ,   q = q₀ + s B v,
 //!
-//! on the second-order block: one factorisation of the order of the velocities an iteration. Rosenbrock methods do with a
-//! single linearisation, but a step that is longer than a contact lasts starts on one side of a kink and ends on the
-//! other, and has to be linearised where it ends. The system shortens an iteration (θ < 1) that would leap deep into a
-//! contact which the linearisation does not know of yet.
+//! on the second-order block: one factorisation of the order of the velocities an iteration. Rosenbrock methods need a
+//! single linearisation, but a step longer than a contact starts on one side of a kink and ends on the other, and must be
+//! linearised at its end. The system shortens an iteration (θ < 1) that would jump deep into a contact which the
+//! linearisation does not contain yet.
 
 use super::driver::{Failure, Flow, Step};
 use super::linear::Factors;
@@ -21,9 +21,9 @@ use super::system::{Linearisation, Point, SecondOrder};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-/// Newton iterations a stage. A blow between teeth takes three to be found and one to be met.
+/// Newton iterations a stage. An impact between teeth needs three to be detected and one to converge.
 const ITERATIONS: u32 = 4;
-/// Steps longer than asked for by less than this part are not cut in two: communication points are rounded.
+/// Steps longer than requested by less than this fraction are not divided: communication points are rounded.
 const ROUNDING: f64 = 1e-6;
 
 /// Integrates from `time` to `until` in equal steps of at most `step` [s], calling `observe` after each, which may end
@@ -77,7 +77,7 @@ fn sdirk<const N: usize, S: SecondOrder<N>>(
 ) -> Option<Point<N>> {
     let s = GAMMA * h;
     let first = stage(system, start, start, (s, time + s), counts)?;
-    // what the first stage found, carried on: y₀ + (1 − γ) h f₁ with s f₁ = y₁ − y₀
+    // base of the second stage: y₀ + (1 − γ) h f₁ with s f₁ = y₁ − y₀
     let carry = (1.0 - GAMMA) / GAMMA;
     let base = Point {
         q: std::array::from_fn(|i| start.q[i] + carry * (first.q[i] - start.q[i])),
@@ -98,7 +98,7 @@ fn stage<const N: usize, S: SecondOrder<N>>(
         let rate = system.rates(&v);
         Point { q: std::array::from_fn(|i| base.q[i] + s * rate[i]), v }
     };
-    // the way from `near` is itself an iteration that may leap
+    // the way from `near` is itself an iteration that may jump
     let mut y = at(near.v);
     for _ in 0..ITERATIONS {
         let lin = system.linearise_at(&y, time);

@@ -1,8 +1,8 @@
 //! Factorisation of the small dense matrix of a step, A = U L with a unit upper triangle, from the last row to the first.
 //!
-//! Bodies that may be alike stand behind those that they act on, so that they are eliminated first and never couple with
-//! each other. No rows are exchanged: the matrix is that of a mechanical system, row-scaled by inertias, whose pivots are
-//! positive unless the step is far too long; a vanishing pivot is refused and the step becomes shorter.
+//! Bodies that may be alike are ordered behind those that they act on, so that they are eliminated first and never couple
+//! with each other. No rows are exchanged: the matrix is that of a mechanical system, row-scaled by inertias, whose pivots are
+//! positive unless the step is far too long; a vanishing pivot is rejected and the step becomes shorter.
 
 use super::system::{Matrix, SecondOrder, sum};
 
@@ -74,7 +74,7 @@ mod tests {
     fn solution_satisfies<const N: usize>(random: &mut impl FnMut() -> f64) {
         let mut m: Matrix<N> = std::array::from_fn(|_| std::array::from_fn(|_| random()));
         for i in 0..N {
-            m[i][i] += N as f64; // as a step's matrix, it is led by its diagonal
+            m[i][i] += N as f64; // dominated by its diagonal, like a step's matrix
         }
         let b: [f64; N] = std::array::from_fn(|_| random());
         let mut x = b;

@@ -1,4 +1,4 @@
-//! What a one-step method does, whatever its kind: the driver, the step-size control and the tests know no more of it.
+//! Interface of one-step methods: all that the driver, the step-size control and the tests use of them.
 
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -14,17 +14,17 @@ pub struct Trial<const N: usize> {
     pub error: Point<N>,
 }
 
-/// How accurate a step has to be: what iterations within it are stopped by.
+/// Weighted norm of errors relative to the tolerance: it accepts steps and stops iterations within them.
 #[derive(Clone, Copy, Debug)]
-pub struct Aim<const N: usize> {
+pub struct ErrorNorm<const N: usize> {
     /// Reciprocals of the natural magnitudes of positions and velocities.
     pub weights: Point<N>,
     /// Relative tolerance: an error, weighted, must not exceed it.
     pub tolerance: f64,
 }
 
-impl<const N: usize> Aim<N> {
-    /// Largest component of `of` over what is allowed; passes over NaN.
+impl<const N: usize> ErrorNorm<N> {
+    /// Largest component of `of` over the allowed one; ignores NaN.
     #[inline(always)]
     pub fn size(&self, of: &Point<N>) -> f64 {
         let mut largest = 0.0f64;
@@ -35,26 +35,26 @@ impl<const N: usize> Aim<N> {
     }
 }
 
-/// A one-step method with an error estimate. It remembers nothing from step to step, so that a snapshot need not know it.
+/// A one-step method with an error estimate. It has no memory from step to step, so that snapshots need not contain it.
 pub trait Method {
     /// Order p of the error estimate, which falls as h^(p+1).
     const ESTIMATE: u32;
-    /// Whether steps use derivatives of the accelerations. If not, they are not asked for: `lin` holds zeros for them.
+    /// Whether steps use derivatives of the accelerations. If not, they are not computed: `lin` holds zeros for them.
     const IMPLICIT: bool = true;
 
-    /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it cannot be made (a singular matrix, an
-    /// iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
+    /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it fails (a singular
+    /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
         start: (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        aim: &Aim<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>>;
 
-    /// x^(1/(p+1)), to a per mille: all that a step size needs.
+    /// x^(1/(p+1)), to a per mille, which suffices for a step size.
     #[inline(always)]
     fn root(x: f64) -> f64 {
         match Self::ESTIMATE {

@@ -1,4 +1,7 @@
 //! Integration of second-order systems M v̇ = f(q, v), q̇ = B v: stiff, small, without heap allocation.
+//!
+//! The interface of a system, one-step methods (one a file), their linear algebra, and the drivers with adaptive and fixed
+//! steps. Nothing here is specific to gears.
 
 mod block;
 mod complex;
@@ -19,7 +22,7 @@ pub use dormand_prince::DormandPrince;
 pub use driver::{Control, Effort, Failure, Flow, Step, advance};
 pub use erased::{Erased, Object};
 pub use fixed::advance_fixed;
-pub use method::{Aim, Method, Trial};
+pub use method::{ErrorNorm, Method, Trial};
 pub use radau::Radau;
 pub use rodas4::Rodas4;
 pub use rodas5p::Rodas5P;

@@ -1,22 +1,22 @@
 //! Radau IIA: implicit, order 5, three stages, L-stable and stiffly accurate, its stages of order 3.
 //!
 //! E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.8: stages by
-//! simplified Newton iterations in transformed variables, where they fall apart into a real and a complex system. With
+//! simplified Newton iterations in transformed variables, where they separate into a real and a complex system. With
 //! Z_i = Y_i − y₀ = Σ T_ij W_j and T⁻¹ A⁻¹ T = Λ, of the blocks γ and (α, −β; β, α), an iteration is
 //!
 //!   (Λ/h − J) ΔW = T⁻¹ F(y₀ + T W) − Λ W/h.
 //!
-//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. It does not fall with the
-//! stiffness of a motion that is to be damped at once; where it is too large it is taken again with f(y₀ + e) for f(y₀),
-//! which mends that. The middle is that of the collocation polynomial, of order 3.
+//! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. It does not decrease with
+//! the stiffness of a motion that is damped at once; where it is too large it is evaluated again with f(y₀ + e) for f(y₀),
+//! which corrects this. The middle is that of the collocation polynomial, of order 3.
 //!
-//! Other than the code RADAU5 of the same authors, no step hands anything on to the next: the Jacobian is the one at the
-//! start, and stages start from the motion linearised there (by time too), which is what the first iteration from Z = 0 gives, at no
-//! evaluation, for f(y₀) is known.
+//! Unlike the code RADAU5 of the same authors, no step passes anything to the next: the Jacobian is the one at the start,
+//! and stages start from the motion linearised there (by time too), which the first iteration from Z = 0 gives without an
+//! evaluation, since f(y₀) is known.
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
-use super::method::{Aim, Method, Trial, combine};
+use super::method::{ErrorNorm, Method, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
@@ -46,11 +46,11 @@ const INVERSE: [[f64; 3]; 3] = [
 /// e_i of the error estimate.
 const ESTIMATE: [f64; 3] = [(-13.0 - 7.0 * ROOT) / 3.0, (-13.0 + 7.0 * ROOT) / 3.0, -1.0 / 3.0];
 
-/// Iterations granted; where more are needed, a shorter step is cheaper.
+/// Largest number of iterations; where more are needed, a shorter step is cheaper.
 const ITERATIONS: i32 = 10;
-/// Part of the tolerance that the iterations may leave over, small beside what the error estimate says.
+/// Share of the tolerance allowed as iteration error, small compared with the error estimate.
 const LEFT_OVER: f64 = 0.01;
-/// Part of a stage's magnitude that rounding may leave over, in units of the last place.
+/// Share of a stage's magnitude allowed as rounding error, some units of the last place.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Method for Radau {
@@ -63,7 +63,7 @@ impl Method for Radau {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        aim: &Aim<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         let per_h = 1.0 / h;
@@ -82,7 +82,7 @@ impl Method for Radau {
             }
         }
         let (mut last, mut left) = (f64::INFINITY, ITERATIONS);
-        let enough = LEFT_OVER.max(ROUNDING * aim.size(start));
+        let enough = LEFT_OVER.max(ROUNDING * norm.size(start));
         loop {
             let mut change = [Point::ZERO; 3];
             for i in 0..3 {
@@ -102,8 +102,8 @@ impl Method for Radau {
                 combine(&mut z[i], &T[i], 1.0, &w);
             }
 
-            // changes shrink by about the same factor each time: what is to come is a geometric series
-            let size = aim.size(&change[0]).max(aim.size(&change[1])).max(aim.size(&change[2]));
+            // changes shrink by about the same factor each time: the remaining ones are a geometric series
+            let size = norm.size(&change[0]).max(norm.size(&change[1])).max(norm.size(&change[2]));
             let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
             if !sum.is_finite() {
                 return None;
@@ -111,7 +111,7 @@ impl Method for Radau {
             left -= 1;
             let shrink = size / last;
             let to_come = size * shrink / (1.0 - shrink);
-            if size <= ROUNDING * aim.size(start) || (shrink < 1.0 && to_come <= enough && left < ITERATIONS - 1) {
+            if size <= ROUNDING * norm.size(start) || (shrink < 1.0 && to_come <= enough && left < ITERATIONS - 1) {
                 break;
             }
             if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(left)) > enough {
@@ -129,7 +129,7 @@ impl Method for Radau {
         combine(&mut defect, &ESTIMATE, per_h, &z);
         let mut error = shifted(&slope, &defect);
         real.solve(system, &lin.by_position, &mut error);
-        if aim.size(&error) > 1.0 {
+        if norm.size(&error) > 1.0 {
             let at = shifted(start, &error);
             error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
             real.solve(system, &lin.by_position, &mut error);

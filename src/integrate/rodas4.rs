@@ -2,9 +2,9 @@
 //!
 //! E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., Springer 1996, section IV.7, with the
 //! coefficients and the continuous extension (of order 3) of their code RODAS, first set. The error estimate is the
-//! difference to the embedded solution. Smooth stiff forcing (Prothero–Robinson) lowers its order, which Rodas5P mends.
+//! difference to the embedded solution. Smooth stiff forcing (Prothero–Robinson) lowers its order, which Rodas5P avoids.
 
-use super::method::{Aim, Method, Trial};
+use super::method::{ErrorNorm, Method, Trial};
 use super::rosenbrock::{self, Tableau};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -22,7 +22,7 @@ impl Method for Rodas4 {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &Aim<N>,
+        _: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS4.c.len() as u64;

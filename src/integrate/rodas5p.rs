@@ -2,9 +2,9 @@
 //!
 //! G. Steinebach, Construction of Rosenbrock–Wanner method Rodas5P and numerical benchmarks within the Julia
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
-//! smooth forcing (Prothero–Robinson), which is what a damped mesh rolling through its tooth cycle is.
+//! smooth forcing (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle.
 
-use super::method::{Aim, Method, Trial};
+use super::method::{ErrorNorm, Method, Trial};
 use super::rosenbrock::{self, Tableau};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -22,7 +22,7 @@ impl Method for Rodas5P {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &Aim<N>,
+        _: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS5P.c.len() as u64;

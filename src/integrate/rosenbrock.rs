@@ -22,7 +22,7 @@ pub struct Tableau<const S: usize> {
     pub a: &'static [&'static [f64]],
     /// c_ij from the second stage on.
     pub c: &'static [&'static [f64]],
-    /// Weights of the stages in the solution at the middle of the step, beside (y₀ + y₁)/2.
+    /// Weights of the stages in the solution at the middle of the step, in addition to (y₀ + y₁)/2.
     pub middle: [f64; S],
 }
 

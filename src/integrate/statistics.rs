@@ -1,8 +1,8 @@
-//! What an integrator did.
+//! Counters of the integrator.
 
 use serde::{Deserialize, Serialize};
 
-/// Counts of what the integrator did, by cause.
+/// Counts of steps and evaluations, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Accepted steps.
@@ -15,7 +15,7 @@ pub struct Statistics {
     pub rejected_ledger: u64,
     /// Steps shortened because the equations switched within them.
     pub rejected_switch: u64,
-    /// Evaluations of the right-hand side, those of linearisations and of the ledger included.
+    /// Evaluations of the right-hand side, including those of linearisations and of the ledger.
     pub evaluations: u64,
     /// Evaluations of the Jacobian, each with its factorisation.
     pub jacobians: u64,

@@ -1,4 +1,4 @@
-//! What an integrator needs to know of a mechanical system.
+//! Interface of a mechanical system to the integrator.
 
 /// Rows and columns per degree of freedom.
 pub type Matrix<const N: usize> = [[f64; N]; N];
@@ -37,7 +37,7 @@ pub struct Linearisation<const N: usize, P> {
 ///
 /// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster.
 pub trait SecondOrder<const N: usize> {
-    /// Rates of the quantities that are integrated along with the motion but do not act on it: a ledger.
+    /// Ledger rates: powers that are integrated along with the motion but do not act on it.
     type Power: Copy;
 
     /// First and number (0, 1, 2, 4 or 8) of the degrees of freedom of bodies that may be alike. Sums over them are
@@ -92,15 +92,15 @@ pub trait SecondOrder<const N: usize> {
         [0.0; 2]
     }
 
-    /// By how much the ledger of a step of size `h` does not close, relative to the energy that the step dealt with, from
-    /// the energies at its ends and the ledger rates at begin, middle and end.
+    /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the
+    /// energies at its ends and the ledger rates at begin, middle and end.
     #[inline(always)]
     fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Power; 3]) -> f64 {
         0.0
     }
 
-    /// The part of an iteration from `from` to `to` to take, so that it does not leap deep into a contact whose force it
-    /// has not seen yet.
+    /// The fraction of an iteration from `from` to `to` to take, so that it does not jump deep into a contact whose force
+    /// it has not evaluated yet.
     #[inline(always)]
     fn reach(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
         1.0

@@ -1,4 +1,4 @@
-//! Elementary functions with the same bits on every system, from the `libm` crate, and small helpers.
+//! Elementary functions with the same bits on every system, from the `libm` crate, and numbers that carry derivatives.
 
 pub use libm::{acos, asin, atan2, cos, pow, sin, sqrt, tan};
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};

@@ -4,7 +4,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{cos, pow, sin, sqrt};
 
-/// What a formula may do with its quantities: done by `f64` for values alone, by [`Dual`] for values with derivatives.
+/// Operations of formulas: implemented by `f64` for values alone, by [`Dual`] for values with derivatives.
 pub trait Scalar:
     Copy
     + Add<Output = Self>
@@ -16,7 +16,7 @@ pub trait Scalar:
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Whether derivatives come with the values.
+    /// Whether values carry derivatives.
     const HAS_SLOPES: bool;
     /// A constant.
     fn constant(value: f64) -> Self;
@@ -46,11 +46,6 @@ pub trait Scalar:
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self {
         self.chain(libm::log(self.value()), 1.0 / self.value())
-    }
-    /// Hyperbolic tangent.
-    fn tanh(self) -> Self {
-        let f = libm::tanh(self.value());
-        self.chain(f, 1.0 - f * f)
     }
     /// Power of a positive number with a constant exponent.
     fn powf(self, exponent: f64) -> Self {
@@ -190,7 +185,7 @@ mod tests {
 
     fn formula<T: Scalar>(x: T, y: T) -> T {
         let root = (x * x + y * y + 1.0).sqrt();
-        (x.sin() * y.cos() - (x / root).tanh()) * (-y).exp() + root.ln() * x.abs().powf(1.7) - y * 3.0
+        (x.sin() * y.cos() - x / root) * (-y).exp() + root.ln() * x.abs().powf(1.7) - y * 3.0
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Sub};
 
 use super::Dual;
 
-/// What such a formula may do with its quantities.
+/// Operations of such formulas.
 pub trait Smooth:
     Copy
     + Add<Output = Self>

@@ -1,4 +1,4 @@
-//! How often a tooth is loaded: rolling of a gear relative to the carrier, and which of its flanks a mesh loads.
+//! Load cycles of a tooth: rolling of a gear relative to the carrier, and the flank that a mesh loads.
 //!
 //! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier: a planet's tooth once by
 //! the left and once by the right side gear, on opposite flanks (it is an idler); a side gear's tooth N times, on the
@@ -6,9 +6,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::{PI, TAU};
+use crate::numeric::TAU;
 
-/// Rolling of a gear, with the play of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
+/// Rolling of a gear with a dead band of one tooth pitch: rocking within a pitch brings no new tooth into mesh.
 ///
 /// The window of one pitch is pushed along by the gear's angle; only what pushes it counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,15 +36,4 @@ impl Rolling {
 /// (`far` = true), which load opposite flanks as long as both drive. `driving`: the carrier drives the side gear.
 pub fn loaded_flank(far: bool, driving: bool) -> usize {
     usize::from(far == driving)
-}
-
-/// Revolutions of a planet relative to the carrier [1] while the car rolls over `distance` [m] of a bend of radius
-/// `bend` [m], with `track` and tyre radius `tyre` [m]: (z_s/z_p)·½·(track/bend)·distance/(2π tyre).
-pub fn planet_revolutions(teeth_ratio: f64, distance: f64, bend: f64, track: f64, tyre: f64) -> f64 {
-    teeth_ratio * track * distance / (4.0 * PI * bend * tyre)
-}
-
-/// Revolutions of a side gear relative to the carrier [1] while its planets do `planet` revolutions: z_p/z_s of them.
-pub fn side_revolutions(teeth_ratio: f64, planet: f64) -> f64 {
-    planet / teeth_ratio
 }

@@ -1,4 +1,4 @@
-//! Damage of a gear's teeth while it rolls, per flank: what a simulation carries along.
+//! Damage of a gear's teeth while it rolls, per flank, accumulated during a simulation.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use super::counting::Rolling;
 use super::material::SnCurve;
 use super::miner::Damage;
 
-/// Damage that load on one flank does.
+/// Damage by load on one flank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlankDamage {
     /// Of the root, by bending.

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use crate::geometry::Pair;
 use crate::numeric::{PI, sin, sqrt};
 
-/// Least curvature radius at which the formula is used, as a part of the pitch point's: nearer to a base circle the
-/// radius goes to zero and the flank is no longer a cylinder in the width of the contact.
+/// Least curvature radius for the formula, relative to that at the pitch point: nearer to a base circle the radius tends
+/// to zero and the flank is no longer a cylinder over the width of the contact.
 const LEAST_RADIUS: f64 = 1e-3;
 
 /// Line contact of a planet with a side gear.
@@ -24,7 +24,7 @@ pub struct LineContact {
     /// Mean cone distance R_m [m].
     pub mean_cone: f64,
     /// Inner and outer cone distance R_i, R_e [m].
-    pub ends: [f64; 2],
+    pub cone_range: [f64; 2],
     /// Arcs ψ from the tangent points of planet and side gear to the pitch point [rad].
     pub pitch_arc: [f64; 2],
     /// Ends of the path of contact [rad].
@@ -40,7 +40,7 @@ impl LineContact {
         Self {
             modulus: young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio)),
             mean_cone: pair.mean_cone,
-            ends: [pair.inner_cone, pair.outer_cone],
+            cone_range: [pair.inner_cone, pair.outer_cone],
             pitch_arc: pair.pitch_arc,
             path: [pair.path.low, pair.path.high],
             single: [pair.path.high - pair.base_pitch, pair.path.low + pair.base_pitch],
@@ -63,19 +63,14 @@ impl LineContact {
         (radius > LEAST_RADIUS * at(0.0)).then_some(radius)
     }
 
-    /// Radii of curvature [m] of planet and side gear at cone distance `cone` [m] and place `s` [rad].
-    pub fn radii(&self, cone: f64, s: f64) -> [f64; 2] {
-        [self.pitch_arc[0] + s, self.pitch_arc[1] - s].map(|psi| cone * crate::numeric::tan(psi))
-    }
-
     /// Load per width of a line law w [N/m] at cone distance `cone` [m] under the pair's normal force [N].
     pub fn line_load(&self, force: f64, cone: f64) -> f64 {
-        2.0 * force * cone / (self.ends[1] * self.ends[1] - self.ends[0] * self.ends[0])
+        2.0 * force * cone / (self.cone_range[1] * self.cone_range[1] - self.cone_range[0] * self.cone_range[0])
     }
 
     /// Pressure [Pa] of a load per width [N/m] at cone distance `cone` [m] and place `s` [rad].
     ///
-    /// 0 without load; `None` where a radius vanishes or a value makes no sense.
+    /// 0 without load; `None` where a radius vanishes or a value is not finite.
     pub fn pressure_at(&self, line_load: f64, cone: f64, s: f64) -> Option<f64> {
         self.pressure_on(line_load, cone * self.relative_radius(s)?)
     }
@@ -99,11 +94,11 @@ impl LineContact {
         self.pressure_at(self.line_load(force, self.mean_cone), self.mean_cone, s)
     }
 
-    /// Pressure [Pa] that a rating counts with: one pair carries the mesh's whole normal force `force` [N] at the worse
+    /// Pressure [Pa] used in a rating: one pair carries the mesh's whole normal force `force` [N] at the worse
     /// inner point of single contact (ISO 10300-2:2001, Z_M-B of teeth without overlap).
     ///
     /// S–N curves for pitting are meant for this pressure. That of a pair near the end of the path is higher, as the
-    /// radius vanishes toward the base circle, but it stands where sliding wears and relief unloads the flank.
+    /// radius vanishes toward the base circle, but it occurs where sliding wears and relief unloads the flank.
     pub fn rated_pressure(&self, force: f64) -> Option<f64> {
         let [a, b] = self.single.map(|s| self.pressure(force, s));
         Some(a?.max(b?))
@@ -123,7 +118,7 @@ mod tests {
     fn the_short_form_of_the_curvature_is_the_sum_of_both() {
         let c = contact();
         for s in [-0.15, 0.0, 0.2] {
-            let [p, g] = c.radii(30e-3, s);
+            let [p, g] = [c.pitch_arc[0] + s, c.pitch_arc[1] - s].map(|psi| 30e-3 * psi.tan());
             let tau = c.relative_radius(s).unwrap();
             assert!((30e-3 * tau * (1.0 / p + 1.0 / g) - 1.0).abs() < 1e-14);
         }
@@ -132,9 +127,9 @@ mod tests {
     #[test]
     fn a_line_law_presses_evenly_over_the_face_and_as_impact_does() {
         let c = contact();
-        for cone in [c.ends[0], 30e-3, c.ends[1]] {
+        for cone in [c.cone_range[0], 30e-3, c.cone_range[1]] {
             let p = c.pressure_at(c.line_load(5e3, cone), cone, 0.1).unwrap();
-            let b = c.ends[1] - c.ends[0];
+            let b = c.cone_range[1] - c.cone_range[0];
             let impact = c.pressure_at(5e3 / b, c.mean_cone, 0.1).unwrap();
             assert!((p / impact - 1.0).abs() < 1e-14);
         }

@@ -1,4 +1,4 @@
-//! S–N curves of carburised steel, as ISO 6336-5 and ISO 6336-2/-3 draw them for quality MQ.
+//! S–N curves of carburised steel by ISO 6336-5 and ISO 6336-2/-3 for quality MQ.
 //!
 //! N_f = N_ref (S/σ)^k. The knee is at N_ref and the strength S; the slope k follows from the life factor at the
 //! low-cycle end, k = ln(N_ref/N_static)/ln Y_NT.
@@ -24,7 +24,7 @@ pub struct SnCurve {
 
 impl SnCurve {
     /// Curve through `strength` [Pa] at `reference_cycles` and `life_factor` times it at `static_cycles`; below the knee
-    /// it goes on with the same slope, which errs on the safe side.
+    /// it continues with the same slope, which is conservative.
     pub fn through(strength: f64, reference_cycles: f64, life_factor: f64, static_cycles: f64) -> Self {
         let slope = libm::log(reference_cycles / static_cycles) / libm::log(life_factor);
         Self { strength, slope, reference_cycles, static_cycles, endurance_slope: Some(slope) }
@@ -35,20 +35,9 @@ impl SnCurve {
         Self { strength: self.strength * factor, ..self }
     }
 
-    /// The same with Haibach's slope 2k − 1 below the knee.
-    pub fn haibach(self) -> Self {
-        Self { endurance_slope: Some(2.0 * self.slope - 1.0), ..self }
-    }
-
-    /// The same with an endurance limit: no damage below the knee.
-    pub fn endless(self) -> Self {
-        Self { endurance_slope: None, ..self }
-    }
-
     /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
     ///
     /// Above the static strength the standard states no life; the slope is continued, so that sums stay smooth.
-    /// Whether the static strength is exceeded is a question of its own: [`Self::static_strength`].
     pub fn damage_per_cycle(&self, stress: f64) -> f64 {
         let ratio = stress / self.strength;
         if ratio.is_nan() || ratio <= 0.0 {
@@ -60,30 +49,9 @@ impl SnCurve {
             None => 0.0,
         }
     }
-
-    /// Cycles to failure N_f at `stress` [Pa]; infinite where no cycle does damage.
-    pub fn cycles_to_failure(&self, stress: f64) -> f64 {
-        let damage = self.damage_per_cycle(stress);
-        if damage > 0.0 { 1.0 / damage } else { f64::INFINITY }
-    }
-
-    /// Stress [Pa] at which `damage` is done per cycle: the inverse of [`Self::damage_per_cycle`].
-    pub fn stress_of_damage(&self, damage: f64) -> f64 {
-        let relative = damage * self.reference_cycles;
-        if relative.is_nan() || relative <= 0.0 {
-            return 0.0;
-        }
-        let slope = if relative >= 1.0 { Some(self.slope) } else { self.endurance_slope };
-        slope.map_or(self.strength, |k| self.strength * pow(relative, 1.0 / k))
-    }
-
-    /// Strength at the low-cycle end [Pa]: more breaks the tooth, or dents the flank, at once.
-    pub fn static_strength(&self) -> f64 {
-        self.strength * pow(self.reference_cycles / self.static_cycles, 1.0 / self.slope)
-    }
 }
 
-/// What a gear's teeth bear.
+/// Strength of a gear's teeth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// Root bending, pulsating load.

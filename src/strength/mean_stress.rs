@@ -1,7 +1,7 @@
-//! A cycle about any mean stress as the pulsating one (from 0 to its range) that does the same damage.
+//! The pulsating cycle (from 0 to its range) that does the same damage as a cycle about any mean stress.
 //!
-//! FKM guideline, *Analytical strength assessment*: with the sensitivity M and r = σ_m/σ_a, the amplitude
-//! borne at this mean is K σ_W, where
+//! FKM guideline, *Analytical strength assessment*: with the sensitivity M and r = σ_m/σ_a, the permissible
+//! amplitude at this mean is K σ_W, where
 //!
 //! ```text
 //! r ≤ 1         K = 1/(1 + M r)                          (stress ratio up to 0; below −1, 1/(1 − M))
@@ -15,7 +15,7 @@ use super::rainflow::Cycle;
 
 /// Range [unit of the cycle] of the pulsating cycle equal in damage to `cycle` at the sensitivity `m`, 0 ≤ m < 1.
 ///
-/// A positive mean is tension. For the root at the other flank hand in the cycle with its mean negated.
+/// A positive mean is tension. For the root at the other flank pass the cycle with its mean negated.
 pub fn pulsating_range(cycle: &Cycle, m: f64) -> f64 {
     let m = m.clamp(0.0, 0.99);
     let amplitude = cycle.range / 2.0;
@@ -23,15 +23,15 @@ pub fn pulsating_range(cycle: &Cycle, m: f64) -> f64 {
         return 0.0;
     }
     let r = cycle.mean / amplitude;
-    let borne = if r <= 1.0 {
+    let permissible = if r <= 1.0 {
         1.0 / (1.0 + m * r.max(-1.0))
     } else if r < 3.0 {
         (1.0 + m / 3.0) / ((1.0 + m) * (1.0 + m * r / 3.0))
     } else {
         (1.0 + m / 3.0) / ((1.0 + m) * (1.0 + m))
     };
-    // of a pulsating cycle 1/(1 + M) is borne
-    cycle.range / ((1.0 + m) * borne)
+    // of a pulsating cycle K = 1/(1 + M)
+    cycle.range / ((1.0 + m) * permissible)
 }
 
 #[cfg(test)]
@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pulsating_cycle_stands_for_itself_and_an_alternating_one_for_the_idler_factor() {
+    fn a_pulsating_cycle_is_unchanged_and_an_alternating_one_follows_the_idler_factor() {
         assert!((pulsating_range(&cycle(0.0, 5.0), 0.4) - 5.0).abs() < 1e-14);
         // Y_M = 0.7: an alternating peak is as bad as a pulsating one of 1/0.7
         assert!((pulsating_range(&cycle(-5.0, 5.0), 0.4) - 5.0 / 0.7).abs() < 1e-14);

@@ -1,10 +1,9 @@
 //! Strength of the teeth: contact pressure, root stress, and the damage that both do as the gears turn.
 //!
-//! Formulas of forces and angles, without a state of the model: a simulation hands in what it has at an accepted step.
-//! [`Rating`] holds what is constant for a pair of gears, [`ToothDamage`] what grows; [`Rainflow`] counts the load of
-//! teeth that stand still in mesh.
+//! Formulas of forces and angles without model state: a simulation passes the values of each accepted step. [`Rating`] holds
+//! the constants of a pair of gears, [`ToothDamage`] the accumulated damage; [`Rainflow`] counts load cycles of teeth that
+//! stand still in mesh.
 
-pub mod agma;
 pub mod counting;
 mod damage;
 pub mod hertz;
@@ -21,7 +20,7 @@ pub use damage::{FlankDamage, Load, ToothDamage};
 pub use hertz::LineContact;
 pub use material::{Material, SnCurve};
 pub use mean_stress::pulsating_range;
-pub use miner::{Bin, Damage};
+pub use miner::Damage;
 pub use rainflow::{Cycle, Rainflow};
 pub use rating::Rating;
 pub use root_stress::{LoadFactors, RootStress};

@@ -2,12 +2,12 @@
 //!
 //! For teeth that stay in mesh while the gears do not roll. Peaks and valleys wait on a stack of fixed size; ranges on it
 //! decrease from the bottom to the top, so that only a decaying oscillation fills it. Then the smallest range is
-//! counted at once, as a full cycle, which is what it becomes if the load grows beyond it again and on the safe side if
-//! not; nothing is lost and nothing larger is touched.
+//! counted at once, as a full cycle, which it becomes if the load grows beyond it again and which is conservative if
+//! not; nothing is lost and larger ranges stay as they are.
 
 use serde::{Deserialize, Serialize};
 
-/// Room for turning points, one of it for the newest; 32 is the longest array for which serde has an implementation.
+/// Capacity for turning points, one of it for the newest; 32 is the longest array for which serde has an implementation.
 pub const CAPACITY: usize = 32;
 
 /// A counted cycle, in the unit of the history.
@@ -53,7 +53,7 @@ impl Rainflow {
         if !value.is_finite() {
             return;
         }
-        self.tame();
+        self.limit_fields();
         if self.length == 0 {
             self.points[0] = value;
             self.length = 1;
@@ -76,11 +76,11 @@ impl Rainflow {
         }
     }
 
-    /// Calls `visit` with what is left as half cycles, the present value taken as the last turning point; the history
-    /// itself stays as it is and may go on.
+    /// Calls `visit` with the remaining half cycles, the present value taken as the last turning point; the history itself is
+    /// unchanged and may continue.
     pub fn rest(&self, mut visit: impl FnMut(Cycle)) {
         let mut last = *self;
-        last.tame();
+        last.limit_fields();
         if last.direction != 0 {
             last.turn(&mut visit);
         }
@@ -89,8 +89,8 @@ impl Rainflow {
         }
     }
 
-    /// A state read from foreign bytes may claim any length and direction.
-    fn tame(&mut self) {
+    /// Limits the fields: a state read from foreign bytes may hold any length and direction.
+    fn limit_fields(&mut self) {
         self.length = self.length.min(CAPACITY - 1);
         self.direction = self.direction.signum();
     }

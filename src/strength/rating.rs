@@ -1,4 +1,4 @@
-//! All that is constant about the strength of a pair: what a simulation looks up at an accepted step.
+//! Constants of the strength of a pair, used at every accepted step.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +24,7 @@ pub struct Rating {
 
 impl Rating {
     /// Rating of `pair` with elastic constants E [Pa] and ν, material, and a tool of tip radius `tool_radius` modules.
-    /// `None` if a tooth has no sound root section.
+    /// `None` if a tooth has no valid root section.
     pub fn new(
         pair: &Pair,
         (young_modulus, poisson_ratio): (f64, f64),

@@ -45,7 +45,7 @@ impl LoadFactors {
     }
 }
 
-/// Contact ratio below which Y_K is no longer followed: its line of contact would shrink to a point at 1.
+/// Least contact ratio for Y_K: its line of contact would shrink to a point at 1.
 const LEAST_RATIO: f64 = 1.05;
 
 /// Root stress of one gear of a pair, with the factors that make it.
@@ -63,14 +63,14 @@ pub struct RootStress {
     pub load_sharing: f64,
     /// Stress per normal force of the mesh by method B1 [Pa/N].
     pub per_force: f64,
-    /// Stress per normal force of one tooth pair at its outer point of single contact, no Y_ε needed [Pa/N]: what to
-    /// compare method B1 with.
+    /// Stress per normal force of one tooth pair at its outer point of single contact, without Y_ε [Pa/N]: for comparison
+    /// with method B1.
     pub per_single_force: f64,
 }
 
 impl RootStress {
     /// Gear `i` of `pair` (0 planet, 1 side gear) whose root a tool of tip radius `tool_radius` modules has cut; `None`
-    /// if the tooth has no sound root section.
+    /// if the tooth has no valid root section.
     pub fn new(pair: &Pair, i: usize, tool_radius: f64, factors: &LoadFactors) -> Option<Self> {
         let profile = Profile::of(pair, i, tool_radius);
         let mate = Profile::of(pair, 1 - i.min(1), tool_radius);

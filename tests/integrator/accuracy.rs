@@ -1,4 +1,4 @@
-//! Errors against their estimates and against the tolerance; what a run costs is counted.
+//! Errors against their estimates and against the tolerance; counts of evaluations.
 
 use std::cell::Cell;
 
@@ -14,7 +14,7 @@ with_every_method!(
 );
 
 /// Local errors over their estimates, both summed over steps of size `h` from many places along an exact solution: an
-/// estimate may pass through zero somewhere, which says nothing against it.
+/// estimate may pass through zero somewhere without being wrong.
 fn error_over_estimate<M: Known, S: SecondOrder<2>>(s: &S, exact: impl Fn(f64) -> Point<2>, h: f64) -> f64 {
     let (mut errors, mut estimates) = (0.0, 0.0);
     for k in 0..60 {
@@ -54,7 +54,7 @@ fn error_follows_the_tolerance<M: Known>() {
     }
 }
 
-/// Counts what is asked of a system.
+/// Counts the calls of a system.
 struct Counting<S> {
     inner: S,
     evaluations: Cell<u64>,

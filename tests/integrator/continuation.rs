@@ -1,4 +1,4 @@
-//! Runs repeat, go on after a stop, and come back to a snapshot, to the bit; what cannot be gone through fails cleanly.
+//! Runs are repeatable, continue after a stop, and return to a snapshot bit for bit; impossible ones fail cleanly.
 
 use bevel_differential::integrate::{Control, Effort, Failure, Flow, Point, SecondOrder, Statistics, advance};
 
@@ -7,12 +7,12 @@ use super::problems::{Logarithmic, system};
 
 with_every_method!(
     a_run_repeats_to_the_bit
-    a_run_that_is_stopped_goes_on_to_the_same_bits
-    a_snapshot_comes_back_to_the_same_bits
-    a_step_that_cannot_be_taken_leaves_the_last_good_state
+    a_stopped_run_continues_to_the_same_bits
+    a_snapshot_is_restored_to_the_same_bits
+    a_failed_step_leaves_the_last_valid_state
 );
 
-/// All that a run depends on, and thus a snapshot of it.
+/// Everything that a run depends on, and thus its snapshot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<const N: usize> {
     pub point: Point<N>,
@@ -48,7 +48,7 @@ fn a_run_repeats_to_the_bit<M: Known>() {
     assert_eq!(once(), once());
 }
 
-fn a_run_that_is_stopped_goes_on_to_the_same_bits<M: Known>() {
+fn a_stopped_run_continues_to_the_same_bits<M: Known>() {
     let (mut whole, mut statistics, mut seen) = (start(), Statistics::default(), Vec::new());
     whole.stretch::<M, _>(&Logarithmic, 3.0, &mut statistics, |end, time| {
         seen.push((*end, time));
@@ -70,7 +70,7 @@ fn a_run_that_is_stopped_goes_on_to_the_same_bits<M: Known>() {
     assert_eq!((counted.accepted, counted.rejected_error), (statistics.accepted, statistics.rejected_error));
 }
 
-fn a_snapshot_comes_back_to_the_same_bits<M: Known>() {
+fn a_snapshot_is_restored_to_the_same_bits<M: Known>() {
     let trace = |state: &mut State<2>, until: f64| {
         let mut seen = Vec::new();
         state.stretch::<M, _>(&Logarithmic, until, &mut Statistics::default(), |end, time| {
@@ -84,7 +84,7 @@ fn a_snapshot_comes_back_to_the_same_bits<M: Known>() {
         let snapshot = state;
         let first = trace(&mut state, until);
         let reached = state;
-        // on to somewhere else, and back
+        // run further, then return to the snapshot
         trace(&mut state, until + 1.0);
         state = snapshot;
         assert_eq!(trace(&mut state, until), first);
@@ -92,7 +92,7 @@ fn a_snapshot_comes_back_to_the_same_bits<M: Known>() {
     }
 }
 
-fn a_step_that_cannot_be_taken_leaves_the_last_good_state<M: Known>() {
+fn a_failed_step_leaves_the_last_valid_state<M: Known>() {
     let s = system(|p: &Point<1>| ([if p.q[0] > 1.0 { f64::NAN } else { 0.0 }], [[0.0]], [[0.0]]));
     let mut point = Point { q: [0.0], v: [1.0] };
     let failure = run::<M, 1, _>(&s, &mut point, 2.0, 1e-6).unwrap_err();

@@ -1,4 +1,4 @@
-//! Systems whose accelerations depend on the time: as accurate as those that carry a clock along.
+//! Systems whose accelerations depend on the time: as accurate as those with the time as a degree of freedom.
 
 use bevel_differential::integrate::{
     Control, Effort, Flow, Linearisation, Point, SecondOrder, Statistics, Step, advance, advance_fixed,
@@ -8,8 +8,8 @@ use super::methods::{Known, step_from, with_every_method};
 use super::problems::{forced, forced_exact};
 
 with_every_method!(
-    a_driven_system_moves_like_one_that_carries_a_clock
-    the_driver_hands_the_time_on
+    a_driven_system_moves_like_one_with_the_time_as_a_degree_of_freedom
+    the_driver_passes_the_time_to_the_system
 );
 
 /// The problem `forced` with the time itself in place of its clock.
@@ -49,7 +49,7 @@ impl SecondOrder<1> for Driven {
     }
 }
 
-fn a_driven_system_moves_like_one_that_carries_a_clock<M: Known>() {
+fn a_driven_system_moves_like_one_with_the_time_as_a_degree_of_freedom<M: Known>() {
     // stiff for methods that can, within the stability of the one that cannot
     let lambda = if M::FORCED.is_some() { 1e3 } else { 10.0 };
     let (mut clock, mut driven, mut time) = (forced_exact(0.0), Point { q: [0.0], v: [1.0] }, 0.0);
@@ -67,7 +67,7 @@ fn a_driven_system_moves_like_one_that_carries_a_clock<M: Known>() {
     }
 }
 
-fn the_driver_hands_the_time_on<M: Known>() {
+fn the_driver_passes_the_time_to_the_system<M: Known>() {
     let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
     let (mut control, mut statistics, mut budget) = (Control::new(1e-3), Statistics::default(), 1_000_000);
     for until in [0.3, 0.31, 1.0] {

@@ -1,11 +1,11 @@
-//! Every method with what theory says of it, and how the tests run it.
+//! Every method with its theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
-    Aim, Control, DormandPrince, Effort, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
+    Control, DormandPrince, Effort, ErrorNorm, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
     SecondOrder, Statistics, Trial, advance,
 };
 
-/// What theory says of a method.
+/// Theoretical properties of a method.
 pub trait Known: Method {
     const METHOD: Self;
     /// Order of the solution.
@@ -62,7 +62,7 @@ macro_rules! with_methods {
 }
 pub(crate) use with_methods;
 
-/// Runs generic tests with every method that damps what is infinitely stiff.
+/// Runs generic tests with every method that damps infinitely stiff motion.
 macro_rules! with_stiff_methods {
     ($($test:ident)*) => {
         $crate::methods::with_methods!([Rodas5P Rodas4 Radau]: $($test)*);
@@ -81,7 +81,7 @@ pub(crate) use with_every_method;
 /// So accurate that iterations within a step add nothing to its error.
 const ITERATE: f64 = 1e-11;
 
-/// One step of size `h`. A method that needs no derivatives is given none that could be used.
+/// One step of size `h`. A method that needs no derivatives gets unusable ones.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
@@ -94,8 +94,8 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
         let (acceleration, power) = s.evaluate_at(at, time);
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
     };
-    let aim = Aim { weights: s.weights(at), tolerance: ITERATE };
-    M::METHOD.step(s, (at, time), &lin, h, &aim, &mut Statistics::default()).unwrap()
+    let norm = ErrorNorm { weights: s.weights(at), tolerance: ITERATE };
+    M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()
 }
 
 /// `count` equal steps over `length`.

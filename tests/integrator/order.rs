@@ -10,7 +10,7 @@ with_every_method!(
     error_estimate_is_of_its_order
     middle_is_of_its_order
 );
-with_stiff_methods!(order_under_stiff_smooth_forcing_is_what_theory_says);
+with_stiff_methods!(order_under_stiff_smooth_forcing_is_that_of_theory);
 
 /// An order measured by halving steps is nearer to the order expected than to its neighbours.
 fn assert_order(what: &str, expected: u32, coarse: f64, fine: f64) {
@@ -43,7 +43,7 @@ fn middle_is_of_its_order<M: Known>() {
     assert_order("middle", M::MIDDLE + 1, error(STEP), error(STEP / 2.0));
 }
 
-fn order_under_stiff_smooth_forcing_is_what_theory_says<M: Known>() {
+fn order_under_stiff_smooth_forcing_is_that_of_theory<M: Known>() {
     // where λh ≫ 1. Radau IIA of s stages: h^s/λ (Hairer & Wanner II, section IV.15)
     let error = |lambda, count| {
         let end = fixed::<M, 2, _>(&forced(lambda), forced_exact(0.0), 1.0, count);

@@ -111,7 +111,7 @@ impl SecondOrder<2> for Logarithmic {
 }
 
 /// Prothero and Robinson's problem: v̇ = −λ (v − cos c) − sin c with the clock ċ = 1 as an imposed motion; v = cos c
-/// solves it, whatever λ, and q = sin c.
+/// solves it for any λ, and q = sin c.
 pub fn forced(lambda: f64) -> System<impl Fn(&Point<2>) -> Jet<2>, 2> {
     system(move |p: &Point<2>| {
         let c = p.q[1];

@@ -1,4 +1,4 @@
-//! What is stiff is damped, or ties an explicit method's steps.
+//! Stiff motion is damped, or limits the steps of an explicit method.
 
 use bevel_differential::integrate::{DormandPrince, Point};
 
@@ -61,7 +61,7 @@ fn smooth_stiff_forcing_costs_no_more_the_stiffer_it_is<M: Known>() {
 }
 
 #[test]
-fn explicit_steps_are_tied_by_stability_alone() {
+fn explicit_steps_are_limited_by_stability_alone() {
     let (decays, swings) = (decay::<DormandPrince>, amplitude::<DormandPrince>);
     assert!(decays(3.3) < 1.0 && decays(3.32) > 1.0 && decays(1e6) > 1e30);
     assert!(swings(0.99) < 1.0 && swings(1.1) > 1.0 && swings(1e6) > 1e30);

@@ -2,13 +2,14 @@
 
 #![allow(dead_code)] // each test binary uses its own part
 
+use bevel_differential::contact::ContactSpec;
 use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::law::{Face, Lumped, Power};
 use bevel_differential::contact::mesh::{Law, Mesh};
-use bevel_differential::contact::stiffness::{PairStiffness, REFERENCE_LINE_LOAD, RootSpec};
+use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
 /// 1/d_max [1/m].
@@ -35,7 +36,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether the law knows tooth pairs.
+    /// Whether the law acts on tooth pairs.
     pub fn has_pairs(self) -> bool {
         self != Kind::Lumped
     }
@@ -60,7 +61,8 @@ pub struct Built {
 
 impl Built {
     pub fn new(pair: &Pair, kind: Kind, exponent: f64, damping: Damping) -> Self {
-        let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, REFERENCE_LINE_LOAD).unwrap();
+        let line_load = ContactSpec::default().line_load;
+        let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, line_load).unwrap();
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
         let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));

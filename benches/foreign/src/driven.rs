@@ -7,8 +7,9 @@ use bevel_differential::model::{Inputs, Parameters, Simulation};
 use bevel_differential::problem;
 use bevel_differential::variables::{Access, table};
 
+use crate::boundary::write;
 use crate::cases::Case;
-use crate::{Run, boxed, write};
+use crate::run::{Run, boxed};
 
 /// A run with the parameters in `values`, lines of a variable's name and a number (of an enumeration its literal's).
 fn case(values: &str) -> Result<Case, String> {

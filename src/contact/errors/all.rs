@@ -1,8 +1,8 @@
 //! All errors together: the gap of a pair is their sum.
 
-use super::action::Action;
 use super::crowning::Crowning;
 use super::misalignment::Misalignment;
+use super::normals::ContactNormals;
 use super::pitch::{PitchDeviations, Tolerances};
 use super::relief::TipRelief;
 use super::runout::Runout;
@@ -17,7 +17,7 @@ pub struct ToothErrors {
     planets: usize,
     teeth: [usize; 2],
     per_mean_cone: f64,
-    action: Action,
+    normals: ContactNormals,
     pitch: Option<PitchDeviations>,
     runout: Option<Runout>,
     relief: Option<TipRelief>,
@@ -26,28 +26,28 @@ pub struct ToothErrors {
 }
 
 impl ToothErrors {
-    /// Errors after `spec` on the gears of `pair`, for `planets` equally spaced planets; or what is wrong with `spec`.
+    /// Errors after `spec` on the gears of `pair`, for `planets` equally spaced planets; or a validation error.
     pub fn new(spec: &ToothErrorSpec, pair: &Pair, planets: usize) -> Result<Self, Problem> {
         spec.check()?;
         if planets == 0 {
-            return Err(Problem::new("geometry.planet_count", "0 planets: there must be one at least"));
+            return Err(Problem::new("geometry.planet_count", "0 planets; at least one is required"));
         }
         let runout = if spec.runout_by_grade {
             [0, 1].map(|i| Tolerances::of_gear(spec.accuracy_grade, pair, i).runout)
         } else {
             [spec.planet_runout, spec.side_runout]
         };
-        let action = Action::new(pair);
+        let normals = ContactNormals::new(pair);
         Ok(Self {
             planets,
             teeth: pair.gears.map(|g| g.teeth.unsigned_abs().max(1) as usize),
             per_mean_cone: 1.0 / pair.mean_cone,
-            action,
+            normals,
             pitch: PitchDeviations::new(spec.accuracy_grade, spec.seed, pair, planets),
             runout: Runout::new(runout, spec.seed, pair, planets),
             relief: TipRelief::new(spec, pair),
             crowning: Crowning::new(spec, pair),
-            misalignment: Misalignment::new(spec, &action, planets),
+            misalignment: Misalignment::new(spec, &normals, planets),
         })
     }
 
@@ -67,7 +67,7 @@ impl ToothErrors {
             gap = gap + relief.gap(s);
         }
         if self.misalignment.is_some() || self.runout.is_some() {
-            let normal = self.action.normal(pair.flank, s);
+            let normal = self.normals.normal(pair.flank, s);
             if let Some(misalignment) = &self.misalignment {
                 gap = gap + misalignment.gap(mesh, r, &normal);
             }
@@ -78,16 +78,8 @@ impl ToothErrors {
         gap
     }
 
-    /// The part of the gap that the tooth pair has everywhere [m]: that of pitch deviations, as it is at R_m. In
-    /// [`Self::gap`] it grows with R, being a rotation of the teeth about their axes.
-    #[inline]
-    pub fn per_tooth(&self, mesh: MeshId, pair: PairId) -> f64 {
-        let (mesh, pair) = self.in_range(mesh, pair);
-        self.pitch.as_ref().map_or(0.0, |pitch| pitch.gap(mesh, pair))
-    }
-
-    /// How far the teeth of planet (`gear` = 0) or side gear (1) number `index` stand off its axis [m], and in which azimuth
-    /// from the centre of tooth 0, in the direction in which teeth are numbered [rad].
+    /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth from the centre
+    /// of tooth 0 in the direction in which teeth are numbered [rad].
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         let gear = gear % 2;
         let gears = [self.planets, 2][gear];
@@ -102,16 +94,11 @@ impl ToothErrors {
             && self.misalignment.as_ref().is_none_or(Misalignment::is_rotation)
     }
 
-    /// Whether planets differ, by their teeth or by where they stand, so that none may represent another.
+    /// Whether planets differ in teeth or position, so that none may represent another.
     pub fn is_individual(&self) -> bool {
         self.pitch.is_some()
             || self.runout.is_some()
             || self.misalignment.as_ref().is_some_and(Misalignment::is_individual)
-    }
-
-    /// Whether the gap of every pair is zero everywhere.
-    pub fn is_perfect(&self) -> bool {
-        self.pitch.is_none() && self.misalignment.is_none() && self.is_uniform_over_face()
     }
 
     #[inline]

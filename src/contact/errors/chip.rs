@@ -1,8 +1,8 @@
-//! A tooth that has lost a piece: where material is missing the gap is the depth removed, and nothing touches.
+//! Broken tooth: where material is missing the gap is the removed depth, and nothing touches.
 //!
 //! Under the laws that integrate over the face the piece covers the slices beyond R_e − f b, f its fraction of the face
-//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece is gone
-//! at once: on both flanks, in every mesh the tooth comes to, and for good.
+//! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece
+//! breaks off instantly and permanently, on both flanks and in every mesh of the tooth.
 
 use super::spec::{FaultyGear, ToothFaultSpec};
 use super::{MeshId, PairId};
@@ -44,19 +44,14 @@ impl Chip {
         }))
     }
 
-    /// Whether the piece is gone at `time` [s] by its onset, or `triggered`.
-    pub fn is_gone(&self, time: f64, triggered: bool) -> bool {
-        triggered || (self.onset > 0.0 && time >= self.onset)
-    }
-
-    /// Time at which the piece breaks off by itself [s], if it does.
+    /// Time at which the piece breaks off without a trigger [s], if it does.
     pub fn onset(&self) -> Option<f64> {
         (self.onset > 0.0).then_some(self.onset)
     }
 
     /// Whether the broken tooth is in the pair.
     #[inline]
-    pub fn is_in(&self, mesh: MeshId, pair: PairId) -> bool {
+    fn is_in(&self, mesh: MeshId, pair: PairId) -> bool {
         let (index, tooth) =
             if self.on_planet { (mesh.planet, pair.planet_tooth) } else { (mesh.side, pair.side_tooth) };
         index % self.gears == self.index && tooth % self.teeth == self.tooth
@@ -64,11 +59,11 @@ impl Chip {
 
     /// Depth missing [m] at cone distance `r` [m] of the broken tooth.
     #[inline]
-    pub fn missing(&self, r: f64) -> f64 {
+    fn missing(&self, r: f64) -> f64 {
         if r > self.from { self.depth } else { 0.0 }
     }
 
-    /// Gap [m] of a pair at cone distance `r` [m] once the piece is gone.
+    /// Gap [m] of a pair at cone distance `r` [m] after the piece broke off.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64) -> f64 {
         if self.is_in(mesh, pair) { self.missing(r) } else { 0.0 }
@@ -106,13 +101,12 @@ mod tests {
     }
 
     #[test]
-    fn a_piece_breaks_off_by_time_or_by_trigger() {
+    fn an_onset_of_zero_leaves_breaking_to_the_trigger() {
         let pair = Pair::new(&GearSpec::default());
-        let spec = ToothFaultSpec { gear: FaultyGear::Planet, onset: 0.2, ..ToothFaultSpec::default() };
-        let chip = Chip::new(&spec, &pair, 2).unwrap().unwrap();
-        assert!(!chip.is_gone(0.19, false) && chip.is_gone(0.2, false) && chip.is_gone(0.0, true));
-        let never = Chip::new(&ToothFaultSpec { onset: 0.0, ..spec }, &pair, 2).unwrap().unwrap();
-        assert!(!never.is_gone(1e9, false) && never.is_gone(0.0, true));
-        assert_eq!((chip.onset(), never.onset()), (Some(0.2), None));
+        let onset = |onset| {
+            let spec = ToothFaultSpec { gear: FaultyGear::Planet, onset, ..ToothFaultSpec::default() };
+            Chip::new(&spec, &pair, 2).unwrap().unwrap().onset()
+        };
+        assert_eq!((onset(0.2), onset(0.0)), (Some(0.2), None));
     }
 }

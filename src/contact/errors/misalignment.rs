@@ -1,7 +1,7 @@
 //! Gap that small rigid displacements of the gears open, to first order.
 //!
 //! A displacement w(x) = δ + φ × x of the planet moves its flank along the normal T by T·w, of the side gear likewise
-//! with the opposite sense: e = −T·w_p + T·w_s at x = R C(s) (`action` has T, C and the directions). That gives
+//! with the opposite sense: e = −T·w_p + T·w_s at x = R C(s) (T, C and the directions as in `normals`). That gives
 //!
 //!   planet outward along its axis by ε_p        e = ε_p (sinα sinδ_p cos s + cosδ_p sin s)
 //!   side gear outward along its axis by ε_s     e = ε_s (sinα sinδ_s cos s − cosδ_s sin s)
@@ -10,11 +10,11 @@
 //!
 //! the factors of ε_p and ε_s being the axial forces per normal force, as they must by virtual work. The last one comes
 //! from w = δΣ [(x·Q₀) P₀ − (x·P₀) Q₀], T·w = −R δΣ sinα (sin²s + cos²s): the same all along the path. A rotation about
-//! the apex grows with R like the approach itself and leaves the load's distribution along the face alone; offsets do
-//! not and shift it. Contact itself moves on the flanks, but that is of second order in the displacement.
+//! the apex grows with R like the approach itself and leaves the load's distribution along the face unchanged;
+//! offsets shift it. Contact itself moves on the flanks, but that is of second order in the displacement.
 
 use super::MeshId;
-use super::action::{Action, Normal};
+use super::normals::{ContactNormals, Normal};
 use super::spec::ToothErrorSpec;
 use crate::numeric::{Scalar, TAU, cos, sin};
 
@@ -31,7 +31,7 @@ pub struct Misalignment {
 
 impl Misalignment {
     /// Displacements after `spec` of `planets` equally spaced planets, if there are any.
-    pub fn new(spec: &ToothErrorSpec, action: &Action, planets: usize) -> Option<Self> {
+    pub fn new(spec: &ToothErrorSpec, normals: &ContactNormals, planets: usize) -> Option<Self> {
         let values = [spec.shaft_angle_error, spec.planet_axial_offset, spec.side_axial_offset, spec.axis_offset];
         (values != [0.0; 4]).then(|| {
             let of_planet = |i: usize| {
@@ -42,7 +42,7 @@ impl Misalignment {
             Self {
                 planet: (0..planets).map(of_planet).collect(),
                 side_axial: spec.side_axial_offset,
-                tilt: action.sin_pressure * spec.shaft_angle_error,
+                tilt: normals.sin_pressure * spec.shaft_angle_error,
             }
         })
     }

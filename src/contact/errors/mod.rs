@@ -1,15 +1,15 @@
-//! Teeth that are not perfect: the gap e(R, s) by which each tooth pair misses material along the line of action.
+//! Tooth errors: the gap e(R, s), material that each tooth pair lacks along the line of action.
 //!
-//! A pair of perfect teeth penetrates at cone distance R by R (a − g); with errors by d = R (a − g) − e(R, s), e ≥ 0
-//! being missing material. To first order errors add up, each from a file of its own: pitch deviations (`pitch`), runout
-//! (`runout`), tip relief (`relief`), lengthwise crowning (`crowning`), and misalignment (`misalignment`). A broken tooth
-//! (`chip`) stands apart, because it comes into being while running.
+//! A pair of error-free teeth penetrates at cone distance R by R (a − g); with errors by d = R (a − g) − e(R, s), e ≥ 0
+//! being missing material. To first order errors add up, one file each: pitch deviations (`pitch`), runout (`runout`), tip
+//! relief (`relief`), lengthwise crowning (`crowning`), and misalignment (`misalignment`). A broken tooth (`chip`) is
+//! separate, because it appears during a run.
 
-mod action;
 mod all;
 mod chip;
 mod crowning;
 mod misalignment;
+mod normals;
 pub mod pitch;
 mod random;
 mod relief;
@@ -34,7 +34,7 @@ pub struct MeshId {
 /// A tooth pair of a mesh.
 ///
 /// Planet teeth are numbered in the direction of positive spin (about the axis pointing to the apex), side gear teeth in
-/// the direction of forward rotation (about +x̂), both from any tooth of the gear; numbers may run on past a revolution.
+/// the direction of forward rotation (about +x̂), both from any tooth of the gear; numbers may exceed a revolution.
 /// At the left mesh both counts run along t, the way a planet is carried forward; at the right mesh that of the planet
 /// runs against it. While a gear turns forward, teeth of falling number come into its mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

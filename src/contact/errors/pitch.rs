@@ -10,7 +10,7 @@
 //!
 //! The teeth's positions are drawn independently of each other and scaled until the largest difference of neighbours,
 //! the single pitch deviation, is f_ptT: a gear of just that grade. Positions have zero mean, and their differences
-//! close over the revolution. What varies slowly over the revolution is the part of runout, in a file of its own.
+//! close over the revolution. Slow variation over the revolution belongs to `runout`.
 //! An error of position is a rotation of the flank about the gear's axis: the normal distance that it opens grows with R.
 
 use super::random::Random;
@@ -30,7 +30,7 @@ pub struct Tolerances {
     pub runout: f64,
 }
 
-/// Draws of a flank's positions before one is accepted that keeps F_pT too: it fails rarely, and never often in a row.
+/// Largest number of draws of a flank's positions until one also meets F_pT; few draws fail.
 const DRAWS: usize = 32;
 
 impl Tolerances {
@@ -81,7 +81,7 @@ pub fn positions(teeth: usize, tolerances: &Tolerances, random: &mut Random) -> 
         if scale <= allowed {
             break;
         }
-        // should no draw do, F_pT is kept and f_ptT not used up
+        // if no draw succeeds, F_pT is met and f_ptT not reached
         scale = allowed;
     }
     drawn.iter_mut().for_each(|p| *p *= scale);

@@ -5,8 +5,8 @@
 //!   e(s) = C_a h(ξ),   ξ = (s − s_hi)/length + 1 (planet) or (s_lo − s)/length + 1 (side gear)
 //!
 //! with h = 0 below ξ = 0 and 1 beyond ξ = 1, where only the relieved corner itself can touch. Between, h is the
-//! polynomial of least degree that joins both with two continuous derivatives, 10ξ³ − 15ξ⁴ + 6ξ⁵: an integrator's step
-//! feels neither the onset nor the tip. A linear or parabolic relief, as it is ground, would put a kink into the force
+//! polynomial of least degree that joins both with two continuous derivatives, 10ξ³ − 15ξ⁴ + 6ξ⁵: neither onset nor tip
+//! disturbs the integrator. A linear or parabolic relief, as it is ground, would put a kink into the force
 //! at the tip or at the onset.
 
 use super::spec::ToothErrorSpec;

@@ -11,7 +11,7 @@
 //! tooth's centre stands at ±(s/sinδ_bp − γ_p) on the planet, at ±(s/sinδ_bs + γ_s) on the side gear (+ drive,
 //! − coast), and ê at a fixed angle from it. Two pairs in contact at once thus see nearly the same e, as they must.
 
-use super::action::{Normal, push};
+use super::normals::{Normal, push};
 use super::random::Random;
 use super::{MeshId, PairId};
 use crate::geometry::Pair;

@@ -1,15 +1,15 @@
-//! What a user says about teeth that are not perfect: deviations, modifications, misalignment, and a broken tooth.
+//! User parameters of tooth errors: deviations, modifications, misalignment, and a broken tooth.
 
 use serde::{Deserialize, Serialize};
 
 use crate::problem::Problem;
 
-/// Largest deviation or modification of a flank [m]: beyond it first-order formulas have no say.
+/// Largest deviation or modification of a flank [m]: first-order formulas do not hold beyond.
 const MOST: f64 = 1e-3;
 /// Largest error of the shaft angle [rad], for the same reason.
 const MOST_ANGLE: f64 = 0.02;
 
-/// Deviations and modifications of all teeth; the default is perfect teeth.
+/// Deviations and modifications of all teeth; the default is error-free teeth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToothErrorSpec {
     /// Accuracy grade B of ISO 17485:2006 for the pitch of every gear: 2 to 11, 0 = no pitch deviations.
@@ -81,13 +81,13 @@ pub struct ToothFaultSpec {
     pub gear: FaultyGear,
     /// Which planet (0 to N − 1), or which side gear (0 left, 1 right).
     pub index: i32,
-    /// Number of the tooth, from 0, counted as [`super::PairId`] says.
+    /// Number of the tooth, from 0, counted as in [`super::PairId`].
     pub tooth: i32,
     /// Missing part of the face width, from the heel inward: 0 to 1.
     pub missing_fraction: f64,
-    /// Depth removed along the line of action [m]: more than any approach of loaded teeth, and nothing touches there.
+    /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
     pub depth: f64,
-    /// Time at which the piece breaks off [s]; 0 = not by time, only by the trigger.
+    /// Time at which the piece breaks off [s]; 0 = only by the trigger.
     pub onset: f64,
 }
 
@@ -104,13 +104,15 @@ impl ToothErrorSpec {
         if grade != 0 && !(2..=11).contains(&grade) {
             return Err(Problem::new(
                 "tooth_errors.accuracy_grade",
-                format!("{grade} is no accuracy grade of ISO 17485: these are 2 (finest) to 11; 0 = no deviations"),
+                format!(
+                    "{grade} is not an accuracy grade of ISO 17485; allowed 2 (finest) to 11, or 0 for no deviations"
+                ),
             ));
         }
         if self.runout_by_grade && grade == 0 {
             return Err(Problem::new(
                 "tooth_errors.runout_by_grade",
-                "runout follows from the accuracy grade, but tooth_errors.accuracy_grade is 0: give a grade from 2 to 11",
+                "runout follows from the accuracy grade, but tooth_errors.accuracy_grade is 0: set a grade from 2 to 11",
             ));
         }
         let metres = [
@@ -145,7 +147,7 @@ impl ToothFaultSpec {
             return Err(Problem::new(
                 "tooth_fault.index",
                 format!(
-                    "{} is not there: gears of this kind are numbered from 0 to {}",
+                    "{} does not exist: gears of this kind are numbered from 0 to {}",
                     self.index,
                     gears.saturating_sub(1)
                 ),
@@ -166,7 +168,7 @@ fn within(variable: &'static str, value: f64, [least, most]: [f64; 2], unit: &st
 }
 
 impl ToothErrorSpec {
-    /// Material in excess that no tooth pair exceeds [m]: cumulative pitch of both gears at the heel, runout, and rigid
+    /// Upper bound of a tooth pair's excess material [m]: cumulative pitch of both gears at the heel, runout, and rigid
     /// displacements, all at their worst at once.
     pub fn most_excess(&self, pair: &crate::geometry::Pair) -> f64 {
         let tolerances = [0, 1].map(|i| super::pitch::Tolerances::of_gear(self.accuracy_grade, pair, i));
@@ -187,7 +189,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn defaults_are_perfect_teeth_and_pass() {
+    fn defaults_are_error_free_teeth_and_pass() {
         assert_eq!(ToothErrorSpec::default().check(), Ok(()));
         assert_eq!(ToothFaultSpec::default().check([10, 16], 2), Ok(()));
     }

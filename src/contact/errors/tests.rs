@@ -37,16 +37,16 @@ fn all() -> ToothErrorSpec {
 }
 
 #[test]
-fn perfect_teeth_have_no_gap() {
+fn error_free_teeth_have_no_gap() {
     let perfect = errors(ToothErrorSpec::default(), 2);
-    assert!(perfect.is_perfect() && perfect.is_uniform_over_face() && !perfect.is_individual());
+    assert!(perfect.is_uniform_over_face() && !perfect.is_individual());
     for s in [-0.3, 0.0, 0.2] {
         assert_eq!(perfect.gap(LEFT, id(Flank::Drive), 0.03, s), 0.0);
     }
 }
 
 #[test]
-fn parts_add_up_and_say_what_they_are() {
+fn errors_add_up_and_report_whether_they_are_uniform_or_individual() {
     let none = ToothErrorSpec::default();
     let a = all();
     let parts = [
@@ -72,7 +72,6 @@ fn parts_add_up_and_say_what_they_are() {
     for (spec, uniform, individual) in parts {
         let part = errors(spec, 2);
         assert_eq!((part.is_uniform_over_face(), part.is_individual()), (uniform, individual), "{spec:?}");
-        assert!(!part.is_perfect());
     }
     let whole = errors(a, 2);
     for planet in 0..2 {
@@ -89,10 +88,10 @@ fn parts_add_up_and_say_what_they_are() {
 #[test]
 fn pitch_deviations_are_per_tooth_and_grow_with_r() {
     let graded = errors(ToothErrorSpec { accuracy_grade: 7, ..ToothErrorSpec::default() }, 2);
-    let e = graded.per_tooth(LEFT, id(Flank::Drive));
-    let half = 0.5 * pair().mean_cone;
+    let (mean, half) = (pair().mean_cone, 0.5 * pair().mean_cone);
+    let e = graded.gap(LEFT, id(Flank::Drive), mean, 0.1);
     assert!(e != 0.0 && (graded.gap(LEFT, id(Flank::Drive), half, 0.1) - 0.5 * e).abs() < 1e-20);
-    let tooth = |j, flank| graded.per_tooth(LEFT, PairId { planet_tooth: j, side_tooth: 0, flank });
+    let tooth = |j, flank| graded.gap(LEFT, PairId { planet_tooth: j, side_tooth: 0, flank }, mean, -0.2);
     assert_ne!(tooth(0, Flank::Drive), tooth(1, Flank::Drive));
     assert_eq!(tooth(0, Flank::Drive), tooth(10, Flank::Drive));
     // the largest step from tooth to tooth is f_ptT along the line of action
@@ -134,7 +133,7 @@ fn misalignment_follows_its_closed_forms() {
 }
 
 #[test]
-fn runout_is_one_wave_per_revolution_with_the_eccentricity_for_amplitude() {
+fn runout_is_one_wave_per_revolution_with_the_eccentricity_as_amplitude() {
     let p = pair();
     for (gear, spec) in [
         (0, ToothErrorSpec { planet_runout: 40e-6, ..ToothErrorSpec::default() }),
@@ -205,7 +204,7 @@ fn any_index_and_place_gives_a_finite_gap() {
         let mesh = MeshId { planet: k, side: k };
         for s in [-1e6, -1.0, 0.0, 1.0, 1e6] {
             let pair = PairId { planet_tooth: k, side_tooth: k, flank: Flank::Drive };
-            assert!(whole.gap(mesh, pair, 0.03, s).is_finite() && whole.per_tooth(mesh, pair).is_finite());
+            assert!(whole.gap(mesh, pair, 0.03, s).is_finite());
         }
     }
     assert!(ToothErrors::new(&all(), &pair(), 0).is_err());

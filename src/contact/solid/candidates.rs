@@ -1,7 +1,7 @@
-//! Which teeth can touch, and where on their flanks: boxes around pieces of both gears' flanks overlap.
+//! Teeth that can touch, and where on their flanks, found by overlapping boxes around pieces of both gears' flanks.
 //!
-//! Both gears have a tree of such boxes in their own frame, through which pairs are looked for together. As flanks are
-//! made of rays through the apex, boxes are drawn around directions, on a sphere of one metre in millimetres: there a
+//! Both gears have a tree of such boxes in their own frame; both trees are traversed together. As flanks consist of rays
+//! through the apex, boxes enclose directions, on a sphere of one metre in millimetres: there a
 //! piece of a flank is short, whereas a box around it from toe to heel would hold half a tooth.
 
 use std::ops::RangeInclusive;
@@ -18,7 +18,7 @@ use crate::numeric::{cos, sin};
 /// Millimetres per metre: the unit of lengths in the trees.
 const MM: f64 = 1e3;
 
-/// Teeth on either side of the middle that are looked at, at most.
+/// Largest number of teeth examined on either side of the middle.
 const MOST: i32 = 6;
 const MOST_TEETH: usize = 2 * MOST as usize + 1;
 
@@ -63,8 +63,8 @@ impl Candidates {
     }
 
     /// Calls `visit` with the number of each pair of flanks that may touch and the rays of both that may, the planet being
-    /// turned by `turn` in the side gear's frame and its flanks up to `deep` [rad] inside those of the side gear. A flank meets the one of the tooth ahead and no other: the tooth itself is
-    /// in between.
+    /// turned by `turn` in the side gear's frame and its flanks up to `deep` [rad] inside those of the side gear. A flank
+    /// meets only that of the tooth ahead: the tooth itself is in between.
     #[inline]
     pub fn near(&self, turn: Matrix3<f64>, deep: f64, mut visit: impl FnMut(i32, [RangeInclusive<usize>; 2])) {
         let (size, margin) = (turn.abs(), self.margin + deep * MM);

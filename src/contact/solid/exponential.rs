@@ -1,4 +1,4 @@
-//! Mean of the exponential function over an interval: what a patch is summed up of.
+//! Mean of the exponential function over an interval: the integral over a piece of a contact patch.
 
 use crate::numeric::{Partials, sqrt};
 

@@ -60,7 +60,7 @@ fn on_involute(gear: &Gear, foot: &Foot, share: f64) -> f64 {
 }
 
 /// A flank with its lowest facet prolonged into the body of the gear, so that no contact ends where its fillet begins:
-/// fillets are not looked at.
+/// fillets take no part in contact.
 fn prolonged(rays: Vec<Ray>) -> Vec<Ray> {
     let [first, second, ..] = rays[..] else { return rays };
     let along = first.direction - second.direction;

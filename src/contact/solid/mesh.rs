@@ -8,9 +8,9 @@
 //!
 //!   F_j = ω_j R_m/R_j U′(R_m p_kj)
 //!
-//! and no other closes the balance of torques. With ω_j ∝ R_j times its width aligned flanks load the face evenly; then
-//! the resultant acts at R_m and V is that of tooth pairs on the path of contact. Of misaligned or crowned flanks every
-//! section carries what its own overlap calls for.
+//! the only one that balances the torques. With ω_j ∝ R_j times its width aligned flanks load the face evenly; then
+//! the resultant acts at R_m and V is that of tooth pairs on the path of contact. On misaligned or crowned flanks
+//! every section carries the load of its own overlap.
 
 use std::ops::RangeInclusive;
 
@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 
 use super::candidates::Candidates;
 use super::flank::Flanks;
-use super::overlap::{Section, Softness};
+use super::overlap::{FlankSection, Softness};
 use super::pose::{Displacement, Placement};
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
@@ -34,7 +34,7 @@ pub struct Slice {
     pub cone: f64,
     /// ω_j.
     pub share: f64,
-    /// Width that it stands for [m].
+    /// Width that it represents [m].
     pub width: f64,
     /// Material missing there on the pair by crowning [m].
     pub relief: f64,
@@ -55,11 +55,11 @@ pub struct SolidSpec {
     pub displaced: Vec<[Displacement; 2]>,
 }
 
-/// ε in heights of arc, so that the patch has the half-width of most of a facet and hands over from one to the next
-/// without a ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
+/// ε in heights of arc, so that the patch is almost as wide as a facet and passes from one to the next without a
+/// ripple: at half-width c·facet the first harmonic of the facets is damped by exp(−2π²c²).
 const SOFTNESS: f64 = 1.25;
 
-/// A length that no flank comes up to [rad].
+/// Upper bound of a flank's length [rad].
 const LONGEST: f64 = 1.0;
 
 /// A loaded section of one pair.
@@ -86,10 +86,10 @@ pub struct SolidLoad {
 }
 
 impl SolidLoad {
-    /// Parts of the normal as bearings see them: along the planet's axis and the side gear's, away from the apex, and along
+    /// Parts of the normal that act on bearings: along the planet's axis and the side gear's, away from the apex, and along
     /// the rotation.
     pub fn parts(&self) -> [f64; 3] {
-        // the planet is pushed back, the side gear on
+        // the planet is pushed back, the side gear forward
         let [planet, side, across] = self.normal;
         [-planet, side, across]
     }
@@ -111,12 +111,12 @@ pub struct SolidMesh {
     half_backlash: f64,
     base_pitch: f64,
     centred: f64,
-    /// Approach, less than nothing, from which flanks can touch all the same [rad].
+    /// Magnitude of the negative approach from which flanks can still touch [rad].
     slack: f64,
 }
 
 impl SolidMesh {
-    /// Mesh of `pair` whose planets all may be displaced; `slack` [m] bounds what a displacement can close.
+    /// Mesh of `pair` whose planets may be displaced; `slack` [m] bounds the gap that displacements can close.
     pub fn new(pair: &Pair, spec: &SolidSpec, elastic: Impact, damping: Damping, slack: f64) -> Self {
         let flanks = Flanks::new(pair, spec.fillet, spec.facets);
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
@@ -149,11 +149,6 @@ impl SolidMesh {
         self.slices.len()
     }
 
-    /// Softness ε of the greatest overlap [rad].
-    pub fn softness(&self) -> f64 {
-        self.soft.width
-    }
-
     /// Visits each section of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
     #[inline]
     fn sections<T: Smooth>(
@@ -161,7 +156,7 @@ impl SolidMesh {
         which: [usize; 2],
         [q, x]: [f64; 2],
         variable: impl Fn(f64, usize, f64) -> T,
-        mut visit: impl FnMut(&Near, &Slice, T),
+        mut visit: impl FnMut(&FlankPair, &Slice, T),
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
@@ -169,13 +164,13 @@ impl SolidMesh {
             if deepest <= 0.0 {
                 continue;
             }
-            // gears that have turned on by whole pitches look the same
+            // the mesh repeats with every base pitch
             let turns = libm::round(x / self.base_pitch);
             let x = x - turns * self.base_pitch;
             let (tq, tx) = (variable(q, 0, sign), variable(x, 1, sign));
             let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
             self.candidates.near(placement.between(q, x), deepest, |k, rays| {
-                let near = Near {
+                let near = FlankPair {
                     rays,
                     flank,
                     placement,
@@ -195,9 +190,9 @@ impl SolidMesh {
         }
     }
 
-    fn section<'a>(&'a self, near: &Near, slice: &Slice) -> Section<'a> {
+    fn section<'a>(&'a self, near: &FlankPair, slice: &Slice) -> FlankSection<'a> {
         let [planet, side] = &self.flanks.rays;
-        Section {
+        FlankSection {
             rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],
             tips: [&planet[0], &side[side.len() - 1]],
             relief: slice.relief / slice.cone,
@@ -271,7 +266,7 @@ impl SolidMesh {
         energy
     }
 
-    /// Shows every loaded section.
+    /// Calls `visit` with every loaded section.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
         let [dq, dx] = state.rate;
         self.sections(state.which, state.position, slope, |near, slice, p: Dual<2>| {
@@ -306,7 +301,7 @@ impl SolidMesh {
 }
 
 /// A pair of flanks near each other, in the mirror image in which it is a drive flank.
-struct Near<'a> {
+struct FlankPair<'a> {
     flank: Flank,
     placement: &'a Placement,
     /// Rays of planet and side gear.

@@ -1,9 +1,9 @@
-//! Contact of solid teeth: faceted flanks pressed together, found and measured by geometry alone.
+//! Contact of solid teeth: faceted flanks pressed together, detected and measured by geometry alone.
 //!
-//! Flanks are what an exporter of solids makes of them: plane facets between rays from the apex of their gear. Neither
-//! line of action nor path of contact is known here. Where teeth can meet is found among their boxes ([`candidates`]);
-//! how deep they overlap is measured section by section across the face ([`overlap`]) with the gears placed as they
-//! are ([`pose`]), misaligned or not; every section then follows the law of a pair ([`mesh`]).
+//! Flanks are plane facets between rays from the apex of their gear, as an exporter of solids makes them. No line of action
+//! and no path of contact is used. Bounding boxes give the teeth that can meet ([`candidates`]); their overlap is measured
+//! section by section across the face ([`overlap`]) with the gears in their actual position ([`pose`]), misaligned or
+//! not; every section follows the law of a pair ([`mesh`]).
 
 mod candidates;
 mod exponential;

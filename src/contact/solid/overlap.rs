@@ -1,4 +1,4 @@
-//! How deep two faceted flanks overlap in one section.
+//! Overlap of two faceted flanks in one section.
 //!
 //! Both sections are polygons in the plane of projection of [`super::pose`]: the planet's surface h_p(u), the side gear's
 //! h_s(u), material of the planet below, of the side gear above. Their overlap at u is the distance of one surface inside
@@ -13,42 +13,42 @@
 //!
 //!   p = ε ln( ∫ exp(δ(u)/ε) du / √(2π ρ ε) ),   ∂p = ∫ w ∂δ du with the weights w ∝ exp(δ/ε), ∫ w du = 1
 //!
-//! Every facet under the patch takes its part w du of the load, along its own normal, so that force and torque are
-//! continuous where the deepest corner changes; with the deepest point alone they would jump at each facet. The patch
+//! Every facet under the patch carries its share w du of the load along its own normal, so that force and torque are
+//! continuous where the deepest corner changes; the deepest point alone would make them jump at each facet. The patch
 //! has the half-width √(ρ ε) between flanks of relative radius of curvature ρ (Laplace's method: for δ = p − u²/2ρ the
 //! formula returns p exactly); ε follows the heights of the arcs over their facets and vanishes with them, as the square
-//! of the facets' length. What is left for ε → 0 is the greatest overlap, which on involutes is the approach less the gap
-//! of the tip corners, a − g, and not an approximation of it.
+//! of the facets' length. For ε → 0 the depth is the greatest overlap, which on involutes is exactly the approach less
+//! the gap of the tip corners, a − g.
 
 use super::exponential::mean_exponential;
 use super::flank::Ray;
-use super::polygon::{Seen, Span, project};
+use super::polygon::{ProjectedRay, TipSpan, project};
 use super::pose::Pose;
 use crate::numeric::{Smooth, TAU, sqrt};
 
-/// Weights below e to this power are nothing in double precision.
+/// Weights below e to this power vanish in double precision.
 const NEGLIGIBLE: f64 = -36.0;
 
-/// Distances of flanks are at least this part of the heights over them, where they touch, and
+/// Least ratio of the flanks' distance to their height difference where they touch.
 const LEAST_METRIC: f64 = 0.8;
-/// that part varies by no more than this over a patch.
+/// Largest variation of that ratio over a patch.
 const SLOPING: f64 = 0.05;
-/// Exponents up to which a sum is carried on without being scaled anew.
+/// Largest exponent before the sum is rescaled.
 const HIGH: f64 = 20.0;
 
-/// How softly the greatest overlap is taken.
+/// Softness of the greatest overlap.
 #[derive(Clone, Copy, Debug)]
 pub struct Softness {
     /// ε [rad].
     pub width: f64,
     /// √(2π ρ ε) [rad].
     pub measure: f64,
-    /// What the soft maximum can exceed the greatest overlap by, at most [rad].
+    /// Largest excess of the soft maximum over the greatest overlap [rad].
     pub ahead: f64,
 }
 
 impl Softness {
-    /// Distance of flanks, less than nothing their overlap, below which they matter where others touch [rad].
+    /// Distance of flanks (negative: overlap) below which they contribute where others touch [rad].
     pub fn reach(&self) -> f64 {
         self.ahead - NEGLIGIBLE * self.width
     }
@@ -62,7 +62,7 @@ impl Softness {
 
 /// A corner of either polygon within both.
 #[derive(Clone, Copy, Default)]
-struct Stop {
+struct Corner {
     /// The last ray of planet and side gear at or before it.
     after: [usize; 2],
     /// Whether it is the side gear's.
@@ -73,7 +73,7 @@ struct Stop {
 
 /// End of a stretch.
 #[derive(Clone, Copy)]
-struct End<T> {
+struct StretchEnd<T> {
     u: T,
     /// Overlap [rad].
     overlap: T,
@@ -92,7 +92,7 @@ pub struct Patch {
 }
 
 /// A section of both flanks.
-pub struct Section<'a> {
+pub struct FlankSection<'a> {
     /// Rays of planet and side gear that are near each other; along both the planet's root and the side gear's tip come last.
     pub rays: [&'a [Ray]; 2],
     /// The rays at the tips.
@@ -103,17 +103,17 @@ pub struct Section<'a> {
     pub offset: [f64; 3],
 }
 
-impl Section<'_> {
-    /// What is missing on a gear's flank, and its displacement: the planet has both for the pair.
+impl FlankSection<'_> {
+    /// Material missing on a gear's flank, and its displacement: the planet has both for the pair.
     #[inline(always)]
     fn moved(&self, gear: usize) -> (f64, [f64; 3]) {
         if gear == 0 { (self.relief, self.offset) } else { (0.0, [0.0; 3]) }
     }
 
     #[inline(always)]
-    fn see<T: Smooth>(&self, poses: &[Pose<T>; 2], gear: usize, i: usize) -> Seen<T> {
+    fn projected<T: Smooth>(&self, poses: &[Pose<T>; 2], gear: usize, i: usize) -> ProjectedRay<T> {
         let (relief, offset) = self.moved(gear);
-        Seen::new(&self.rays[gear][i], relief, &poses[gear], offset)
+        ProjectedRay::new(&self.rays[gear][i], relief, &poses[gear], offset)
     }
 
     /// Place and height of a ray of a gear.
@@ -124,9 +124,9 @@ impl Section<'_> {
     }
 
     /// The span between the tips.
-    fn span<T: Smooth>(&self, poses: &[Pose<T>; 2]) -> Span<T> {
+    fn span<T: Smooth>(&self, poses: &[Pose<T>; 2]) -> TipSpan<T> {
         let [planet, side] = [0, 1].map(|gear| self.place(self.tips[gear], poses, gear)[0]);
-        Span { low: planet, per_length: (side - planet).reciprocal() }
+        TipSpan { low: planet, per_length: (side - planet).reciprocal() }
     }
 
     /// The corners of both polygons where both are, in order.
@@ -136,11 +136,16 @@ impl Section<'_> {
         corners
     }
 
-    /// Calls `visit` with the ends of each stretch between corners whose overlap matters.
+    /// Calls `visit` with the ends of each stretch between corners whose overlap contributes.
     #[inline(always)]
-    fn stretches<T: Smooth>(&self, poses: &[Pose<T>; 2], near: &Near, mut visit: impl FnMut(&[End<T>; 2])) {
+    fn stretches<T: Smooth>(
+        &self,
+        poses: &[Pose<T>; 2],
+        near: &OverlapScan,
+        mut visit: impl FnMut(&[StretchEnd<T>; 2]),
+    ) {
         let span = self.span(poses);
-        // heights alone tell where to begin
+        // heights alone show where to begin
         let mut corners = self.corners(&near.values);
         let Some(mut begin) = corners.next() else { return };
         while begin.overlap < near.floor {
@@ -151,14 +156,18 @@ impl Section<'_> {
         }
         // the facets at the place: rays before and after it, of which the one before is the corner itself on one flank
         let mut next = begin.after.map(|i| i + 1);
-        let mut from = [self.see(poses, 0, begin.after[0]), self.see(poses, 1, begin.after[1])];
-        let ray = |gear: usize, i: usize| (i < self.rays[gear].len()).then(|| self.see(poses, gear, i));
+        let mut from = [self.projected(poses, 0, begin.after[0]), self.projected(poses, 1, begin.after[1])];
+        let ray = |gear: usize, i: usize| (i < self.rays[gear].len()).then(|| self.projected(poses, gear, i));
         let [Some(planet), Some(side)] = [ray(0, next[0]), ray(1, next[1])] else { return };
         let mut to = [planet, side];
-        let end = |own: usize, at: &Seen<T>, from: &[Seen<T>; 2], to: &[Seen<T>; 2], next: &[usize; 2]| {
+        let end = |own: usize,
+                   at: &ProjectedRay<T>,
+                   from: &[ProjectedRay<T>; 2],
+                   to: &[ProjectedRay<T>; 2],
+                   next: &[usize; 2]| {
             let (here, there) = ([at.h, at.metric], from[1 - own].until(&to[1 - own], at.u));
             let (planet, side) = if own == 0 { (here, there) } else { (there, here) };
-            End { u: at.u, overlap: span.overlap(at.u, planet, side), mate: 1 - own, ray: next[1 - own] - 1 }
+            StretchEnd { u: at.u, overlap: span.overlap(at.u, planet, side), mate: 1 - own, ray: next[1 - own] - 1 }
         };
         let own = usize::from(begin.of_side);
         let mut last = end(own, &from[own], &from, &to, &next);
@@ -166,7 +175,7 @@ impl Section<'_> {
         loop {
             greatest = greatest.max(last.overlap.value());
             if last.overlap.value() < greatest - near.reach {
-                // between convex flanks the overlap has but one hill
+                // between convex flanks the overlap has a single maximum
                 return;
             }
             let own = usize::from(to[1].u.value() < to[0].u.value());
@@ -184,7 +193,7 @@ impl Section<'_> {
     }
 
     /// Values of `poses` and the greatest overlap, where the flanks are near each other.
-    fn look<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<Near> {
+    fn look<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<OverlapScan> {
         let values = poses.map(|pose| pose.map(|row| row.map(Smooth::value)));
         let mut greatest = f64::NEG_INFINITY;
         for stop in self.corners(&values) {
@@ -195,32 +204,37 @@ impl Section<'_> {
         }
         let reach = -NEGLIGIBLE * soft.width;
         let floor = greatest - reach / LEAST_METRIC - SLOPING * greatest.abs();
-        (greatest > -soft.ahead / LEAST_METRIC).then_some(Near { values, floor, reach })
+        (greatest > -soft.ahead / LEAST_METRIC).then_some(OverlapScan { values, floor, reach })
     }
 
-    /// Depth p [rad] where it is more than nothing, and some way below.
+    /// Depth p [rad] where it is positive, and some distance below.
     pub fn depth<T: Smooth>(&self, poses: &[Pose<T>; 2], soft: &Softness) -> Option<T> {
         let near = self.look(poses, soft)?;
         let per = 1.0 / soft.width;
         let mut sum = T::constant(0.0);
         // what exponents count from, where the last stretch ended and the exponential there
         let (mut from, mut place, mut known) = (f64::NAN, f64::NAN, 0.0);
-        self.stretches(poses, &near, |[End { u: u0, overlap: d0, .. }, End { u: u1, overlap: d1, .. }]| {
-            let (u0, d0, u1, d1) = (*u0, *d0, *u1, *d1);
-            let top = d0.value().max(d1.value());
-            if from.is_nan() {
-                from = top;
-            } else if top > from + HIGH * soft.width {
-                let less = libm::exp((from - top) * per);
-                sum = sum * less;
-                (from, known) = (top, known * less);
-            }
-            let (a, b) = ((d0 - from) * per, (d1 - from) * per);
-            let before = if u0.value() == place { known } else { libm::exp(a.value()) };
-            let after = libm::exp(b.value());
-            (place, known) = (u1.value(), after);
-            sum = sum + (u1 - u0) * T::through_both(a, b, &mean_exponential([a.value(), b.value()], [before, after]));
-        });
+        self.stretches(
+            poses,
+            &near,
+            |[StretchEnd { u: u0, overlap: d0, .. }, StretchEnd { u: u1, overlap: d1, .. }]| {
+                let (u0, d0, u1, d1) = (*u0, *d0, *u1, *d1);
+                let top = d0.value().max(d1.value());
+                if from.is_nan() {
+                    from = top;
+                } else if top > from + HIGH * soft.width {
+                    let less = libm::exp((from - top) * per);
+                    sum = sum * less;
+                    (from, known) = (top, known * less);
+                }
+                let (a, b) = ((d0 - from) * per, (d1 - from) * per);
+                let before = if u0.value() == place { known } else { libm::exp(a.value()) };
+                let after = libm::exp(b.value());
+                (place, known) = (u1.value(), after);
+                sum =
+                    sum + (u1 - u0) * T::through_both(a, b, &mean_exponential([a.value(), b.value()], [before, after]));
+            },
+        );
         (sum.value() > 0.0).then(|| {
             let r = 1.0 / sum.value();
             sum.through([libm::log(sum.value() / soft.measure), r, -r * r]) * soft.width + from
@@ -235,10 +249,10 @@ impl Section<'_> {
             let [a, b] = [&ends[0], &ends[1]].map(|end| (end.overlap - from) / soft.width);
             let weight = (ends[1].u - ends[0].u) * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
             sum += weight;
-            for &End { u, mate, ray, .. } in ends {
+            for &StretchEnd { u, mate, ray, .. } in ends {
                 // the flank that the corner is pressed into
                 let normal = self.rays[mate][ray].normal;
-                let [height, _] = self.see(poses, mate, ray).until(&self.see(poses, mate, ray + 1), u);
+                let [height, _] = self.projected(poses, mate, ray).until(&self.projected(poses, mate, ray + 1), u);
                 out.place[0] += 0.5 * weight * u;
                 out.place[1] += 0.5 * weight * height;
                 for (sum, row) in out.normal.iter_mut().zip(&poses[mate]) {
@@ -254,17 +268,17 @@ impl Section<'_> {
 }
 
 /// Flanks that are near each other.
-struct Near {
+struct OverlapScan {
     values: [Pose<f64>; 2],
-    /// Overlap without regard to slopes that does not matter any more [rad].
+    /// Overlap without regard to slopes below which nothing contributes [rad].
     floor: f64,
-    /// How far below the greatest overlap others matter [rad].
+    /// Distance below the greatest overlap within which others contribute [rad].
     reach: f64,
 }
 
-/// Walks along both polygons, looking at heights alone.
+/// Walks along both polygons by heights alone.
 struct Corners<'a> {
-    section: &'a Section<'a>,
+    section: &'a FlankSection<'a>,
     poses: &'a [Pose<f64>; 2],
     /// Rays that come next.
     index: [usize; 2],
@@ -280,10 +294,10 @@ impl Corners<'_> {
 }
 
 impl Iterator for Corners<'_> {
-    type Item = Stop;
+    type Item = Corner;
 
     #[inline(always)]
-    fn next(&mut self) -> Option<Stop> {
+    fn next(&mut self) -> Option<Corner> {
         loop {
             let [Some(planet), Some(side)] = self.next else { return None };
             let of_side = side[0] < planet[0];
@@ -293,7 +307,7 @@ impl Iterator for Corners<'_> {
                 let there = from[1] + (at[0] - from[0]) * (to[1] - from[1]) / (to[0] - from[0]);
                 let mut after = self.index;
                 after[1 - own] -= 1;
-                Stop { after, of_side, overlap: if of_side { there - at[1] } else { at[1] - there } }
+                Corner { after, of_side, overlap: if of_side { there - at[1] } else { at[1] - there } }
             });
             self.index[own] += 1;
             self.last[own] = Some(at);

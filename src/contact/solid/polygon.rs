@@ -6,7 +6,7 @@ use crate::numeric::{Smooth, sqrt};
 
 /// A ray in the plane of projection.
 #[derive(Clone, Copy, Default)]
-pub struct Seen<T> {
+pub struct ProjectedRay<T> {
     /// Place along the flank [rad].
     pub u: T,
     /// Height [rad].
@@ -27,7 +27,7 @@ pub fn project<T: Smooth>(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 
     [across * per, along * per]
 }
 
-impl<T: Smooth> Seen<T> {
+impl<T: Smooth> ProjectedRay<T> {
     #[inline(always)]
     /// `ray` of a gear in `pose`, `relief` [rad] of its flank missing, displaced by `offset` [rad].
     pub fn new(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> Self {
@@ -50,14 +50,14 @@ impl<T: Smooth> Seen<T> {
 
 /// From the planet's tip to the side gear's.
 #[derive(Clone, Copy)]
-pub struct Span<T> {
+pub struct TipSpan<T> {
     /// Place of the planet's tip [rad].
     pub low: T,
     /// Reciprocal of the way to the side gear's tip [1/rad].
     pub per_length: T,
 }
 
-impl<T: Smooth> Span<T> {
+impl<T: Smooth> TipSpan<T> {
     /// Overlap at `u` of the surfaces with height and metric of `planet` and `side`.
     #[inline(always)]
     pub fn overlap(&self, u: T, planet: [T; 2], side: [T; 2]) -> T {

@@ -1,4 +1,4 @@
-//! How the teeth of a pair lie, seen along the line of action.
+//! Position of the teeth of a pair, seen along the line of action.
 //!
 //! Frame of a mesh: u and v away from the axes of planet and side gear in their common plane, each toward the other axis,
 //! t across it, the way in which the carrier turns forward; a_p, a_s along the axes from apex to heel. Tooth k of the

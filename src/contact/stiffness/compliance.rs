@@ -11,7 +11,7 @@
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
 use super::quadrature::integrate;
-use super::section::Section;
+use super::section::ToothSection;
 use crate::numeric::{PI, cos, sqrt, tan};
 
 /// Elastic constants of both gears.
@@ -58,7 +58,7 @@ impl PairCompliance {
     }
 }
 
-impl Section {
+impl ToothSection {
     /// Compliance q of the tooth per unit of width [1/Pa] under a load at roll length `roll` [m].
     pub fn compliance(&self, roll: f64, elasticity: &Elasticity) -> f64 {
         let load = self.load(roll);
@@ -97,7 +97,7 @@ impl Section {
 #[derive(Clone, Debug)]
 pub struct SectionPair {
     /// Sections of gear 1 and 2.
-    pub sections: [Section; 2],
+    pub sections: [ToothSection; 2],
     /// Elastic constants.
     pub elasticity: Elasticity,
 }

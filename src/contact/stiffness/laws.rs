@@ -6,18 +6,18 @@
 //!
 //! * [`Line`]: q at a fixed load, Φ = p²/2q.
 //! * [`LineWeber`]: with v = q/B the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
-//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, where b outgrows half the depth to
-//!   the teeth's middles and the logarithm has no meaning, p(ω) goes on along its tangent.
+//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, where b exceeds half the depth to
+//!   the teeth's middles and the logarithm has no meaning, p(ω) continues along its tangent.
 
 use std::sync::Arc;
 
-use super::table::Table;
+use super::table::ComplianceTable;
 use crate::contact::spring::{Elastic, Spring};
 
 /// Compliance constant in load: Hertz's part is that of a reference load.
 #[derive(Clone, Debug)]
 pub struct Line {
-    pub(super) table: Arc<Table>,
+    pub(super) table: Arc<ComplianceTable>,
     /// q at the reference load less Q, at every place alike [1/Pa].
     pub(super) shift: f64,
 }
@@ -50,7 +50,7 @@ impl Spring for Line {
 /// Compliance with Hertz's part of the load that acts.
 #[derive(Clone, Debug)]
 pub struct LineWeber {
-    table: Arc<Table>,
+    table: Arc<ComplianceTable>,
     /// B = 2(1−ν²)/(πE) [1/Pa].
     local: f64,
     /// ω₀, line load per cone distance up to which the logarithm holds [N/m²].
@@ -95,14 +95,8 @@ fn compliance_ratio(ratio: f64, x: f64) -> f64 {
 }
 
 impl LineWeber {
-    pub(super) fn new(table: Arc<Table>, local: f64, limit: f64) -> Self {
+    pub(super) fn new(table: Arc<ComplianceTable>, local: f64, limit: f64) -> Self {
         Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
-    }
-
-    /// Largest line load per cone distance at which the half width of contact is within half the depth of the teeth's
-    /// middles everywhere on the path [N/m²].
-    pub fn limit_load(&self) -> f64 {
-        self.limit
     }
 
     /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and place `s` [rad], and the tangent dω/dp.

@@ -1,7 +1,7 @@
-//! Stiffness of a tooth pair from the teeth's geometry: no measured number but E and ν goes in.
+//! Stiffness of a tooth pair from the geometry of its teeth and the elastic constants E and ν.
 //!
-//! `section` and `profile` draw the tooth, `compliance` loads it, `table` keeps the result along the path of contact,
-//! `laws` make springs of it. Per unit of face width; slices are similar, so one section serves all cone distances.
+//! `section` and `profile` describe the tooth, `compliance` loads it, `table` stores the result along the path of contact,
+//! `laws` make springs of it. Per unit of face width; slices are similar, so one section holds for all cone distances.
 
 mod compliance;
 mod laws;
@@ -14,31 +14,28 @@ use std::sync::Arc;
 
 pub use compliance::{Elasticity, PairCompliance, SectionPair};
 pub use laws::{Line, LineWeber};
-pub use profile::{Piece, Point, Span};
-pub use section::{Load, RootSpec, Section, SectionSpec};
+pub use profile::{Piece, ProfilePoint, Span};
+pub use section::{FlankLoad, RootSpec, SectionSpec, ToothSection};
 
 use crate::geometry::Pair;
 use crate::geometry::corner::CLIP_MARGIN;
-use crate::numeric::{FRAC_PI_2, Jet};
+use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
-use table::Table;
+use table::ComplianceTable;
 
-/// Usual reference line load [N/m] at the mean cone distance.
-pub const REFERENCE_LINE_LOAD: f64 = 400e3;
-
-/// A place where a tooth is thinner along the load than this many modules is no beam.
+/// Limits of the beam model. Least thickness of a tooth along the load [modules].
 const LEAST_DEPTH: f64 = 0.05;
-/// Nor is one where the load is steeper than this to the chord [rad].
+/// Largest angle of the load to the chord [rad].
 const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
-/// Nor one where the load crosses the tooth's middle further below the root section than this many of its chords.
+/// Largest distance below the root section at which the load crosses the tooth's middle [root chords].
 const BELOW_ROOT: f64 = 0.25;
-/// Steps in which the path is searched for places where both teeth are beams.
+/// Steps of the search for the part of the path where both teeth are beams.
 const SEARCH: usize = 128;
-/// Least part of the path, in base pitches, on which both must be.
+/// Least length of that part [base pitches].
 const LEAST_RANGE: f64 = 0.02;
 /// Past the ends the stiffness becomes constant within this many base pitches.
 const TAIL: f64 = 0.1;
-/// Half the width of contact reaches this share of the depth to the teeth's middles at the limit of Hertz's logarithm.
+/// Half the width of contact over the depth to the teeth's middles at the limit of Hertz's logarithm.
 const DEEPEST: f64 = 0.5;
 /// Intervals of Simpson's rule for the mean along the path.
 const MEAN_INTERVALS: usize = 1024;
@@ -55,7 +52,7 @@ pub struct PairStiffness {
     /// Line load per cone distance ω₀ up to which Hertz's logarithm holds [N/m²].
     pub limit: f64,
     /// Compliance Q at ω₀ [1/Pa].
-    table: Arc<Table>,
+    table: Arc<ComplianceTable>,
     /// R_e [m], p_b [rad], ends of the path [rad].
     outer_cone: f64,
     base_pitch: f64,
@@ -89,7 +86,7 @@ impl PairStiffness {
             .map(|j| between(range, j) * outer_cone)
             .map(|place| limit_line_load(&teeth, place) / outer_cone)
             .fold(f64::INFINITY, f64::min);
-        let table = Table::new(range[0], range[1], TAIL * pair.base_pitch, |s| {
+        let table = ComplianceTable::new(range[0], range[1], TAIL * pair.base_pitch, |s| {
             teeth.at(outer_cone * s, limit * outer_cone).total()
         });
         let reference = line_load / pair.mean_cone;
@@ -142,11 +139,6 @@ impl PairStiffness {
         }
         sum * length / (3.0 * MEAN_INTERVALS as f64 * self.base_pitch)
     }
-
-    /// Compliance q [1/Pa] under the limit load ω₀ with its derivatives by place, from the table.
-    pub fn limit_compliance(&self, s: f64) -> Jet {
-        self.table.at(s)
-    }
 }
 
 const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
@@ -164,7 +156,7 @@ fn limit_line_load(teeth: &SectionPair, place: f64) -> f64 {
     DEEPEST * DEEPEST * depth(0) * depth(1) / teeth.half_width_squared(rolls, 1.0)
 }
 
-/// Why a tooth is no beam at `place` [m]: the parameter to change; nothing if it is one.
+/// The parameter to change if a tooth is not a beam at `place` [m].
 fn unfit(teeth: &SectionPair, place: f64) -> Option<&'static str> {
     let rolls = teeth.rolls(place);
     for (i, tooth) in teeth.sections.iter().enumerate() {

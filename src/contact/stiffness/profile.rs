@@ -7,7 +7,7 @@ use crate::numeric::{cos, sin, sqrt};
 
 /// A point of the profile.
 #[derive(Clone, Copy, Debug)]
-pub struct Point {
+pub struct ProfilePoint {
     /// Half the chord x [m].
     pub half_chord: f64,
     /// Height y above the gear's axis [m].
@@ -58,11 +58,11 @@ pub enum Piece {
 
 impl Piece {
     /// Point at parameter `u`.
-    pub fn at(&self, u: f64) -> Point {
+    pub fn at(&self, u: f64) -> ProfilePoint {
         match *self {
             Self::Arc { x, y, radius } => {
                 let (s, c) = (sin(u), cos(u));
-                Point { half_chord: x - radius * c, height: y + radius * s, rise: radius * c }
+                ProfilePoint { half_chord: x - radius * c, height: y + radius * s, rise: radius * c }
             }
             Self::Trochoid { pitch, depth, radius, offset, half_pitch } => {
                 // (p, q): point of the rounding on the normal through the instant centre; turned counter-clockwise by
@@ -74,13 +74,13 @@ impl Piece {
                 let turn = half_pitch + (u - offset) / pitch;
                 let (s, c) = (sin(turn), cos(turn));
                 let half_chord = q * s - p * c;
-                Point { half_chord, height: q * c + p * s, rise: dq * c + dp * s - half_chord / pitch }
+                ProfilePoint { half_chord, height: q * c + p * s, rise: dq * c + dp * s - half_chord / pitch }
             }
-            Self::Radial { slope } => Point { half_chord: slope * u, height: u, rise: 1.0 },
+            Self::Radial { slope } => ProfilePoint { half_chord: slope * u, height: u, rise: 1.0 },
             Self::Involute { base, angle } => {
                 let tau = angle - u / base;
                 let (s, c) = (sin(tau), cos(tau));
-                Point { half_chord: base * s + u * c, height: base * c - u * s, rise: u * c / base }
+                ProfilePoint { half_chord: base * s + u * c, height: base * c - u * s, rise: u * c / base }
             }
         }
     }

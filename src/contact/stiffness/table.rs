@@ -2,7 +2,7 @@
 //!
 //! Toward a clipped end of the path the Hertz part has a logarithm and toward a pointed tip the bending has one, so in
 //! the outer quarters the knots close in quadratically on the ends: index = n √(distance). The middle half is even, and
-//! cells meet with like widths. Past its ends the function runs on as a quartic with the end's value, slope and
+//! cells meet with like widths. Past its ends the function continues as a quartic with the end's value, slope and
 //! curvature, and is constant from a short distance on.
 
 use crate::numeric::{Jet, sqrt};
@@ -16,9 +16,9 @@ const TAIL_CHANGE: f64 = 0.125;
 /// A cell: its first knot, and the coefficients of the cubic in the distance from it.
 type Cell = [f64; 5];
 
-/// The table.
+/// Compliance along the path of contact.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub struct ComplianceTable {
     low: f64,
     high: f64,
     /// Length of an outer quarter, and index per √length and per length.
@@ -61,7 +61,7 @@ impl Tail {
     }
 }
 
-impl Table {
+impl ComplianceTable {
     /// Table of the positive function `f` on [`low`, `high`], constant from `tail` past the ends on.
     pub fn new(low: f64, high: f64, tail: f64, f: impl Fn(f64) -> f64) -> Self {
         let span = high - low;
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_logarithm_near_the_end_is_met_within_a_millionth() {
-        let table = Table::new(-0.5, 1.0, 0.1, function);
+        let table = ComplianceTable::new(-0.5, 1.0, 0.1, function);
         let mut worst = 0f64;
         for j in 0..=10_000 {
             let s = -0.5 + 1.5e-4 * f64::from(j);
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn value_slope_and_curvature_have_no_jumps_and_the_tails_level_out() {
-        let table = Table::new(-0.5, 1.0, 0.1, function);
+        let table = ComplianceTable::new(-0.5, 1.0, 0.1, function);
         let close = |a: Jet, b: Jet| {
             (a.v - b.v).abs() < 1e-8
                 && (a.d - b.d).abs() < 1e-6 * (1.0 + a.d.abs())

@@ -34,8 +34,8 @@ pub struct Foot {
 }
 
 impl Foot {
-    /// Foot of a tooth of `gear` with a fillet of the angular radius `wanted` [rad], or the largest that the gap has room
-    /// for and that ends below the pitch circle.
+    /// Foot of a tooth of `gear` with a fillet of the angular radius `wanted` [rad], or the largest that fits the gap
+    /// and ends below the pitch circle.
     pub fn new(gear: &Gear, wanted: f64) -> Self {
         let middle = gear.tooth_pitch() / 2.0;
         let start = gear.root.max(gear.base);
@@ -59,7 +59,7 @@ impl Foot {
         }
         let Touch { mut centre, end: [polar, azimuth], arc } = touch(radius);
         if middle - centre < SLIVER * middle {
-            // rounded out: both fillets of a gap meet in its middle
+            // fully rounded: both fillets of a gap meet in its middle
             centre = middle;
         }
         let (c, apart) = (gear.root + radius, centre - azimuth);

@@ -1,18 +1,18 @@
-//! Whether the teeth of planet and side gear get into one another while they turn, and how near they come.
+//! Interference of planet and side gear: whether their teeth penetrate each other while turning, and their least clearance.
 //!
-//! Both apexes are in one point and the gears turn as Willis' equation has it: a planet turned by θ from a tooth in the
-//! plane of both axes stands opposite a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass
-//! through these same positions, half a tooth pitch apart, and left and right mirror each other: one pair over one pitch
-//! is all there is to look at. It is looked at in two stances: teeth in the middle of their gaps, so that play is alike
-//! on both flanks, and all play taken up on one side, as gears run: then flanks touch there, and nothing else may.
+//! Both apexes coincide and the gears turn by Willis' equation: a planet turned by θ from a tooth in the plane of both axes
+//! stands opposite a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass through the same positions,
+//! half a tooth pitch apart, and left and right mirror each other: one pair over one pitch covers them all. It is examined
+//! in two stances: teeth in the middle of their gaps, with equal backlash on both flanks, and all backlash closed on one
+//! side, as gears run: then flanks touch there, and nothing else may.
 //!
 //! *Depth* is the distance of a ray of one gear that lies within the other from the nearest face of that other, along
-//! its normal. Rays of either gear are tried against the other: those through the nodes of its outline, corners of the
-//! tip among them. The gap of flanks that do not touch is found alike. As all faces are cones with one apex, depth and
+//! its normal. Rays of either gear are tested against the other: those through the nodes of its outline, including the
+//! corners of the tip. The gap of flanks that do not touch is found likewise. As all faces are cones with one apex, depth and
 //! gap are proportional to the cone distance, and given per cone distance [rad]: deepest at the heel, nearest at the toe.
 //!
-//! Facets are chords of the exact faces. What is told is right to the *resolution*: twice the greatest distance of the
-//! facets from the faces, of both gears together, for the faces of one gear are hit between nodes of the other too.
+//! Facets are chords of the exact faces. Results are accurate to the *resolution*: twice the greatest distance of the
+//! facets from the faces, of both gears together, since rays of one gear also meet the other between its nodes.
 
 use nalgebra::Vector3;
 
@@ -26,12 +26,12 @@ use crate::numeric::{TAU, acos, atan2, cos, sin};
 pub const FACETS: usize = 128;
 /// Positions in a tooth pitch.
 pub const POSITIONS: usize = 24;
-/// Halvings of the step between positions about the worst.
+/// Bisections of the step between positions about the worst one.
 const HALVINGS: usize = 8;
-/// Rays farther than this beyond the mate's tip cone [rad] are not looked at.
+/// Rays farther than this beyond the mate's tip cone [rad] are skipped.
 const REACH: f64 = 0.05;
 
-/// Where two parts of teeth come nearest in the whole cycle, or enter deepest.
+/// Nearest approach of two parts of teeth in the whole cycle, or their deepest penetration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Approach {
     /// Parts of planet and side gear.
@@ -50,16 +50,16 @@ pub struct Approach {
     pub teeth: [i32; 2],
 }
 
-/// How teeth stand in their gaps.
+/// Position of teeth in their gaps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stance {
     /// In the middle.
     Middle,
-    /// At one flank, where there is play.
+    /// At one flank, where there is backlash.
     Driving,
 }
 
-/// What was found.
+/// Result of the check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interference {
     /// The nearest or deepest approach of each two parts, the worst first; flanks first among equals.
@@ -70,19 +70,19 @@ pub struct Interference {
     pub between_tips: [f64; 2],
 }
 
-/// What it means.
+/// Meaning of a gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Nothing touches.
     Clear,
-    /// Nothing touches or enters as far as the resolution goes.
+    /// Nothing touches or penetrates within the resolution.
     Touching,
-    /// Something enters.
+    /// Something penetrates.
     Interfering,
 }
 
 impl Interference {
-    /// Looks at `pair`, made from `spec`, in one stance; none if it has no surface to look at. Backlash may be negative.
+    /// Examines `pair`, made from `spec`, in one stance; `None` if its surface cannot be built. Backlash may be negative.
     pub fn new(pair: &Pair, spec: &GearSpec, stance: Stance) -> Option<Self> {
         let skins = [Skin::new(pair, spec, 0, FACETS)?, Skin::new(pair, spec, 1, FACETS)?];
         let resolution = 2.0 * skins.iter().map(|skin| skin.coarseness(pair, spec, FACETS)).sum::<f64>();
@@ -91,18 +91,18 @@ impl Interference {
             Stance::Middle => 0.0,
             Stance::Driving => pair.normal_backlash.max(0.0) / 2.0 / sin(pair.gears[1].base),
         };
-        let cycle = Cycle { pair, skins, nodes, lag };
+        let cycle = MeshingCycle { pair, skins, nodes, lag };
         let mut found = Vec::new();
         let mut step = pair.gears[0].tooth_pitch() / POSITIONS as f64;
         for k in 0..POSITIONS {
-            cycle.look(step * (k as f64 - (POSITIONS / 2) as f64), &mut found);
+            cycle.examine(step * (k as f64 - (POSITIONS / 2) as f64), &mut found);
         }
-        // where it is worst it may be worse still in between
+        // refine about the worst position
         for _ in 0..HALVINGS {
             step /= 2.0;
             let middle = worst(&found).map_or(0.0, |approach| approach.turn);
-            cycle.look(middle - step, &mut found);
-            cycle.look(middle + step, &mut found);
+            cycle.examine(middle - step, &mut found);
+            cycle.examine(middle + step, &mut found);
         }
         let rank = |a: &Approach| if a.parts == [Part::Flank; 2] { a.gap - resolution } else { a.gap };
         found.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
@@ -110,7 +110,7 @@ impl Interference {
         Some(Self { approaches: found, resolution, between_tips })
     }
 
-    /// What `gap` means.
+    /// Meaning of `gap`.
     pub fn verdict(&self, gap: f64) -> Verdict {
         match gap {
             gap if gap > self.resolution => Verdict::Clear,
@@ -124,7 +124,7 @@ impl Interference {
         self.approaches.first()
     }
 
-    /// Whether anything enters anything.
+    /// Whether anything penetrates.
     pub fn any(&self) -> bool {
         let teeth = self.worst().is_some_and(|worst| self.verdict(worst.gap) == Verdict::Interfering);
         teeth || self.between_tips.iter().any(|&angle| angle < 0.0)
@@ -136,24 +136,24 @@ fn worst(found: &[Approach]) -> Option<&Approach> {
 }
 
 /// Both gears, to be turned.
-struct Cycle<'a> {
+struct MeshingCycle<'a> {
     pair: &'a Pair,
     skins: [Skin; 2],
     /// Rays of tooth 0 of either gear.
     nodes: [Vec<Vector3<f64>>; 2],
-    /// Turn of the side gear from the middle of its play [rad].
+    /// Turn of the side gear from the middle of its backlash [rad].
     lag: f64,
 }
 
-impl Cycle<'_> {
+impl MeshingCycle<'_> {
     /// Turns of planet and side gear about their own axes when the planet is turned by `turn` [rad].
     fn turns(&self, turn: f64) -> [f64; 2] {
         let [planet, side] = &self.pair.gears;
         [turn, self.lag + side.tooth_pitch() / 2.0 - turn * f64::from(planet.teeth) / f64::from(side.teeth)]
     }
 
-    /// Looks at one position and keeps what is nearer than what was `found` before.
-    fn look(&self, turn: f64, found: &mut Vec<Approach>) {
+    /// Examines one position and keeps approaches nearer than those `found` before.
+    fn examine(&self, turn: f64, found: &mut Vec<Approach>) {
         let turns = self.turns(turn);
         for own in 0..2 {
             let mate = 1 - own;

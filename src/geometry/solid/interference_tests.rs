@@ -56,7 +56,7 @@ fn teeth_that_are_too_thick_overlap_on_the_flanks_by_half_of_what_is_too_much() 
 }
 
 #[test]
-fn flanks_without_play_touch_and_so_do_those_that_drive() {
+fn flanks_without_backlash_touch_and_so_do_driving_flanks() {
     let without = GearSpec { backlash: 0.0, ..GearSpec::default() };
     for (spec, stance) in [(without, Stance::Middle), (GearSpec::default(), Stance::Driving)] {
         let (_, found) = look(&spec, stance);
@@ -93,7 +93,7 @@ fn corner_to_meridian(pair: &Pair, lag: f64) -> f64 {
 }
 
 #[test]
-fn a_tip_beyond_the_limit_enters_the_flank_below_the_base_circle_once_the_play_is_taken_up() {
+fn a_tip_beyond_the_limit_penetrates_the_flank_below_the_base_circle_when_the_backlash_is_closed() {
     let standard = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
     let parts = [Part::Meridian, Part::Tip];
     for (backlash, stance, enters) in

@@ -23,15 +23,15 @@ pub struct GearSolid {
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// How finely a gear is drawn, and what of it.
+/// Resolution and crowning of a gear's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Facets per flank across the tooth.
     pub facets: usize,
     /// Strips along the tooth.
     pub strips: usize,
-    /// What is missing from the flanks at both ends of the face relative to its middle [m]: little beside the tip land's
-    /// width, and seen from four strips on.
+    /// What is missing from the flanks at both ends of the face relative to its middle [m]: small compared with the tip
+    /// land's width, and visible from four strips on.
     pub crowning: f64,
 }
 
@@ -45,11 +45,11 @@ impl GearSolid {
     /// The same in another shape.
     pub fn shaped(pair: &Pair, spec: &GearSpec, gear: usize, shape: &Shape) -> Self {
         let strips = shape.strips.max(1);
-        let rows: Vec<Row> = (0..=strips)
+        let rows: Vec<NodeRow> = (0..=strips)
             .map(|k| {
                 let share = k as f64 / strips as f64;
                 let cone = pair.inner_cone + (pair.outer_cone - pair.inner_cone) * share;
-                Row { cone, missing: shape.crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
+                NodeRow { cone, missing: shape.crowning * (2.0 * share - 1.0) * (2.0 * share - 1.0) }
             })
             .collect();
         let outline = outline(pair, spec, gear, shape.facets);
@@ -58,7 +58,7 @@ impl GearSolid {
 
     /// The sector of tooth 0 of the same gear, in one strip, not crowned.
     pub fn sector(pair: &Pair, spec: &GearSpec, gear: usize, facets: usize) -> Self {
-        let rows = [pair.inner_cone, pair.outer_cone].map(|cone| Row { cone, missing: 0.0 });
+        let rows = [pair.inner_cone, pair.outer_cone].map(|cone| NodeRow { cone, missing: 0.0 });
         let outline = outline(pair, spec, gear, facets);
         Surface::sector(&pair.gears[gear], &outline).build(&rows, bore(spec, gear))
     }
@@ -72,21 +72,21 @@ fn bore(spec: &GearSpec, gear: usize) -> f64 {
     [spec.planet_bore, spec.side_bore][gear]
 }
 
-/// Share of a pitch within which nodes, one above the other on the outline, have one vertex of the hub between them.
+/// Share of a pitch within which nodes, one above the other on the outline, share one vertex of the hub.
 const UPRIGHT: f64 = 1e-5;
 
 /// Polar angle [rad] above the root circle up to which a node stands on it.
 const ROUNDING: f64 = 1e-9;
 
 /// Nodes of all teeth at one cone distance.
-struct Row {
+struct NodeRow {
     /// Cone distance R [m].
     cone: f64,
-    /// What crowning takes off the flanks there [m].
+    /// Material that crowning removes from the flanks there [m].
     missing: f64,
 }
 
-impl Row {
+impl NodeRow {
     /// Place of `node` of tooth number `tooth` [m].
     fn place(&self, gear: &Gear, node: &Node, tooth: f64) -> Vector3<f64> {
         let turn = gear.tooth_pitch() * tooth;
@@ -100,7 +100,7 @@ impl Row {
     }
 }
 
-/// What the surface of a gear, or of a sector of it, is made from.
+/// Data of the surface of a gear or of a sector of it.
 struct Surface<'a> {
     gear: &'a Gear,
     /// Nodes of a tooth. In a whole gear the last of its outline is left out: it is the first of the next.
@@ -147,14 +147,14 @@ impl<'a> Surface<'a> {
         Self { gear, nodes, teeth: 1, whole: false, columns, column }
     }
 
-    fn build(&self, rows: &[Row], bore: f64) -> GearSolid {
+    fn build(&self, rows: &[NodeRow], bore: f64) -> GearSolid {
         let gear = self.gear;
         let around = (self.teeth * self.nodes.len()) as u32;
         let mut vertices = Vec::with_capacity((rows.len() + 4) * around as usize);
         for row in rows {
             for tooth in 0..self.teeth {
                 // a node in the middle of a gap belongs to two flanks at once and stays
-                let whole = Row { missing: 0.0, ..*row };
+                let whole = NodeRow { missing: 0.0, ..*row };
                 let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
                 vertices.extend(self.nodes.iter().enumerate().map(place));
             }
@@ -184,8 +184,8 @@ impl<'a> Surface<'a> {
         GearSolid { vertices, triangles }
     }
 
-    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and tells its vertex for each node. Nodes of
-    /// `outline`, if it has any, that stand on the root circle are taken as they are. A circle of no radius is one vertex.
+    /// Adds a circle of `radius` in the plane of the root circle at `cone` [m] and returns its vertex for each node. Nodes
+    /// of `outline` on the root circle, if any, are reused. A circle of no radius is one vertex.
     fn ring(&self, vertices: &mut Vec<Vector3<f64>>, radius: f64, cone: f64, outline: &[u32]) -> Vec<u32> {
         let (gear, z) = (self.gear, cone * cos(self.gear.root));
         if radius <= 0.0 {
@@ -213,7 +213,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Triangles between two rings of as many vertices, seen from outside with `upper` above and both running to the right.
-    /// Where two corners of a triangle are one and the same vertex there is none.
+    /// Where two corners of a triangle are the same vertex there is none.
     fn band(&self, triangles: &mut Vec<[u32; 3]>, upper: &[u32], lower: &[u32]) {
         for i in 0..upper.len() - usize::from(!self.whole) {
             let next = (i + 1) % upper.len();

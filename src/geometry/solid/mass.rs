@@ -1,7 +1,7 @@
-//! What a gear weighs: volume, mass and moments of inertia of its solid, by parry3d.
+//! Mass properties of a gear: mass and moments of inertia of its solid, by parry3d.
 //!
-//! The solid is the one that is exported (`manifold`). A gear is z of one tooth's sectors: of the sector's mass z times as
-//! much, and so of its moments about the axis and the apex, of those across the axis the mean of any two at a right angle.
+//! The solid is the one that is exported (`manifold`). A gear consists of z sectors of one tooth: its mass and
+//! its moments about the axis and the apex are z times the sector's; across the axis the mean of any two at a right angle.
 
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
@@ -44,12 +44,6 @@ pub(super) fn of_sectors(pair: &Pair, spec: &GearSpec, gear: usize, density: f64
 }
 
 impl GearSolid {
-    /// Enclosed volume [m³]: the sum of the tetrahedra that the triangles make with the apex.
-    pub fn volume(&self) -> f64 {
-        let corner = |i: u32| self.vertices[i as usize];
-        self.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
-    }
-
     /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
     pub fn mass(&self, density: f64) -> GearMass {
         let vertices: Vec<Vector> = self.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();

@@ -1,4 +1,5 @@
-//! The gears as bodies: outlines of teeth with their fillets, closed surfaces of whole gears, and what these weigh.
+//! The gears as solids: outlines of teeth with their fillets, closed surfaces of whole gears, mass properties, and the check
+//! for interference.
 
 pub mod fillet;
 pub mod interference;

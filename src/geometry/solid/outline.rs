@@ -6,7 +6,7 @@
 use super::fillet::Foot;
 use crate::geometry::involute::Gear;
 
-/// What a node of an outline lies on; where two pieces meet, the flank comes before the fillet, that before the others.
+/// Part of a tooth that a node lies on; where two meet, the flank has precedence over the fillet, the fillet over others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The root circle.

@@ -1,9 +1,9 @@
-//! Surface of the teeth of a gear as parry3d searches it: how far a point lies outside or inside.
+//! Surface of the teeth of a gear for parry3d's queries: distance of a point outside or inside.
 //!
-//! All faces of the teeth are cones with their apex in the pitch apex. So a band of them about the heel holds all there
-//! is, and a length at the cone distance R is R/R_e of that at the heel. Three neighbouring teeth suffice, as every
-//! azimuth folds into the middle one. The ends of the face are left out: whatever of a gear lies within R_i and R_e lies
-//! within these cones, and so do its ends. parry3d works in millimetres; all that is told is an angle from the apex.
+//! All faces of the teeth are cones with their apex in the pitch apex. So a band of them about the heel represents them
+//! all, and a length at the cone distance R is R/R_e of that at the heel. Three neighbouring teeth suffice, as every
+//! azimuth folds into the middle one. The ends of the face are left out: everything of a gear between R_i and R_e lies
+//! within these cones, and so do its ends. parry3d works in millimetres; all results are angles from the apex.
 
 use nalgebra::Vector3;
 use parry3d_f64::math::Vector;
@@ -38,7 +38,7 @@ pub struct Skin {
     radius: f64,
 }
 
-/// Where the surface is nearest to a point.
+/// Nearest point of the surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Distance from the surface per cone distance [rad]; negative inside.
@@ -101,7 +101,7 @@ impl Skin {
     }
 }
 
-/// What the facet from one node to the next lies on.
+/// Part of the tooth that the facet from one node to the next lies on.
 fn between(gear: &Gear, outline: &Outline, ends: &[Node]) -> Part {
     let both = |part: Part| ends.iter().all(|node| node.part == part);
     if ends.iter().all(|node| node.polar >= gear.tip - ROUNDING) {

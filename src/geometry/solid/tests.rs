@@ -8,7 +8,7 @@ use super::{GearSolid, Outline, Part, Shape};
 use crate::geometry::involute::direction;
 use crate::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
-/// Gears of all kinds that `checks::errors` lets pass, with what makes them special.
+/// Gears of all kinds without `checks::errors`, with their special property.
 pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {
     let base = GearSpec::default();
     let teeth = |planet_teeth, side_teeth| GearSpec { planet_teeth, side_teeth, ..base };
@@ -55,6 +55,12 @@ pub(super) fn fillet(spec: &GearSpec, pair: &Pair) -> f64 {
     spec.root_fillet * pair.module / pair.outer_cone
 }
 
+/// Enclosed volume [m³]: the sum of the tetrahedra that the triangles make with the apex, negative if they face inward.
+pub(super) fn volume(solid: &GearSolid) -> f64 {
+    let corner = |i: u32| solid.vertices[i as usize];
+    solid.triangles.iter().map(|&[a, b, c]| corner(a).dot(&corner(b).cross(&corner(c))) / 6.0).sum()
+}
+
 #[test]
 fn every_surface_is_closed_consistently_oriented_and_without_degenerate_triangles() {
     for (name, spec) in specs() {
@@ -94,7 +100,7 @@ fn check_manifold(solid: &GearSolid, torus: bool, what: &str) {
     }
     let euler = solid.vertices.len() as i64 - edges.len() as i64 / 2 + solid.triangles.len() as i64;
     assert_eq!(euler, if torus { 0 } else { 2 }, "{what}");
-    assert!(solid.volume() > 0.0, "{what}");
+    assert!(volume(solid) > 0.0, "{what}");
 }
 
 #[test]
@@ -204,6 +210,6 @@ fn crowning_takes_the_parabola_off_the_flanks_and_leaves_their_middle() {
     }
     // two flanks of nine nodes on sixteen teeth, in four of five rows
     assert_eq!(moved, 2 * 9 * 16 * 4);
-    let (less, whole) = (crowned.volume(), plain.volume());
+    let (less, whole) = (volume(&crowned), volume(&plain));
     assert!(less < whole, "{less:e} {whole:e}");
 }

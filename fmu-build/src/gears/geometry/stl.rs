@@ -110,7 +110,7 @@ mod tests {
                 assert!(triangles.len() <= solid.triangles.len());
                 assert!(triangles.len() as f64 > 0.99 * solid.triangles.len() as f64);
                 assert_eq!(open_edges(&triangles), 0, "{teeth:?} {gear} {shape:?}");
-                assert!((volume(&triangles) / (solid.volume() * 1e9) - 1.0).abs() < 1e-5);
+                assert!((volume(&triangles) / (solid.mass(1.0).mass * 1e9) - 1.0).abs() < 1e-5);
             }
         }
     }
@@ -124,7 +124,7 @@ mod tests {
         let bytes = binary(bodies.iter().map(|b| (&solids[b.gear], b.rotation)));
         let triangles = read(&bytes).expect("an STL file");
         assert_eq!(open_edges(&triangles), 0);
-        let whole: f64 = bodies.iter().map(|b| solids[b.gear].volume() * 1e9).sum();
+        let whole: f64 = bodies.iter().map(|b| solids[b.gear].mass(1.0).mass * 1e9).sum();
         assert!((volume(&triangles) / whole - 1.0).abs() < 1e-5);
         for (chunk, triangle) in bytes[HEADER_LENGTH + 4..].chunks_exact(TRIANGLE_LENGTH).zip(&triangles) {
             let normal_read =

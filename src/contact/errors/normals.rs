@@ -1,4 +1,4 @@
-//! Normal and place of contact in the directions of a mesh: what displacements of the gears are projected on.
+//! Normal and place of contact in the directions of a mesh, onto which displacements of the gears are projected.
 //!
 //! Directions of a mesh: a_p, a_s along the axes of planet and side gear from apex to heel; u ⟂ a_p and v ⟂ a_s in the
 //! plane of both axes, each toward the other axis; t = x̂ × r̂ across it, the way a planet is carried by a carrier that
@@ -15,7 +15,7 @@ use crate::numeric::{Scalar, cos, sin};
 
 /// Sines and cosines of the pressure angle and of both pitch angles.
 #[derive(Clone, Copy, Debug)]
-pub struct Action {
+pub struct ContactNormals {
     /// sinα.
     pub sin_pressure: f64,
     cos_pressure: f64,
@@ -42,8 +42,8 @@ pub fn push(flank: Flank) -> f64 {
     }
 }
 
-impl Action {
-    /// Line of action of `pair`.
+impl ContactNormals {
+    /// Normals of `pair`.
     pub fn new(pair: &Pair) -> Self {
         Self {
             sin_pressure: sin(pair.pressure_angle),
@@ -74,14 +74,14 @@ mod tests {
     use crate::geometry::GearSpec;
 
     #[test]
-    fn the_normal_has_unit_length_and_the_base_circles_as_lever_arms() {
+    fn the_normal_has_unit_length_and_the_moment_arms_of_the_base_circles() {
         let pair = Pair::new(&GearSpec { shaft_angle: 1.3, ..GearSpec::default() });
-        let action = Action::new(&pair);
+        let normals = ContactNormals::new(&pair);
         for flank in [Flank::Drive, Flank::Coast] {
             for s in [-0.2, 0.0, 0.15] {
-                let n = action.normal(flank, s);
+                let n = normals.normal(flank, s);
                 // C(s) is T a quarter turn back
-                let c = action.normal(flank, s - std::f64::consts::FRAC_PI_2);
+                let c = normals.normal(flank, s - std::f64::consts::FRAC_PI_2);
                 for i in 0..2 {
                     let length = n.axial[i].powi(2) + n.radial[i].powi(2) + n.across.powi(2);
                     assert!((length - 1.0).abs() < 1e-14);

@@ -1,0 +1,103 @@
+//! Callbacks of CVODE (SUNDIALS), and a loop over its steps.
+
+use std::ffi::{c_int, c_void};
+
+use crate::boundary::guarded;
+use crate::run::{Entries, MatrixData, Run};
+
+/// `int CVode(void *mem, double tout, N_Vector y, double *t, int task)`.
+type Cvode = unsafe extern "C" fn(*mut c_void, f64, *mut c_void, *mut f64, c_int) -> c_int;
+
+/// CV_NORMAL: step past the requested time and interpolate.
+const NORMAL: c_int = 1;
+
+/// Sets the access to the entries of SUNDIALS' vectors and dense matrices.
+///
+/// # Safety
+/// `run` came from [`foreign_new`]; the functions are those of SUNDIALS.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn foreign_sundials(run: *mut Run, entries: Entries, data: MatrixData) {
+    // SAFETY: as promised by the caller
+    let run = unsafe { &mut *run };
+    (run.entries, run.data) = (Some(entries), Some(data));
+}
+
+/// CVODE's `CVRhsFn`.
+///
+/// # Safety
+/// Called by CVODE with vectors of the run's size; `user` is the run after [`foreign_sundials`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, user: *mut c_void) -> c_int {
+    guarded(|| {
+        // SAFETY: as promised by the caller
+        unsafe {
+            let run = &mut *user.cast::<Run>();
+            let (size, Some(entries)) = (run.size(), run.entries) else { return -1 };
+            let (u, rate) = (entries(u), entries(rate));
+            run.rates(std::slice::from_raw_parts(u, size), std::slice::from_raw_parts_mut(rate, size));
+        }
+        0
+    })
+}
+
+/// CVODE's `CVLsJacFn` for dense matrices.
+///
+/// # Safety
+/// As of [`foreign_cvode_rhs`].
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn foreign_cvode_jacobian(
+    _time: f64,
+    u: *mut c_void,
+    _rate: *mut c_void,
+    matrix: *mut c_void,
+    user: *mut c_void,
+    _spare: *mut c_void,
+    _another: *mut c_void,
+    _third: *mut c_void,
+) -> c_int {
+    guarded(|| {
+        // SAFETY: as promised by the caller
+        unsafe {
+            let run = &mut *user.cast::<Run>();
+            let (size, Some(entries), Some(data)) = (run.size(), run.entries, run.data) else { return -1 };
+            let (u, matrix) = (entries(u), data(matrix));
+            run.jacobian(
+                std::slice::from_raw_parts(u, size),
+                true,
+                std::slice::from_raw_parts_mut(matrix, size * size),
+            );
+        }
+        0
+    })
+}
+
+/// Steps CVODE to each of `count` times and copies u there to `out`; its first error, or 0.
+///
+/// # Safety
+/// `step` is `CVode`, `memory` what it works on, `vector` has the run's size; the arrays have room for `count` times and states.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn foreign_cvode(
+    run: *mut Run,
+    step: Cvode,
+    memory: *mut c_void,
+    vector: *mut c_void,
+    times: *const f64,
+    count: usize,
+    out: *mut f64,
+) -> c_int {
+    guarded(|| {
+        // SAFETY: as promised by the caller; CVODE uses the run by its own pointer, so none is held here meanwhile
+        unsafe {
+            let (size, Some(entries)) = ((*run).magnitudes.len(), (*run).entries) else { return -1 };
+            let mut reached = 0.0;
+            for k in 0..count {
+                let status = step(memory, *times.add(k), vector, &mut reached, NORMAL);
+                if status < 0 {
+                    return status;
+                }
+                std::ptr::copy_nonoverlapping(entries(vector), out.add(k * size), size);
+            }
+        }
+        0
+    })
+}

@@ -1,0 +1,15 @@
+//! Detailed mesh: tooth errors slice by slice, friction along the flanks, axially displaced gears, and bearing loads.
+//! Written once for plain values and for values with exact derivatives.
+//!
+//! A slice at cone distance R_j penetrates by d_j = R_j (a − g) − e_j(s) − w ν(s): w is the side gear's
+//! displacement away from the apex, ν = cosδ_bs sin(ψ_s − s) the axial component of the flank's normal. V = Σ_k Σ_j J_j Φ(d_j/R_j, s)
+//! over tooth pairs k and slices j. Friction μ F along the flank has the moment arms R cosδ_b sinψ about both axes and
+//! opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the travels of both flanks
+//! along the line of action.
+
+mod forces;
+mod loads;
+mod mesh;
+
+pub use loads::{DetailedLoad, DetailedState, Gaps, PairName, Slice, SliceLoad};
+pub use mesh::Detailed;
