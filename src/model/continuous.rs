@@ -16,7 +16,7 @@ use super::simulation::Simulation;
 use super::sizes::{by_size, with_equations};
 use super::state::{Accepted, State};
 use super::switches::{break_tooth, catch_holds, energy};
-use crate::integrate::{Erased, Point, SecondOrder, Step};
+use crate::integrate::{DynSystem, Point, SecondOrder, Step};
 
 /// A body with a state of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,8 +191,8 @@ impl Simulation {
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let mut equations = equations;
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = Erased(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
-                let (_, last) = Erased(&equations).evaluate(&end);
+                let (_, first) = DynSystem(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
+                let (_, last) = DynSystem(&equations).evaluate(&end);
                 // what lies between is the host's: for stiff teeth no curve through both ends would tell it
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: state.time, start: &start, end: &end, power };

@@ -87,7 +87,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// What presses side gears and planets, from loads of all meshes.
     fn pressings<T: Local>(&self, loads: &[[DetailedLoad<T>; 2]; G]) -> ([Pressing; 2], [Pressing; G]) {
-        let side = self.teeth.lever[1];
+        let side = self.teeth.sin_base[1];
         let sides = [0, 1].map(|s| Pressing {
             thrust: in_pairs(G, |g| self.members(g) * loads[g][s].side_axial.value()),
             load: in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value()).abs(),
@@ -307,7 +307,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Derivatives of dry friction by what the meshes press.
     fn press_slopes<T: Local>(&self, loads: &[[DetailedLoad<T>; 2]; G], planets: &[Pressing; G], j: &mut Jacobian<N>) {
-        let side = self.teeth.lever[1];
+        let side = self.teeth.sin_base[1];
         let [of_side, of_planet] = self.clamps.map(|c| c.limit_slopes());
         for s in 0..2 {
             let direction = self.holds[s].mode.direction();
@@ -347,7 +347,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`.
     fn spread(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; LOCAL]; G], j: &mut Jacobian<N>) {
-        let [planet, side] = self.teeth.lever;
+        let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
         for (part, m) in [(0, &mut j.by_position), (3, &mut j.by_rate)] {
             m[row][s] += sign * in_pairs(G, |g| side * slopes[g][part]);

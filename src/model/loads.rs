@@ -8,7 +8,7 @@ use super::equations::Equations;
 use crate::contact::mesh::{Law, Mesh};
 use crate::contact::pairs::{Flank, Spot, ToothPair};
 use crate::geometry::Pair;
-use crate::geometry::action::{Action, Contact, Where};
+use crate::geometry::action::{Contact, LineOfAction};
 use crate::integrate::Point;
 use crate::numeric::{cos, sin, sqrt};
 
@@ -65,13 +65,8 @@ impl ToothLoad {
     }
 
     /// Where it acts, in the frame of the mesh.
-    pub fn contact(&self, action: &Action) -> Contact {
-        let place = match self.spot {
-            Spot::Path => Where::Path(self.place),
-            Spot::PlanetTip => Where::PlanetTip(self.place),
-            Spot::SideTip => Where::SideTip(self.place),
-        };
-        action.contact(place, self.turn())
+    pub fn contact(&self, action: &LineOfAction) -> Contact {
+        action.contact(self.spot, self.place, self.turn())
     }
 
     /// Azimuth of the middle of its tooth of gear `i` (0 planet, 1 side gear) from that of tooth 0, about the gear's axis
@@ -85,7 +80,7 @@ impl ToothLoad {
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
 pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
-    let [lever_p, lever_s] = pair.lever();
+    let [lever_p, lever_s] = pair.sin_base();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
     let corner = &mesh.engagement.corner;
     let (planet, side) = match contact.spot {
