@@ -85,10 +85,10 @@ impl Scene {
     /// touch of undisplaced gears.
     fn gap(&self, flank: Flank, r: f64, s: f64, place: impl Fn(&Touch, V3) -> V3) -> f64 {
         let push = if flank == Flank::Drive { 1.0 } else { -1.0 };
-        let chi = push * (s - self.pair.centred_position()) / self.pair.lever()[0];
+        let chi = push * (s - self.pair.centred_position()) / self.pair.sin_base()[0];
         let free = self.touch(chi, push, r, |p| p);
         let displaced = self.touch(chi, push, r, |p| place(&free, p));
-        push * (free.side - displaced.side) * r * self.pair.lever()[1]
+        push * (free.side - displaced.side) * r * self.pair.sin_base()[1]
     }
 
     /// Compares with the program all along the path, for both flanks and over the face.

@@ -99,7 +99,7 @@ fn derived_dimensions_equal_the_golden_ones() {
             of("d_v", planar.diameter[i] * MM);
             of("d_vb", planar.base_diameter[i] * MM);
             of("d_va", planar.tip_diameter[i] * MM);
-            of("d_b_sphere", 2.0 * pair.outer_cone * pair.lever()[i] * MM);
+            of("d_b_sphere", 2.0 * pair.outer_cone * pair.sin_base()[i] * MM);
             of("half_thickness_angle_deg", gear.half_pitch.to_degrees());
             of("s_e_circular", gear.half_pitch * pair.outer_pitch_diameter(i) * MM);
             of("tooth_angle_pitch_deg", gear.tooth_pitch().to_degrees());
@@ -140,7 +140,7 @@ fn backlash_thins_both_teeth_and_opens_the_golden_normal_gap() {
     // 0.1 mm at the outer pitch circle is 2.21349e-3 rad along the line of action
     assert!((loose.normal_backlash - 2.21349e-3).abs() < 5e-9, "{}", loose.normal_backlash);
     let play: f64 =
-        (0..2).map(|i| 2.0 * (tight.gears[i].half_pitch - loose.gears[i].half_pitch) * loose.lever()[i]).sum();
+        (0..2).map(|i| 2.0 * (tight.gears[i].half_pitch - loose.gears[i].half_pitch) * loose.sin_base()[i]).sum();
     assert!((play / loose.normal_backlash - 1.0).abs() < 1e-12, "{play} {}", loose.normal_backlash);
 }
 
@@ -210,7 +210,7 @@ fn both_flanks_meet_on_the_golden_contact_path() {
             assert!((polar[i] - f[1 + i].to_radians()).abs() < 2e-12, "{row:?}");
         }
         let (contact, tangent) = (Vector3::new(f[3], f[4], f[5]), Vector3::new(f[6], f[7], f[8]));
-        let turn = [s / pair.lever()[0], s / pair.lever()[1]];
+        let turn = [s / pair.sin_base()[0], s / pair.sin_base()[1]];
         assert!((turn[0] - f[9].to_radians()).abs() < 2e-12 && (turn[1] - f[10].to_radians()).abs() < 2e-12, "{row:?}");
         // each left flank, its pitch point brought into the plane of the axes, then turned
         let about_z = |angle: f64| Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
@@ -226,8 +226,8 @@ fn both_flanks_meet_on_the_golden_contact_path() {
         // lever arms of the header, in mm: constant along the path, of opposite hand in this frame
         let lever = [Vector3::z(), Vector3::x()].map(|axis| contact.cross(&tangent).dot(&axis));
         assert!((lever[0] - 21.1430839677).abs() < 1e-9 && (lever[1] + 33.8289343483).abs() < 1e-9, "{row:?}");
-        assert!((pair.lever()[0] * radius - lever[0]).abs() < 1e-9, "{row:?}");
-        assert!((pair.lever()[1] * radius + lever[1]).abs() < 1e-9, "{row:?}");
+        assert!((pair.sin_base()[0] * radius - lever[0]).abs() < 1e-9, "{row:?}");
+        assert!((pair.sin_base()[1] * radius + lever[1]).abs() < 1e-9, "{row:?}");
         count += 1;
     }
     println!("{count} contacts off by {worst:e} mm");

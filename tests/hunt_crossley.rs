@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::damping::{Damping, restitution};
 use bevel_differential::integrate::{
-    Control, Effort, Flow, Linearisation, Point, Rodas5P, SecondOrder, Statistics, advance,
+    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
 };
 
 /// A mass flying into a wall of elastic force K d^n; position is the penetration.
@@ -52,10 +52,13 @@ fn rebound(exponent: f64, dimensionless: f64) -> (f64, Statistics) {
     let mut point = Point { q: [0.0], v: [speed] };
     let (mut time, mut control, mut statistics, mut budget) =
         (0.0, Control::new(1e-8), Statistics::default(), 1_000_000);
-    let effort = Effort { tolerance: 1e-10, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    let context =
+        SolverContext { tolerance: 1e-10, control: &mut control, statistics: &mut statistics, budget: &mut budget };
     // an undamped impact lasts about three times depth/speed, the slowest return here not three times that
-    advance(&Rodas5P, &wall, &mut point, &mut time, 12.0 * depth / speed, effort, |_| Ok::<_, ()>(Flow::Continue))
-        .unwrap();
+    advance(&Rodas5P, &wall, &mut point, &mut time, 12.0 * depth / speed, context, |_| {
+        Ok::<_, ()>(AfterStep::Continue)
+    })
+    .unwrap();
     assert!(point.q[0] < 0.0, "still in contact");
     (-point.v[0] / speed, statistics)
 }

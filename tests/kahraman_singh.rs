@@ -19,7 +19,7 @@ use bevel_differential::contact::law::Lumped;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::integrate::{
-    Control, Effort, Flow, Linearisation, Point, Rodas5P, SecondOrder, Statistics, advance,
+    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
 };
 
 /// ζ.
@@ -123,19 +123,19 @@ impl Sweep {
         let mut sums = [0.0; 2];
         for (until, weight) in [(PERIODS - TAKEN, 0.0), (PERIODS, 1.0)] {
             let mut budget = 1_000_000;
-            let effort = Effort {
+            let context = SolverContext {
                 tolerance: 1e-6,
                 control: &mut self.control,
                 statistics: &mut self.statistics,
                 budget: &mut budget,
             };
             let until = f64::from(until) * period;
-            advance(&Rodas5P, &self.oscillator, &mut self.point, &mut time, until, effort, |step| {
+            advance(&Rodas5P, &self.oscillator, &mut self.point, &mut time, until, context, |step| {
                 let [begin, middle, end] = step.power;
                 for i in 0..2 {
                     sums[i] += weight * step.h / 6.0 * (begin[i] + 4.0 * middle[i] + end[i]);
                 }
-                Ok::<_, ()>(Flow::Continue)
+                Ok::<_, ()>(AfterStep::Continue)
             })
             .unwrap();
         }

@@ -22,12 +22,12 @@ fn the_gear_law_holds_on_the_sphere_for_any_pair() {
         for i in 0..2 {
             assert!((pair.gears[i].pitch - delta[i]).abs() < 1e-14, "{spec:?}");
             let lever = delta[i].sin() * spec.pressure_angle.cos();
-            assert!((pair.lever()[i] - lever).abs() < 1e-15 * 4.0, "{spec:?}");
-            let from_tooth = pair.gears[i].tooth_pitch() * pair.lever()[i];
+            assert!((pair.sin_base()[i] - lever).abs() < 1e-15 * 4.0, "{spec:?}");
+            let from_tooth = pair.gears[i].tooth_pitch() * pair.sin_base()[i];
             assert!((pair.base_pitch / from_tooth - 1.0).abs() < 1e-14, "{spec:?}");
         }
         let [z_p, z_s] = [spec.planet_teeth, spec.side_teeth].map(f64::from);
-        let law = z_p * pair.lever()[1] / (z_s * pair.lever()[0]) - 1.0;
+        let law = z_p * pair.sin_base()[1] / (z_s * pair.sin_base()[0]) - 1.0;
         assert!(law.abs() < 1e-14, "z_p sinδ_bs = z_s sinδ_bp is off by {law:e} for {spec:?}");
     }
 }
@@ -81,8 +81,8 @@ fn rotated_flanks_of_random_pairs_coincide_along_the_path_with_common_normals() 
         for k in 0..=STEPS {
             let s = pair.path.low + (pair.path.high - pair.path.low) * f64::from(k) / f64::from(STEPS);
             // both turn so that their flanks move along y where they mesh: the side gear's own azimuth runs against it
-            let on_planet = about(V3::z(), s / pair.lever()[0] - planet.half_pitch);
-            let on_side = side_frame * about(V3::z(), -s / pair.lever()[1] - side.half_pitch);
+            let on_planet = about(V3::z(), s / pair.sin_base()[0] - planet.half_pitch);
+            let on_side = side_frame * about(V3::z(), -s / pair.sin_base()[1] - side.half_pitch);
             let polar = [planet.polar_at(pair.pitch_arc[0] + s), side.polar_at(pair.pitch_arc[1] - s)];
             let expected = start * s.cos() + tangent * s.sin();
             let p = on_planet * planet.flank_point(polar[0], 1.0);
@@ -101,8 +101,8 @@ fn rotated_flanks_of_random_pairs_coincide_along_the_path_with_common_normals() 
                 worst_normal = worst_normal.max(off * arcs[i].abs().min(1.0));
                 assert!(off < allowed, "{spec:?} at {s}, gear {i}: normal off {off:e}");
                 let lever = (expected.cross(&turned).dot(&axes[i])).abs();
-                worst_lever = worst_lever.max((lever - pair.lever()[i]).abs());
-                assert!((lever - pair.lever()[i]).abs() < 1e-14, "{spec:?} at {s}, gear {i}: lever {lever}");
+                worst_lever = worst_lever.max((lever - pair.sin_base()[i]).abs());
+                assert!((lever - pair.sin_base()[i]).abs() < 1e-14, "{spec:?} at {s}, gear {i}: lever {lever}");
             }
         }
     }

@@ -68,7 +68,7 @@ struct Seen {
 impl Seen {
     /// q and x of docs/theory.md at side gear rotation `alpha`.
     fn position(&self, alpha: f64) -> [f64; 2] {
-        [self.pair.lever()[1] * alpha - self.travel, self.x]
+        [self.pair.sin_base()[1] * alpha - self.travel, self.x]
     }
 
     /// Place along the path at which the program has the loaded pair `p` at rotation `alpha`.
@@ -99,7 +99,7 @@ impl Seen {
             spot
         };
         let reach = self.pair.normal_backlash / 2.0 + REACH;
-        let (mut clear, mut pressed) = (self.free, self.free - self.push * reach / self.pair.lever()[1]);
+        let (mut clear, mut pressed) = (self.free, self.free - self.push * reach / self.pair.sin_base()[1]);
         let mut spot = loaded(pressed)?;
         for _ in 0..80 {
             let middle = 0.5 * (clear + pressed);
@@ -134,7 +134,7 @@ fn for_each_flank(spec: &GearSpec, spins: usize, random: &mut Lcg, check: &mut i
             for _ in 0..spins {
                 let psi = random.between(0.0, TAU / z_p);
                 let free = sigma * psi * z_p / z_s;
-                let travel = sigma * pair.lever()[0] * psi;
+                let travel = sigma * pair.sin_base()[0] * psi;
                 let phase = if explicit.shows_tooth(i, sigma) { 0.0 } else { pair.base_pitch / 2.0 };
                 let seen = Seen { mesh: mesh.clone(), pair, push, free, travel, x: travel + phase };
                 let touches = explicit.touches(i, sigma, psi, push, free, 1.5);
@@ -247,7 +247,7 @@ fn first_touch_of_all_teeth_is_where_the_largest_depth_crosses_zero() {
 #[test]
 fn the_program_sees_no_pair_that_the_teeth_do_not_have() {
     for_each_mesh(1e-4, 2, |seen, touches, name| {
-        let alpha = seen.free - seen.push * (REACH + seen.pair.normal_backlash / 2.0) / seen.pair.lever()[1];
+        let alpha = seen.free - seen.push * (REACH + seen.pair.normal_backlash / 2.0) / seen.pair.sin_base()[1];
         let mut visited = Vec::new();
         seen.mesh.engagement.pairs(seen.position(alpha), |p| {
             if p.depth > 0.0 {

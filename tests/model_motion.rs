@@ -45,7 +45,7 @@ fn no_tooth_slips_in_the_turn() {
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     let r = 10.0 / 16.0;
     // elastic deflection under (835 N·m) is below 0.1 mm, and half the lash 0.036 mm, along the line of action
-    let bound = 0.15e-3 / (s.pair().mean_cone * s.pair().lever()[1]);
+    let bound = 0.15e-3 / (s.pair().mean_cone * s.pair().sin_base()[1]);
     for k in 1..=2000 {
         s.advance(f64::from(k) * 1e-3).unwrap();
         let m = s.motion();

@@ -21,7 +21,7 @@ fn teeth(planet: i32, side: i32, count: i32) -> Parameters {
 
 /// Normal force per mesh of rigid gears [N]: T / (N R_m sinδ_bs).
 fn rigid_force(pair: &Pair, count: f64) -> f64 {
-    LOAD / (count * pair.mean_cone * pair.lever()[1])
+    LOAD / (count * pair.mean_cone * pair.sin_base()[1])
 }
 
 #[test]
@@ -76,31 +76,31 @@ fn thrusts_follow_the_turning_normal() {
 /// The default differential's mesh under the study's law, for statics by hand.
 struct Statics {
     mesh: Mesh,
-    lever: [f64; 2],
+    sin_base: [f64; 2],
 }
 
 impl Statics {
     fn new() -> Self {
         let pair = Pair::new(&GearSpec::default());
         let law = Impact { stiffness: 5.77e5 * 1e3f64.powf(1.5), exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
-        Self { mesh: Mesh::new(&pair, Law::Impact(law), pair.mean_cone, true, 0.1), lever: pair.lever() }
+        Self { mesh: Mesh::new(&pair, Law::Impact(law), pair.mean_cone, true, 0.1), sin_base: pair.sin_base() }
     }
 
     /// Both planets alike: energy of the loaded mesh and torque on one planet, for side σ, spin ψ and load `torque`,
     /// with the side gear where it carries the load.
     fn side(&self, sigma: f64, psi: f64, torque: f64) -> (f64, f64) {
-        let x = sigma * self.lever[0] * psi;
+        let x = sigma * self.sin_base[0] * psi;
         let load = |q: f64| self.mesh.force(&MeshState { position: [q, x], rate: [0.0; 2], ..MeshState::default() });
         let (mut lo, mut hi) = (-0.1, 0.0);
         for _ in 0..100 {
             let q = 0.5 * (lo + hi);
-            if 2.0 * self.lever[1] * load(q).force[0] > torque { lo = q } else { hi = q }
+            if 2.0 * self.sin_base[1] * load(q).force[0] > torque { lo = q } else { hi = q }
         }
-        let alpha = (lo + x) / self.lever[1];
+        let alpha = (lo + x) / self.sin_base[1];
         let [f_q, f_x] = load(lo).force;
         (
             2.0 * self.mesh.energy(&MeshState { position: [lo, x], ..MeshState::default() }) + torque * alpha,
-            sigma * self.lever[0] * (f_x - f_q),
+            sigma * self.sin_base[0] * (f_x - f_q),
         )
     }
 
@@ -119,7 +119,7 @@ impl Statics {
 
     /// Steepest slope of the balanced well against the side gears' angle, max |dΠ/dα| with α = ψ z_p/z_s [N·m].
     fn steepest(&self) -> f64 {
-        let ratio = self.lever[0] / self.lever[1];
+        let ratio = self.sin_base[0] / self.sin_base[1];
         (0..=400)
             .map(|k| (self.spin_torque(f64::from(k - 200) * std::f64::consts::PI / 2000.0, 0.0) / ratio).abs())
             .fold(0.0, f64::max)

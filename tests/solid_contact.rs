@@ -5,7 +5,7 @@ use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothE
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::MeshState;
 use bevel_differential::contact::pairs::{Engagement, Flank, Spot};
-use bevel_differential::contact::solid::mesh::{Slice, SolidLoad, SolidMesh, SolidSpec};
+use bevel_differential::contact::solid::mesh::{SolidLoad, SolidMesh, SolidSlice, SolidSpec};
 use bevel_differential::contact::solid::pose::Displacement;
 use bevel_differential::geometry::{GearSpec, Pair};
 
@@ -14,11 +14,11 @@ const DAMPING: Damping = Damping::Step { coefficient: 5e4, per_full_depth: 1e4 }
 /// Approach of the study's load, one pair carrying [m].
 const DEPTH: f64 = 0.1e-3;
 
-fn slice(pair: &Pair, cone: f64) -> Slice {
-    Slice { cone, share: 1.0, width: pair.outer_cone - pair.inner_cone, relief: 0.0 }
+fn slice(pair: &Pair, cone: f64) -> SolidSlice {
+    SolidSlice { cone, share: 1.0, width: pair.outer_cone - pair.inner_cone, relief: 0.0 }
 }
 
-fn displaced(pair: &Pair, facets: usize, smoothing: f64, slices: Vec<Slice>, d: Displacement) -> SolidMesh {
+fn displaced(pair: &Pair, facets: usize, smoothing: f64, slices: Vec<SolidSlice>, d: Displacement) -> SolidMesh {
     let fillet = 0.4 * pair.module / pair.outer_cone;
     let spec = SolidSpec { fillet, facets, smoothing, slices, displaced: vec![[d; 2]] };
     SolidMesh::new(pair, &spec, IMPACT, DAMPING, 1e-3)
@@ -120,8 +120,8 @@ fn both_tip_corners_penetrate_as_deep_as_by_spherical_trigonometry() {
 fn forces_are_the_gradient_of_the_energy_and_jacobians_those_of_the_forces() {
     let pair = Pair::new(&GearSpec::default());
     let d = Displacement { along: [40e-6, -20e-6], across: 30e-6, lean: 0.6e-3 };
-    let faces: Vec<Slice> = [0.1, 0.5, 0.9]
-        .map(|t| Slice {
+    let faces: Vec<SolidSlice> = [0.1, 0.5, 0.9]
+        .map(|t| SolidSlice {
             share: 1.0 / 3.0,
             relief: 10e-6 * (2.0 * t - 1.0) * (2.0 * t - 1.0),
             ..slice(&pair, pair.inner_cone + t * (pair.outer_cone - pair.inner_cone))
@@ -217,7 +217,7 @@ fn resultants_lie_on_the_line_of_action_with_the_moment_arms_of_virtual_work() {
                 let [p, s, t] = load.point;
                 // (axis × point)·normal about both axes, which are perpendicular: sinδ_b
                 for (i, lever) in [(0, s * nt - t * ns), (1, p * nt - t * np)] {
-                    let wanted = sign * pair.lever()[i];
+                    let wanted = sign * pair.sin_base()[i];
                     assert!((lever - wanted).abs() < 2e-3, "{flank:?} gear {i}: {lever} {wanted}");
                 }
                 assert!((np * np + ns * ns + nt * nt - 1.0).abs() < 1e-12);
@@ -252,7 +252,7 @@ fn misaligned_gaps_agree_with_the_first_order_formulas_on_both_flanks_and_sides(
             for t in [0.0, 0.3, 1.0] {
                 let cone = pair.inner_cone + t * width;
                 let relief = spec.crowning * (2.0 * t - 1.0) * (2.0 * t - 1.0);
-                let one = Slice { relief, ..slice(&pair, cone) };
+                let one = SolidSlice { relief, ..slice(&pair, cone) };
                 let mesh = displaced(&pair, 256, 0.2, vec![one], d);
                 let plain = displaced(&pair, 256, 0.2, vec![slice(&pair, cone)], Displacement::default());
                 for flank in [Flank::Drive, Flank::Coast] {

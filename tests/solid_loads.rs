@@ -6,7 +6,7 @@ use bevel_differential::contact::errors::ToothErrorSpec;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::MeshState;
 use bevel_differential::contact::pairs::Flank;
-use bevel_differential::contact::solid::mesh::{Slice, SolidLoad, SolidMesh, SolidSpec};
+use bevel_differential::contact::solid::mesh::{SolidLoad, SolidMesh, SolidSlice, SolidSpec};
 use bevel_differential::contact::solid::pose::Displacement;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start, ToothLoad};
@@ -28,7 +28,7 @@ fn mesh(pair: &Pair, crowning: f64, displaced: Displacement) -> SolidMesh {
         let cone = pair.inner_cone + width * (i as f64 + 0.5);
         let x = (cone - pair.mean_cone) / (0.5 * (pair.outer_cone - pair.inner_cone));
         let share = cone / (SECTIONS as f64 * pair.mean_cone);
-        Slice { cone, share, width, relief: crowning * x * x }
+        SolidSlice { cone, share, width, relief: crowning * x * x }
     };
     let spec = SolidSpec {
         fillet: 0.4 * pair.module / pair.outer_cone,
@@ -99,7 +99,7 @@ fn forces_of_the_sections_are_the_gradient_of_the_energy() {
 #[test]
 fn torques_of_the_sections_about_both_axes_are_those_of_the_mesh() {
     let pair = pair();
-    let [planet_lever, side_lever] = pair.lever();
+    let [planet_lever, side_lever] = pair.sin_base();
     for displaced in displacements().into_iter().filter(|d| d.lean == 0.0) {
         for s in [-0.15, -0.05, 0.0, 0.08] {
             let at = position(&pair, Flank::Drive, s, 9e-5);

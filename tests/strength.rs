@@ -24,7 +24,7 @@ fn default_pair() -> Pair {
 
 /// Normal force [N] of one mesh at the mean cone distance under `torque` on a side gear with `planets` planets.
 fn normal_force(pair: &Pair, torque: f64, planets: f64) -> f64 {
-    torque / (planets * pair.mean_cone * pair.lever()[1])
+    torque / (planets * pair.mean_cone * pair.sin_base()[1])
 }
 
 fn rating(tool_radius: f64) -> Rating {

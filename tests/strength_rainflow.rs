@@ -1,6 +1,6 @@
 //! Rainflow counting against ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole sequence.
 
-use bevel_differential::strength::{Cycle, Damage, Material, Rainflow, SnCurve, pulsating_range};
+use bevel_differential::strength::{Damage, LoadCycle, Material, Rainflow, SnCurve, pulsating_range};
 use serde_json::Value;
 
 fn golden() -> Value {
@@ -46,7 +46,7 @@ fn textbook(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
 fn streamed(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
     let (mut history, mut counted) = (Rainflow::new(0.0), Vec::new());
     for &x in sequence {
-        history.push(x, |c: Cycle| counted.push((c.range, c.mean, c.count)));
+        history.push(x, |c: LoadCycle| counted.push((c.range, c.mean, c.count)));
     }
     history.rest(|c| counted.push((c.range, c.mean, c.count)));
     counted.sort_by(|a, b| a.partial_cmp(b).unwrap());

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bevel_differential::contact::pairs::Spot;
-use bevel_differential::geometry::action::Action;
+use bevel_differential::geometry::action::LineOfAction;
 use bevel_differential::geometry::assembly;
 use bevel_differential::model::{Inputs, Parameters, PlanetSpin, Simulation, Start, ToothLoad};
 
@@ -47,7 +47,7 @@ fn moments_of_the_forces_at_their_points_are_the_tooth_torques() {
         let (mut worst_side, mut worst_planet) = (0.0f64, 0.0f64);
         instants(&p, &inputs, |simulation| {
             let pair = *simulation.pair();
-            let action = Action::new(&pair);
+            let action = LineOfAction::new(&pair);
             let (mut side, mut planet) = ([0.0; 2], 0.0);
             let mut beyond = false;
             for load in loads(simulation) {
@@ -93,7 +93,7 @@ fn axial_parts_of_the_normals_are_those_of_the_loads() {
     for load in [835.0, -835.0] {
         let (p, inputs) = turning(10, 16, 2, load);
         instants(&p, &inputs, |simulation| {
-            let action = Action::new(simulation.pair());
+            let action = LineOfAction::new(simulation.pair());
             for load in loads(simulation) {
                 let n = load.contact(&action).normal;
                 // frame of the mesh: z planet, x side gear; y against the rotation at the left, with it at the right
@@ -116,7 +116,7 @@ fn contacts_turn_with_the_gears_and_stay_on_their_teeth() {
             let phases = assembly::phases(&p.geometry).expect("planets that fit");
             instants(&p, &inputs, |simulation| {
                 let pair = *simulation.pair();
-                let action = Action::new(&pair);
+                let action = LineOfAction::new(&pair);
                 let motion = simulation.motion();
                 for load in loads(simulation) {
                     let contact = load.contact(&action);
@@ -127,7 +127,7 @@ fn contacts_turn_with_the_gears_and_stay_on_their_teeth() {
                     let spin = -(motion.spin_angle[i] + phases[i][0] * pitch_p);
                     let spin = if load.side == 0 { spin } else { spin + PI };
                     let turned = action.rotation(&contact, 0, load.tooth_azimuth(&pair, 0), turn);
-                    let off = wrap(turned - spin) * pair.lever()[0] * load.cone;
+                    let off = wrap(turned - spin) * pair.sin_base()[0] * load.cone;
                     // where the side gear's corner leads, the planet's flank is behind it by the deflection
                     let slack = if load.spot == Spot::SideTip { 1.001 * load.depth } else { 1e-9 };
                     assert!(off.abs() < slack, "planet: {} pitches; {}", wrap(turned - spin) / pitch_p, what());
@@ -138,7 +138,7 @@ fn contacts_turn_with_the_gears_and_stay_on_their_teeth() {
                     let wanted = if side == 0 { forward } else { -forward };
                     let turned = action.rotation(&contact, 1, load.tooth_azimuth(&pair, 1), turn);
                     // the side gear's flank is where the planet's is, less the deflection
-                    let off = wrap(turned - wanted) * pair.lever()[1] * load.cone;
+                    let off = wrap(turned - wanted) * pair.sin_base()[1] * load.cone;
                     let slack = if load.spot == Spot::SideTip { 1e-9 } else { 1.001 * load.depth + 1e-9 };
                     assert!(off.abs() < slack, "side: {} pitches; {}", wrap(turned - wanted) / pitch_s, what());
                 }

@@ -28,7 +28,7 @@ fn an_engagement_goes_from_foot_to_tip_and_aligned_teeth_bear_evenly() {
     let pitch = record.at_pitch_point();
     let force = |line: &[LoadedSection]| line.iter().map(LoadedSection::force).sum::<f64>();
     assert!(first.line_load < 0.1 * pitch[0].line_load && last.line_load < 0.1 * pitch[0].line_load);
-    let torque = force(&pitch) * record.pair.mean_cone * record.pair.lever()[1];
+    let torque = force(&pitch) * record.pair.mean_cone * record.pair.sin_base()[1];
     assert!((torque / (835.0 / 2.0) - 1.0).abs() < 0.01, "{torque}");
     assert!((centroid(&pitch) - record.pair.mean_cone).abs() < 1e-9);
     // p² ρ is the same over the face, and the strip's load that of Hertz's half-ellipse

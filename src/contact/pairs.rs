@@ -7,6 +7,8 @@
 //! beyond the planet's tip, at Δ = s − s_hi, or beyond the side gear's tip, at Δ = s_lo − s + a: that corner rides on
 //! the side gear, whose own position is s − a.
 
+pub use crate::geometry::action::Spot;
+
 use crate::geometry::Pair;
 use crate::geometry::corner::CornerGap;
 
@@ -17,17 +19,6 @@ pub enum Flank {
     Drive,
     /// Side gear drives the carrier forward.
     Coast,
-}
-
-/// Where a loaded pair touches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Spot {
-    /// On the path of contact.
-    Path,
-    /// The planet's tip corner on the side gear's flank.
-    PlanetTip,
-    /// The side gear's tip corner on the planet's flank.
-    SideTip,
 }
 
 /// One loaded tooth pair, with the derivatives of its penetration arc p = d/R by q and x.

@@ -2,7 +2,7 @@
 
 use super::pairs::{Flank, Spot};
 use crate::geometry::Pair;
-use crate::geometry::action::{Action, Contact, Where};
+use crate::geometry::action::{Contact, LineOfAction};
 
 /// Load of one tooth pair, or of one slice of it where loads differ over the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,13 +57,8 @@ impl ToothLoad {
     }
 
     /// Where it acts, in the frame of the mesh.
-    pub fn contact(&self, action: &Action) -> Contact {
-        let place = match self.spot {
-            Spot::Path => Where::Path(self.place),
-            Spot::PlanetTip => Where::PlanetTip(self.place),
-            Spot::SideTip => Where::SideTip(self.place),
-        };
-        action.contact(place, self.turn())
+    pub fn contact(&self, action: &LineOfAction) -> Contact {
+        action.contact(self.spot, self.place, self.turn())
     }
 
     /// Azimuth of the middle of its tooth of gear `i` (0 planet, 1 side gear) from that of tooth 0, about the gear's axis

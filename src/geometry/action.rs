@@ -30,25 +30,25 @@ pub struct Contact {
     pub along: Vector3<f64>,
 }
 
-/// Place of a contact: at `s` on the path, or a corner's arc past the path's end [rad].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Where {
-    /// On the path.
-    Path(f64),
+/// Kind of a contact.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Spot {
+    /// On the path of contact.
+    Path,
     /// The planet's tip corner on the side gear's flank.
-    PlanetTip(f64),
+    PlanetTip,
     /// The side gear's tip corner on the planet's flank.
-    SideTip(f64),
+    SideTip,
 }
 
 /// Contacts of a pair.
 #[derive(Clone, Debug)]
-pub struct Action {
+pub struct LineOfAction {
     pair: Pair,
     corner: [CornerGap; 2],
 }
 
-impl Action {
+impl LineOfAction {
     /// Line of action and corners of `pair`.
     pub fn new(pair: &Pair) -> Self {
         Self { pair: *pair, corner: [0, 1].map(|i| CornerGap::new(pair, i, REACH)) }
@@ -60,12 +60,13 @@ impl Action {
         if i == 0 { [Vector3::z(), Vector3::x()] } else { [Vector3::new(ss, 0.0, cs), Vector3::new(-cs, 0.0, ss)] }
     }
 
-    /// Contact at `place` in the frame of the mesh; `turn` = ±1 selects the mirror image.
-    pub fn contact(&self, place: Where, turn: f64) -> Contact {
-        let (point, normal) = match place {
-            Where::Path(s) => self.on_path(s, turn),
-            Where::PlanetTip(delta) => self.at_corner(0, delta, turn),
-            Where::SideTip(delta) => self.at_corner(1, delta, turn),
+    /// Contact in the frame of the mesh, at the arc `place` [rad]: s on the path, or Δ of a corner past the path's end;
+    /// `turn` = ±1 selects the mirror image.
+    pub fn contact(&self, spot: Spot, place: f64, turn: f64) -> Contact {
+        let (point, normal) = match spot {
+            Spot::Path => self.on_path(place, turn),
+            Spot::PlanetTip => self.at_corner(0, place, turn),
+            Spot::SideTip => self.at_corner(1, place, turn),
         };
         Contact { point, normal, along: point.cross(&normal) * turn }
     }
@@ -145,12 +146,12 @@ mod tests {
     #[test]
     fn points_and_normals_are_the_golden_ones_and_the_mirrored_ones() {
         let pair = default_pair();
-        let action = Action::new(&pair);
+        let action = LineOfAction::new(&pair);
         let rows = golden();
         assert!(rows.len() > 10);
         for [s, phi1, phi2, cx, cy, cz, tx, ty, tz, theta1, theta2] in rows {
             for turn in [1.0, -1.0] {
-                let contact = action.contact(Where::Path(s.to_radians()), turn);
+                let contact = action.contact(Spot::Path, s.to_radians(), turn);
                 let point = contact.point * pair.outer_cone * 1e3;
                 assert!((point - Vector3::new(cx, turn * cy, cz)).amax() < 1e-9, "{s}");
                 assert!((contact.normal - Vector3::new(tx, turn * ty, tz)).amax() < 1e-10, "{s}");
@@ -170,16 +171,17 @@ mod tests {
     fn corners_continue_the_path_and_their_normals_have_the_moment_arms_of_the_gap() {
         for (z_p, z_s) in [(10, 16), (9, 14), (14, 14)] {
             let pair = Pair::new(&GearSpec { planet_teeth: z_p, side_teeth: z_s, ..GearSpec::default() });
-            let action = Action::new(&pair);
+            let action = LineOfAction::new(&pair);
             for turn in [1.0, -1.0] {
-                let ends = [Where::Path(action.corner[0].end), Where::Path(-action.corner[1].end)];
-                let corners: [fn(f64) -> Where; 2] = [Where::PlanetTip, Where::SideTip];
+                let ends = [action.corner[0].end, -action.corner[1].end];
+                let corners = [Spot::PlanetTip, Spot::SideTip];
                 for i in 0..2 {
-                    let (end, start) = (action.contact(ends[i], turn), action.contact(corners[i](0.0), turn));
+                    let (end, start) =
+                        (action.contact(Spot::Path, ends[i], turn), action.contact(corners[i], 0.0, turn));
                     assert!((end.point - start.point).amax() < 1e-12);
                     assert!((end.normal - start.normal).amax() < 1e-9, "{end:?} {start:?}");
                     for delta in [0.005, 0.02, 0.04] {
-                        let contact = action.contact(corners[i](delta), turn);
+                        let contact = action.contact(corners[i], delta, turn);
                         assert!((contact.normal.norm() - 1.0).abs() < 1e-13);
                         assert!(contact.normal.dot(&contact.point).abs() < 1e-13);
                         // virtual work: about its own axis the corner has the lever sinδ_b (1 − g′), about its mate's sinδ_b
@@ -188,7 +190,7 @@ mod tests {
                             let [axis, _] = action.axes(k);
                             let sign = if k == 0 { turn } else { -turn };
                             let lever = contact.point.cross(&contact.normal).dot(&axis) * sign;
-                            let wanted = pair.lever()[k] * if k == i { 1.0 - slope } else { 1.0 };
+                            let wanted = pair.sin_base()[k] * if k == i { 1.0 - slope } else { 1.0 };
                             assert!(
                                 (lever - wanted).abs() < 1e-12,
                                 "{z_p}/{z_s} corner {i} gear {k}: {lever} {wanted}"
@@ -203,10 +205,10 @@ mod tests {
     #[test]
     fn contacts_lie_on_the_flanks_of_the_gears_own_frames() {
         let pair = default_pair();
-        let action = Action::new(&pair);
+        let action = LineOfAction::new(&pair);
         for turn in [1.0, -1.0] {
             for s in [-0.1, 0.0, 0.12] {
-                let contact = action.contact(Where::Path(s), turn);
+                let contact = action.contact(Spot::Path, s, turn);
                 for (i, outward) in [(0, 1.0), (1, -1.0)] {
                     let gear = &pair.gears[i];
                     let own = action.in_gear(&contact, i, 0.0, turn);

@@ -56,7 +56,7 @@ pub struct CornerContact {
 struct ClosedForm {
     end: f64,
     tip: f64,
-    lever: f64,
+    sin_base: f64,
     azimuth_at_end: f64,
     shaft_angle: f64,
     mate_base: f64,
@@ -66,7 +66,7 @@ struct ClosedForm {
 impl ClosedForm {
     fn at(&self, delta: f64) -> CornerContact {
         let delta = Jet::variable(delta);
-        let chi = delta * (1.0 / self.lever) + Jet::constant(self.azimuth_at_end);
+        let chi = delta * (1.0 / self.sin_base) + Jet::constant(self.azimuth_at_end);
         let (st, ct) = (sin(self.tip), cos(self.tip));
         let (ss, cs) = (sin(self.shaft_angle), cos(self.shaft_angle));
         let (sb, cb) = (sin(self.mate_base), cos(self.mate_base));
@@ -88,12 +88,12 @@ impl CornerGap {
         let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
         let natural = pair.tip_arc[i] - pair.pitch_arc[i];
         let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN * pair.base_pitch);
-        let lever = sin(own.base);
-        let azimuth = |psi: f64| atan2(tan(psi), lever);
+        let sin_base = sin(own.base);
+        let azimuth = |psi: f64| atan2(tan(psi), sin_base);
         let exact = ClosedForm {
             end,
             tip: own.polar_at(pair.pitch_arc[i] + end),
-            lever,
+            sin_base,
             azimuth_at_end: azimuth(pair.pitch_arc[i] + end) - azimuth(pair.pitch_arc[i]),
             shaft_angle: pair.shaft_angle,
             mate_base: mate.base,
@@ -136,7 +136,7 @@ impl CornerGap {
     #[inline]
     pub fn sines_squared<T: Scalar>(&self, delta: T) -> [T; 2] {
         let e = &self.exact;
-        let chi = delta * (1.0 / e.lever) + e.azimuth_at_end;
+        let chi = delta * (1.0 / e.sin_base) + e.azimuth_at_end;
         let cos_mate = chi.cos() * (sin(e.shaft_angle) * sin(e.tip)) + cos(e.shaft_angle) * cos(e.tip);
         [T::constant(sin(e.tip) * sin(e.tip)), cos_mate * cos_mate * -1.0 + 1.0]
     }

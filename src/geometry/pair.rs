@@ -123,7 +123,7 @@ impl Pair {
     }
 
     /// sinδ_b of planet and side gear: moment arms of the normal force per unit of cone distance.
-    pub fn lever(&self) -> [f64; 2] {
+    pub fn sin_base(&self) -> [f64; 2] {
         self.gears.map(|g| sin(g.base))
     }
 

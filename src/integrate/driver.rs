@@ -47,7 +47,7 @@ pub struct Step<'a, const N: usize, P> {
 
 /// Decision of the observer after an accepted step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Flow {
+pub enum AfterStep {
     /// Continue to the end of the interval.
     Continue,
     /// Stop here: the equations change.
@@ -89,7 +89,7 @@ const UNBALANCED: u32 = 8;
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 
 /// Tolerance, step-size control, counters and work budget of an integration.
-pub struct Effort<'a> {
+pub struct SolverContext<'a> {
     /// Relative tolerance of the local error.
     pub tolerance: f64,
     /// Step-size control.
@@ -108,10 +108,10 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     point: &mut Point<N>,
     time: &mut f64,
     until: f64,
-    effort: Effort,
-    mut observe: impl FnMut(Step<N, S::Power>) -> Result<Flow, E>,
+    context: SolverContext,
+    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
-    let Effort { tolerance, control, statistics, budget } = effort;
+    let SolverContext { tolerance, control, statistics, budget } = context;
     // what a double can resolve of the time axis
     let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
     let mut just_rejected = false;
@@ -171,7 +171,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 let flow =
                     observe(Step { h, time: reached, start: &start, end: point, power }).map_err(Failure::Refused)?;
                 match next {
-                    Some(next) if flow == Flow::Continue => lin = next,
+                    Some(next) if flow == AfterStep::Continue => lin = next,
                     _ => return Ok(()),
                 }
             }

@@ -14,7 +14,7 @@
 //! linearised at its end. The system shortens an iteration (θ < 1) that would jump deep into a contact which the
 //! linearisation does not contain yet.
 
-use super::driver::{Failure, Flow, Step};
+use super::driver::{AfterStep, Failure, Step};
 use super::linear::Factors;
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -35,7 +35,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
     until: f64,
     step: f64,
     (statistics, budget): (&mut Statistics, &mut u64),
-    mut observe: impl FnMut(Step<N, S::Power>) -> Result<Flow, E>,
+    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let begin = *time;
     let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
@@ -61,7 +61,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
         *time = if done < steps { begin + done * h } else { until };
         let flow =
             observe(Step { h, time: *time, start: &start, end: point, power: powers }).map_err(Failure::Refused)?;
-        if flow == Flow::Stop {
+        if flow == AfterStep::Stop {
             break;
         }
     }

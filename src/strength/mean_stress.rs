@@ -11,12 +11,12 @@
 //!
 //! On r ≤ 1 it is the line of ISO 6336-3's idler factor: Y_M = 1/(1 − R(1 − M)/(1 + M)), (1 + M)/2 at R = −1.
 
-use super::rainflow::Cycle;
+use super::rainflow::LoadCycle;
 
 /// Range [unit of the cycle] of the pulsating cycle equal in damage to `cycle` at the sensitivity `m`, 0 ≤ m < 1.
 ///
 /// A positive mean is tension. For the root at the other flank pass the cycle with its mean negated.
-pub fn pulsating_range(cycle: &Cycle, m: f64) -> f64 {
+pub fn pulsating_range(cycle: &LoadCycle, m: f64) -> f64 {
     let m = m.clamp(0.0, 0.99);
     let amplitude = cycle.range / 2.0;
     if amplitude.is_nan() || amplitude <= 0.0 {
@@ -38,8 +38,8 @@ pub fn pulsating_range(cycle: &Cycle, m: f64) -> f64 {
 mod tests {
     use super::*;
 
-    fn cycle(low: f64, high: f64) -> Cycle {
-        Cycle { range: high - low, mean: (high + low) / 2.0, count: 1.0 }
+    fn cycle(low: f64, high: f64) -> LoadCycle {
+        LoadCycle { range: high - low, mean: (high + low) / 2.0, count: 1.0 }
     }
 
     #[test]
@@ -52,7 +52,7 @@ mod tests {
     #[test]
     fn the_line_is_continuous_and_a_ripple_about_a_high_mean_does_little() {
         for r in [-1.0, 1.0, 3.0] {
-            let at = |r: f64| pulsating_range(&Cycle { range: 2.0, mean: r, count: 1.0 }, 0.4);
+            let at = |r: f64| pulsating_range(&LoadCycle { range: 2.0, mean: r, count: 1.0 }, 0.4);
             assert!((at(r + 1e-9) - at(r - 1e-9)).abs() < 1e-8);
         }
         assert!(pulsating_range(&cycle(834.0, 836.0), 0.4) < 3.0);

@@ -21,7 +21,7 @@ pub use hertz::LineContact;
 pub use material::{Material, SnCurve};
 pub use mean_stress::pulsating_range;
 pub use miner::Damage;
-pub use rainflow::{Cycle, Rainflow};
+pub use rainflow::{LoadCycle, Rainflow};
 pub use rating::Rating;
 pub use root_stress::{LoadFactors, RootStress};
 pub use tooth_form::{Profile, ToothForm};

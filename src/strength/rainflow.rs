@@ -12,7 +12,7 @@ pub const CAPACITY: usize = 32;
 
 /// A counted cycle, in the unit of the history.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle {
+pub struct LoadCycle {
     /// Peak minus valley.
     pub range: f64,
     /// Middle between both.
@@ -21,7 +21,7 @@ pub struct Cycle {
     pub count: f64,
 }
 
-impl Cycle {
+impl LoadCycle {
     fn between(a: f64, b: f64, count: f64) -> Self {
         Self { range: (a - b).abs(), mean: a / 2.0 + b / 2.0, count }
     }
@@ -49,7 +49,7 @@ impl Rainflow {
     }
 
     /// Adds a value and calls `visit` with each cycle that it closes. Values that are no numbers are ignored.
-    pub fn push(&mut self, value: f64, mut visit: impl FnMut(Cycle)) {
+    pub fn push(&mut self, value: f64, mut visit: impl FnMut(LoadCycle)) {
         if !value.is_finite() {
             return;
         }
@@ -78,14 +78,14 @@ impl Rainflow {
 
     /// Calls `visit` with the remaining half cycles, the present value taken as the last turning point; the history itself is
     /// unchanged and may continue.
-    pub fn rest(&self, mut visit: impl FnMut(Cycle)) {
+    pub fn rest(&self, mut visit: impl FnMut(LoadCycle)) {
         let mut last = *self;
         last.limit_fields();
         if last.direction != 0 {
             last.turn(&mut visit);
         }
         for pair in last.points[..last.length].windows(2) {
-            visit(Cycle::between(pair[0], pair[1], 0.5));
+            visit(LoadCycle::between(pair[0], pair[1], 0.5));
         }
     }
 
@@ -96,7 +96,7 @@ impl Rainflow {
     }
 
     /// Makes the candidate a turning point and counts the ranges that it closes.
-    fn turn(&mut self, visit: &mut impl FnMut(Cycle)) {
+    fn turn(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         let value = self.candidate;
         let top = self.length.saturating_sub(1);
         let like_top = top > 0 && (self.points[top] > self.points[top - 1]) == (self.direction > 0);
@@ -112,13 +112,13 @@ impl Rainflow {
         self.close(visit);
         if self.length == CAPACITY {
             // ranges decrease toward the top: the last one is the smallest
-            visit(Cycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
+            visit(LoadCycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
             self.length -= 1;
         }
     }
 
     /// Steps 2 to 5 of the standard: X is the last range, Y the one before.
-    fn close(&mut self, visit: &mut impl FnMut(Cycle)) {
+    fn close(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         while self.length >= 3 {
             let [a, b, c] = [self.points[self.length - 3], self.points[self.length - 2], self.points[self.length - 1]];
             if (c - b).abs() < (b - a).abs() {
@@ -126,12 +126,12 @@ impl Rainflow {
             }
             if self.length == 3 {
                 // Y holds the starting point: half a cycle, the start moves on
-                visit(Cycle::between(a, b, 0.5));
+                visit(LoadCycle::between(a, b, 0.5));
                 self.points[0] = b;
                 self.points[1] = c;
                 self.length = 2;
             } else {
-                visit(Cycle::between(a, b, 1.0));
+                visit(LoadCycle::between(a, b, 1.0));
                 self.points[self.length - 3] = c;
                 self.length -= 2;
             }

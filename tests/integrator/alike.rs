@@ -1,7 +1,7 @@
 //! Bodies that are alike may be simulated once and counted: the default method gives the same bits.
 
 use bevel_differential::integrate::{
-    Control, Effort, Flow, Linearisation, Point, Rodas5P, SecondOrder, Statistics, advance, in_pairs,
+    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance, in_pairs,
 };
 
 /// One body with four alike ones around it, `N` − 1 of them simulated, each counted as often as makes four.
@@ -58,13 +58,14 @@ fn alike<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
     let mut point = Point { q: [0.2; N], v: [-1.3; N] };
     (point.q[0], point.v[0]) = (0.5, 3.0);
     let (mut time, mut control, mut statistics, mut budget) = (0.0, Control::new(1e-4), Statistics::default(), 100_000);
-    let effort = Effort { tolerance: 1e-7, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    let context =
+        SolverContext { tolerance: 1e-7, control: &mut control, statistics: &mut statistics, budget: &mut budget };
     let mut bits = Vec::new();
-    advance(&Rodas5P, &s, &mut point, &mut time, 4.0, effort, |step| {
+    advance(&Rodas5P, &s, &mut point, &mut time, 4.0, context, |step| {
         let Point { q, v } = step.end;
         assert!((1..N).all(|j| (q[j], v[j]) == (q[1], v[1])), "twins stay twins");
         bits.push([q[0], q[1], v[0], v[1], step.power[0], step.power[1], step.power[2]].map(f64::to_bits));
-        Ok::<_, ()>(Flow::Continue)
+        Ok::<_, ()>(AfterStep::Continue)
     })
     .unwrap();
     (bits, statistics)

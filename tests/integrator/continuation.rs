@@ -1,6 +1,8 @@
 //! Runs are repeatable, continue after a stop, and return to a snapshot bit for bit; impossible ones fail cleanly.
 
-use bevel_differential::integrate::{Control, Effort, Failure, Flow, Point, SecondOrder, Statistics, advance};
+use bevel_differential::integrate::{
+    AfterStep, Control, Failure, Point, SecondOrder, SolverContext, Statistics, advance,
+};
 
 use super::methods::{Known, run, with_every_method};
 use super::problems::{Logarithmic, system};
@@ -27,11 +29,11 @@ impl<const N: usize> State<N> {
         s: &S,
         until: f64,
         statistics: &mut Statistics,
-        mut observe: impl FnMut(&Point<N>, f64) -> Flow,
+        mut observe: impl FnMut(&Point<N>, f64) -> AfterStep,
     ) {
         let (Self { point, time, control }, mut budget) = (self, 100_000);
-        let effort = Effort { tolerance: 1e-10, control, statistics, budget: &mut budget };
-        advance(&M::METHOD, s, point, time, until, effort, |step| Ok::<_, ()>(observe(step.end, step.time))).unwrap();
+        let context = SolverContext { tolerance: 1e-10, control, statistics, budget: &mut budget };
+        advance(&M::METHOD, s, point, time, until, context, |step| Ok::<_, ()>(observe(step.end, step.time))).unwrap();
     }
 }
 
@@ -52,7 +54,7 @@ fn a_stopped_run_continues_to_the_same_bits<M: Known>() {
     let (mut whole, mut statistics, mut seen) = (start(), Statistics::default(), Vec::new());
     whole.stretch::<M, _>(&Logarithmic, 3.0, &mut statistics, |end, time| {
         seen.push((*end, time));
-        Flow::Continue
+        AfterStep::Continue
     });
     let (mut state, mut counted, mut stops) = (start(), Statistics::default(), 0);
     while state.time < 3.0 {
@@ -60,7 +62,7 @@ fn a_stopped_run_continues_to_the_same_bits<M: Known>() {
         state.stretch::<M, _>(&Logarithmic, 3.0, &mut counted, |end, at| {
             assert_eq!((*end, at), seen[3 * stops + steps]);
             steps += 1;
-            if steps == 3 { Flow::Stop } else { Flow::Continue }
+            if steps == 3 { AfterStep::Stop } else { AfterStep::Continue }
         });
         assert_eq!((state.point, state.time), seen[3 * stops + steps - 1], "stopped at the step that was observed");
         stops += 1;
@@ -75,7 +77,7 @@ fn a_snapshot_is_restored_to_the_same_bits<M: Known>() {
         let mut seen = Vec::new();
         state.stretch::<M, _>(&Logarithmic, until, &mut Statistics::default(), |end, time| {
             seen.push((*end, time));
-            Flow::Continue
+            AfterStep::Continue
         });
         seen
     };

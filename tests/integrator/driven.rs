@@ -1,7 +1,7 @@
 //! Systems whose accelerations depend on the time: as accurate as those with the time as a degree of freedom.
 
 use bevel_differential::integrate::{
-    Control, Effort, Flow, Linearisation, Point, SecondOrder, Statistics, Step, advance, advance_fixed,
+    AfterStep, Control, Linearisation, Point, SecondOrder, SolverContext, Statistics, Step, advance, advance_fixed,
 };
 
 use super::methods::{Known, step_from, with_every_method};
@@ -71,10 +71,10 @@ fn the_driver_passes_the_time_to_the_system<M: Known>() {
     let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
     let (mut control, mut statistics, mut budget) = (Control::new(1e-3), Statistics::default(), 1_000_000);
     for until in [0.3, 0.31, 1.0] {
-        let effort =
-            Effort { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-        let go_on = |_: Step<1, ()>| Ok::<_, ()>(Flow::Continue);
-        advance(&M::METHOD, &Driven(50.0), &mut point, &mut time, until, effort, go_on).unwrap();
+        let context =
+            SolverContext { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+        let go_on = |_: Step<1, ()>| Ok::<_, ()>(AfterStep::Continue);
+        advance(&M::METHOD, &Driven(50.0), &mut point, &mut time, until, context, go_on).unwrap();
     }
     assert!((point.v[0] - 1f64.cos()).abs() < 1e-7, "{:e}", point.v[0] - 1f64.cos());
 }
@@ -85,7 +85,8 @@ fn steps_of_fixed_size_keep_their_order_when_driven() {
         let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
         let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
         let counts = (&mut statistics, &mut budget);
-        advance_fixed(&Driven(5.0), &mut point, &mut time, 1.0, step, counts, |_| Ok::<_, ()>(Flow::Continue)).unwrap();
+        advance_fixed(&Driven(5.0), &mut point, &mut time, 1.0, step, counts, |_| Ok::<_, ()>(AfterStep::Continue))
+            .unwrap();
         (point.v[0] - 1f64.cos()).abs()
     };
     let order = (error(0.01) / error(0.005)).log2();

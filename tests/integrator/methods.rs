@@ -1,8 +1,8 @@
 //! Every method with its theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
-    Control, DormandPrince, Effort, ErrorNorm, Failure, Flow, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
-    SecondOrder, Statistics, Trial, advance,
+    AfterStep, Control, DormandPrince, ErrorNorm, Failure, Linearisation, Method, Point, Radau, Rodas4, Rodas5P,
+    SecondOrder, SolverContext, Statistics, Trial, advance,
 };
 
 /// Theoretical properties of a method.
@@ -120,7 +120,7 @@ pub fn run<M: Known, const N: usize, S: SecondOrder<N>>(
 ) -> Result<Statistics, Failure<()>> {
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
     let mut budget = 1_000_000;
-    let effort = Effort { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-    advance(&M::METHOD, s, point, &mut time, until, effort, |_| Ok(Flow::Continue))?;
+    let context = SolverContext { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
+    advance(&M::METHOD, s, point, &mut time, until, context, |_| Ok(AfterStep::Continue))?;
     Ok(statistics)
 }

@@ -1,6 +1,6 @@
 //! Steps end where the equations switch.
 
-use bevel_differential::integrate::{Control, Flow, Linearisation, Point, SecondOrder, Statistics};
+use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, SecondOrder, Statistics};
 
 use super::continuation::State;
 use super::methods::{Known, with_every_method};
@@ -46,7 +46,7 @@ fn steps_land_on_switches_in_a_few_attempts<M: Known>() {
         state.stretch::<M, _>(&s, 10.0 * period, &mut statistics, |end, _| {
             assert!(end.q[0] * side >= -LANDING, "no step goes on beyond the switch: {}", end.q[0]);
             landed = end.q[0] * side < 0.0;
-            if landed { Flow::Stop } else { Flow::Continue }
+            if landed { AfterStep::Stop } else { AfterStep::Continue }
         });
         if landed {
             switches.push(state.time);

@@ -10,7 +10,7 @@ use crate::setup::{Both, NAMES, STATES, coulomb, random_state};
 
 /// Angular velocities [rad/s] of planet and side gear relative to the carrier that make the rates of q and x.
 fn turning(pair: &Pair, state: &DetailedState<f64>) -> [f64; 2] {
-    let [planet, side] = pair.lever();
+    let [planet, side] = pair.sin_base();
     [state.rate[1] / planet, (state.rate[0] + state.rate[1]) / side]
 }
 
@@ -115,7 +115,7 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
                 "{state:?}: {force} {sliding}"
             );
             // torques about the axes by the levers and by the vectors
-            let [p, q] = pair.lever();
+            let [p, q] = pair.sin_base();
             let found = [p * (added[1] - added[0]), q * added[0]];
             let psi = [pair.pitch_arc[0] + s, pair.pitch_arc[1] - s];
             for i in 0..2 {

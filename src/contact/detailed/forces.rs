@@ -21,7 +21,7 @@ pub struct Directions {
 impl Directions {
     /// Constants of `pair`.
     pub fn new(pair: &Pair) -> Self {
-        Self { base: pair.gears.map(|g| g.base), pitch_arc: pair.pitch_arc, sin_base: pair.lever() }
+        Self { base: pair.gears.map(|g| g.base), pitch_arc: pair.pitch_arc, sin_base: pair.sin_base() }
     }
 
     /// Parts of a unit normal force along both axes, away from the apex, and along the rotation.

@@ -87,7 +87,7 @@ mod tests {
                     assert!((length - 1.0).abs() < 1e-14);
                     // (C × T)·a of each gear: the lever arm sinδ_b of physics and theory
                     let lever = c.radial[i] * n.across - c.across * n.radial[i];
-                    assert!((lever - push(flank) * pair.lever()[i]).abs() < 1e-14, "{i} {lever}");
+                    assert!((lever - push(flank) * pair.sin_base()[i]).abs() < 1e-14, "{i} {lever}");
                 }
             }
         }

@@ -116,7 +116,7 @@ impl PitchDeviations {
                 let i = usize::from(number < 2);
                 let tolerances = Tolerances::of_gear(grade, pair, i);
                 // a rotation moves the tolerance circle by d_T/2, the line of action by R_m sinδ_b
-                let along_action = 2.0 * pair.mean_cone * pair.lever()[i] / tolerance_diameter(pair, i);
+                let along_action = 2.0 * pair.mean_cone * pair.sin_base()[i] / tolerance_diameter(pair, i);
                 [1, 2].map(|stream| {
                     let mut random = Random::new(seed, number, stream);
                     let mut flank = positions(pair.gears[i].teeth.unsigned_abs() as usize, &tolerances, &mut random);

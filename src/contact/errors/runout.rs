@@ -39,7 +39,7 @@ impl Runout {
                 direction: [(0..planets).map(|i| phase(2 + i)).collect(), [phase(0), phase(1)].into()],
                 pitch: pair.gears.map(|g| g.tooth_pitch()),
                 half_tooth: [-pair.gears[0].half_pitch, pair.gears[1].half_pitch],
-                per_lever: pair.lever().map(|l| 1.0 / l),
+                per_lever: pair.sin_base().map(|l| 1.0 / l),
             }
         })
     }

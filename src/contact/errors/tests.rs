@@ -97,7 +97,7 @@ fn pitch_deviations_are_per_tooth_and_grow_with_r() {
     // the largest step from tooth to tooth is f_ptT along the line of action
     let step = (0..10).map(|j| (tooth(j + 1, Flank::Coast) - tooth(j, Flank::Coast)).abs()).fold(0.0, f64::max);
     let pair = pair();
-    let along = 2.0 * pair.mean_cone * pair.lever()[0] / pitch::tolerance_diameter(&pair, 0);
+    let along = 2.0 * pair.mean_cone * pair.sin_base()[0] / pitch::tolerance_diameter(&pair, 0);
     assert!((step - Tolerances::of_gear(7, &pair, 0).single_pitch * along).abs() < 1e-18);
 }
 
@@ -152,7 +152,7 @@ fn runout_is_one_wave_per_revolution_with_the_eccentricity_as_amplitude() {
             // at the pitch point the normal leans by sinα sinδ out of the plane of rotation
             let amplitude = 20e-6 * (1.0 - (p.pressure_angle.sin() * pitch.sin()).powi(2)).sqrt();
             assert!(mean.abs() < 1e-19 && (square - amplitude * amplitude / 2.0).abs() < 1e-20);
-            assert!((base.sin() - p.lever()[gear]).abs() < 1e-15);
+            assert!((base.sin() - p.sin_base()[gear]).abs() < 1e-15);
         }
     }
 }

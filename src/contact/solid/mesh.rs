@@ -29,7 +29,7 @@ use crate::numeric::{Curved, Dual, Smooth, tan};
 
 /// A section across the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slice {
+pub struct SolidSlice {
     /// Cone distance R_j [m].
     pub cone: f64,
     /// ω_j.
@@ -50,7 +50,7 @@ pub struct SolidSpec {
     /// Multiple of the usual softness.
     pub smoothing: f64,
     /// Sections across the face; one at R_m where all are alike.
-    pub slices: Vec<Slice>,
+    pub slices: Vec<SolidSlice>,
     /// Displacement of each planet against the left and right side gear.
     pub displaced: Vec<[Displacement; 2]>,
 }
@@ -72,7 +72,7 @@ pub struct SolidLoad {
     /// Place by the planet's rotation [rad].
     pub s: f64,
     /// The section.
-    pub slice: Slice,
+    pub slice: SolidSlice,
     /// Its overlap as an arc [rad].
     pub depth: f64,
     /// Force.
@@ -105,7 +105,7 @@ pub struct SolidMesh {
     flanks: Flanks,
     candidates: Candidates,
     soft: Softness,
-    slices: Vec<Slice>,
+    slices: Vec<SolidSlice>,
     /// Drive and mirrored coast flank of each planet with each side.
     placements: Vec<[[Placement; 2]; 2]>,
     half_backlash: f64,
@@ -156,7 +156,7 @@ impl SolidMesh {
         which: [usize; 2],
         [q, x]: [f64; 2],
         variable: impl Fn(f64, usize, f64) -> T,
-        mut visit: impl FnMut(&FlankPair, &Slice, T),
+        mut visit: impl FnMut(&FlankPair, &SolidSlice, T),
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
@@ -190,7 +190,7 @@ impl SolidMesh {
         }
     }
 
-    fn section<'a>(&'a self, near: &FlankPair, slice: &Slice) -> FlankSection<'a> {
+    fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
         let [planet, side] = &self.flanks.rays;
         FlankSection {
             rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],

@@ -37,7 +37,7 @@ impl Displacement {
 /// Constants of the placement.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    lever: [f64; 2],
+    sin_base: [f64; 2],
     base_pitch: f64,
     half_pitch: f64,
     /// Rows across, along the line of action and toward the pitch point; columns of each gear's (away, t, axis).
@@ -71,7 +71,7 @@ impl Placement {
         let lean = Matrix3::new(cl, 0.0, -sl, 0.0, 1.0, 0.0, sl, 0.0, cl);
         let moved = planet_axis * d.along[0] + side_axis * d.along[1] + across * d.across;
         Self {
-            lever: pair.lever(),
+            sin_base: pair.sin_base(),
             base_pitch: pair.base_pitch,
             half_pitch: half_pitch(&pair.gears[1]),
             frames: [chart * lean, chart * Matrix3::from_columns(&[side_away, across, side_axis])],
@@ -88,7 +88,7 @@ impl Placement {
     /// Angles θ_p and θ_s of the teeth of pair `k` [rad].
     fn angles<T: Smooth>(&self, q: T, x: T, k: i32) -> [T; 2] {
         let travel = x + f64::from(k) * self.base_pitch;
-        [travel * (1.0 / self.lever[0]), (travel + q) * (1.0 / self.lever[1]) + self.half_pitch]
+        [travel * (1.0 / self.sin_base[0]), (travel + q) * (1.0 / self.sin_base[1]) + self.half_pitch]
     }
 
     /// Both teeth of pair `k` at (q, x) [rad].
@@ -108,7 +108,7 @@ impl Placement {
 
     /// From the planet's frame, turned with its tooth 0, to the side gear's, turned with its gap 0.
     pub fn between(&self, q: f64, x: f64) -> Matrix3<f64> {
-        let [planet, side] = [x / self.lever[0], (q + x) / self.lever[1]];
+        let [planet, side] = [x / self.sin_base[0], (q + x) / self.sin_base[1]];
         about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
     }
 

@@ -101,7 +101,7 @@ fn a_tip_beyond_the_limit_penetrates_the_flank_below_the_base_circle_when_the_ba
     {
         let (pair, found) = look(&GearSpec { backlash, ..standard }, stance);
         let corner = of(&found, parts);
-        let lag = if stance == Stance::Driving { pair.normal_backlash / 2.0 / pair.lever()[1] } else { 0.0 };
+        let lag = if stance == Stance::Driving { pair.normal_backlash / 2.0 / pair.sin_base()[1] } else { 0.0 };
         // turned by `lag` the one side, by the mirror image the other
         let exact = corner_to_meridian(&pair, lag).min(corner_to_meridian(&pair, -lag));
         println!(

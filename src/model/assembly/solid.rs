@@ -3,7 +3,7 @@
 use crate::contact::damping::Damping;
 use crate::contact::errors::ToothErrorSpec;
 use crate::contact::impact::Impact;
-use crate::contact::solid::mesh::{Slice, SolidMesh, SolidSpec};
+use crate::contact::solid::mesh::{SolidMesh, SolidSlice, SolidSpec};
 use crate::contact::solid::pose::Displacement;
 use crate::geometry::Pair;
 use crate::geometry::assembly::azimuth;
@@ -18,12 +18,12 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
     let width = pair.outer_cone - pair.inner_cone;
     let alike = errors.crowning == 0.0 && displaced.iter().flatten().all(|d| d.along == [0.0; 2] && d.across == 0.0);
     let slices = if alike {
-        vec![Slice { cone: pair.mean_cone, share: 1.0, width, relief: 0.0 }]
+        vec![SolidSlice { cone: pair.mean_cone, share: 1.0, width, relief: 0.0 }]
     } else {
         let slice = |s: crate::contact::detailed::Slice| {
             let x = (s.cone - pair.mean_cone) / (0.5 * width);
             let share = s.width * s.cone / (width * pair.mean_cone);
-            Slice { cone: s.cone, share, width: s.width, relief: errors.crowning * x * x }
+            SolidSlice { cone: s.cone, share, width: s.width, relief: errors.crowning * x * x }
         };
         gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(slice).collect()
     };

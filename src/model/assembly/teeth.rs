@@ -26,7 +26,7 @@ pub struct Teeth {
     /// Inertias of the wheel-side ends that are rigid on their side gears [kg·m²].
     pub rigid_end: [f64; 2],
     /// sinδ_b of planet and side gear.
-    pub lever: [f64; 2],
+    pub sin_base: [f64; 2],
     /// Base pitch on the unit sphere [rad].
     pub base_pitch: f64,
     /// Approach beyond which a tooth would jump [rad].
@@ -63,7 +63,7 @@ impl Teeth {
             inertia,
             inverse_inertia,
             rigid_end,
-            lever: pair.lever(),
+            sin_base: pair.sin_base(),
             base_pitch: pair.base_pitch,
             jump,
             additions: Box::new(additions),

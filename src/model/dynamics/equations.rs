@@ -114,7 +114,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     /// State of the mesh of group `g` with side `s`.
     #[inline(always)]
     pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
-        let [planet, side] = self.teeth.lever;
+        let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
         let (travel, travel_rate) = (turn * at.q[Self::PLANET + g], turn * at.v[Self::PLANET + g]);
         let (angle, speed) = if P == 0 {
@@ -143,7 +143,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
     #[inline(always)]
     pub(in crate::model) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
-        let [planet, side] = self.teeth.lever;
+        let [planet, side] = self.teeth.sin_base;
         let on = |s: usize| in_pairs(G, |g| self.members(g) * side * force(g, s)[0]);
         let on_side = [on(0), on(1)];
         for s in 0..2 {
@@ -164,7 +164,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
     #[inline(always)]
     pub(in crate::model) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        let [planet, side] = self.teeth.lever;
+        let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
         let columns = by.map(|[q, x, w]| [side * q, turn * (x - q), w]);
         std::array::from_fn(|row| {

@@ -79,7 +79,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         &self,
         loads: &[[DetailedLoad<T>; 2]; G],
     ) -> ([Pressure; 2], [Pressure; G]) {
-        let side = self.teeth.lever[1];
+        let side = self.teeth.sin_base[1];
         let sides = [0, 1].map(|s| Pressure {
             thrust: in_pairs(G, |g| self.members(g) * loads[g][s].side_axial.value()),
             load: in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value()).abs(),

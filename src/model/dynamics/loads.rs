@@ -14,7 +14,7 @@ use crate::numeric::{cos, sin, sqrt};
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.
 pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
-    let [lever_p, lever_s] = pair.lever();
+    let [lever_p, lever_s] = pair.sin_base();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
     let corner = &mesh.engagement.corner;
     let (planet, side) = match contact.spot {

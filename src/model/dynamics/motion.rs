@@ -99,7 +99,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
     #[inline(always)]
     fn weights(&self, at: &Point<N>) -> Point<N> {
         let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);
-        let [planet, side] = self.teeth.lever.map(|lever| lever * per_approach);
+        let [planet, side] = self.teeth.sin_base.map(|lever| lever * per_approach);
         let mut q = [planet; N];
         (q[0], q[1], q[CARRIER]) = (side, side, 1.0);
         // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
@@ -108,7 +108,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
         for g in 0..G {
             spin = spin.max(at.v[Self::PLANET + g].abs());
         }
-        let side_speed = 1.0 / (carrier + spin * self.teeth.lever[0] / self.teeth.lever[1]);
+        let side_speed = 1.0 / (carrier + spin * self.teeth.sin_base[0] / self.teeth.sin_base[1]);
         let mut v = [1.0 / (carrier + spin); N];
         (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
         if P > 0 {

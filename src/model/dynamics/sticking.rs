@@ -152,7 +152,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         planets: &[Pressure; G],
         j: &mut Jacobian<N>,
     ) {
-        let side = self.teeth.lever[1];
+        let side = self.teeth.sin_base[1];
         let [of_side, of_planet] = [self.friction().side.limit_slopes(), self.friction().planet.limit_slopes()];
         for s in 0..2 {
             let direction = self.friction_state[s].mode.direction();
@@ -192,7 +192,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`.
     fn spread(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; LOCAL]; G], j: &mut Jacobian<N>) {
-        let [planet, side] = self.teeth.lever;
+        let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
         for (part, m) in [(0, &mut j.by_position), (3, &mut j.by_rate)] {
             m[row][s] += sign * in_pairs(G, |g| side * slopes[g][part]);

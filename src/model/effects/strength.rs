@@ -292,7 +292,7 @@ impl Strength {
     fn stand(&self, fatigue: &mut Fatigue, s: usize, mesh: &MeshLoad, rolled: bool) {
         let rating = &self.rating;
         let (flow, damage) = (&mut fatigue.standing[s], &mut fatigue.stood[s]);
-        let mut add = |cycle: crate::strength::Cycle| {
+        let mut add = |cycle: crate::strength::LoadCycle| {
             // each tooth stands on one flank: the planet's idler strength is for teeth that roll
             let range = pulsating_range(&cycle, self.sensitivity);
             for (i, damage) in damage.iter_mut().enumerate() {

@@ -161,7 +161,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Torques of the meshes on side gears, where other torques act on them too.
     fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let side = self.teeth.lever[1];
+        let side = self.teeth.sin_base[1];
         if self.teeth.additions.in_detail {
             let torque =
                 |s: usize| in_pairs(G, |g| self.members(g) * side * self.detail::<f64>(at, g, s, |_| {}).force[0]);
@@ -177,7 +177,7 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
     let mut mesh = [MeshForces::default(); 2];
     for s in 0..2 {
         out.side_tangential[s] = torque[s] / (0.5 * pair.outer_pitch_diameter(1));
-        let normal = torque[s] / (planets as f64 * pair.mean_cone * pair.lever()[1]);
+        let normal = torque[s] / (planets as f64 * pair.mean_cone * pair.sin_base()[1]);
         let (alpha, pitch) = (pair.pressure_angle, [pair.gears[0].pitch, pair.gears[1].pitch]);
         mesh[s] = MeshForces {
             normal: normal.abs(),

@@ -9,7 +9,7 @@ use super::failure::StepFailure;
 use super::imposed;
 use super::ledger::{Recorded, Records};
 use super::simulation::Simulation;
-use crate::integrate::{Erased, Point, SecondOrder, Step};
+use crate::integrate::{DynSystem, Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::{by_size, with_equations};
 use crate::model::dynamics::state::{Accepted, State};
@@ -189,8 +189,8 @@ impl Simulation {
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let mut equations = equations;
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = Erased(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
-                let (_, last) = Erased(&equations).evaluate(&end);
+                let (_, first) = DynSystem(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
+                let (_, last) = DynSystem(&equations).evaluate(&end);
                 // what lies between is the host's: for stiff teeth no curve through both ends would tell it
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: state.time, start: &start, end: &end, power };

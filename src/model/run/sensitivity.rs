@@ -7,7 +7,7 @@
 use super::exchange::STATES;
 use super::imposed::{add_impulse, body_effects, imposed_speeds};
 use super::simulation::Simulation;
-use crate::integrate::{Erased, Point, SecondOrder};
+use crate::integrate::{DynSystem, Point, SecondOrder};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::outputs::readings::{Books, Forces, Motion};
@@ -68,7 +68,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
             let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let (acceleration, _) = Erased(&equations).evaluate(&at);
+            let (acceleration, _) = DynSystem(&equations).evaluate(&at);
             dq[..N].copy_from_slice(&equations.rates(&at.v));
             dv[..N].copy_from_slice(&acceleration);
         });
@@ -80,7 +80,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
             let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let linearisation = Erased(&equations).linearise(&at);
+            let linearisation = DynSystem(&equations).linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);
             for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
@@ -168,7 +168,7 @@ impl Simulation {
     /// Rates of the ledger.
     pub fn book_rates(&self) -> Books {
         let (inputs, state) = (&self.inputs, &self.state);
-        let heat = with_equations!(self.model, state, inputs, |equations| Erased(&equations)
+        let heat = with_equations!(self.model, state, inputs, |equations| DynSystem(&equations)
             .evaluate(&state.point::<N>())
             .1
             .heat);
@@ -196,7 +196,7 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {
-            let weights = Erased(&equations).weights(&state.point::<N>());
+            let weights = DynSystem(&equations).weights(&state.point::<N>());
             for i in 0..N {
                 largest = largest.max((weights.q[i] * direction.q[i]).abs());
                 largest = largest.max((weights.v[i] * direction.v[i]).abs());

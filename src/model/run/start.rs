@@ -139,7 +139,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>
 }
 
 fn within_a_tooth<const N: usize>(teeth: &Teeth, point: &Point<N>) -> bool {
-    let pitch = teeth.base_pitch / teeth.lever[0];
+    let pitch = teeth.base_pitch / teeth.sin_base[0];
     (0..teeth.layout.groups).all(|g| point.q[teeth.layout.planet(g)].abs() < pitch)
 }
 
@@ -173,7 +173,7 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
         }
         // Q_α falls steadily with α: bracket between mid-gap and the angle at which a tooth would jump
         let mut free = 0.0;
-        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.mesh.half_backlash()) / teeth.lever[1];
+        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.mesh.half_backlash()) / teeth.sin_base[1];
         let excess = |alpha: f64, point: &mut Point<N>| {
             point.q[s] = alpha;
             (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()

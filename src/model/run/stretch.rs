@@ -4,7 +4,8 @@ use super::failure::StepFailure;
 use super::ledger::{Jump, Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
-    self, DormandPrince, Effort, Erased, Failure, Flow, Object, Point, Radau, Rodas4, Rodas5P, Step,
+    self, AfterStep, DormandPrince, DynSecondOrder, DynSystem, Failure, Point, Radau, Rodas4, Rodas5P, SolverContext,
+    Step,
 };
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::power::Power;
@@ -64,15 +65,15 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
             good = (*step.end, step.time);
             if equations.is_due(step.end, step.time) {
                 switched = true;
-                return Ok(Flow::Stop);
+                return Ok(AfterStep::Stop);
             }
-            Ok(Flow::Continue)
+            Ok(AfterStep::Continue)
         };
-        let effort = Effort { tolerance: solver.relative_tolerance, control, statistics, budget };
+        let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         outcome = if solver.method == Method::Adaptive {
-            integrate::advance(&Rodas5P, &equations, &mut point, &mut time, end, effort, observe)
+            integrate::advance(&Rodas5P, &equations, &mut point, &mut time, end, context, observe)
         } else {
-            otherwise(solver, &equations, &mut point, &mut time, end, effort, &mut observe)
+            otherwise(solver, &equations, &mut point, &mut time, end, context, &mut observe)
         };
         equations.anchor(&anchors);
         if switched {
@@ -90,21 +91,21 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
 #[inline(never)]
 fn otherwise<const N: usize>(
     solver: &SolverSpec,
-    system: &dyn Object<N, Power>,
+    system: &dyn DynSecondOrder<N, Power>,
     point: &mut Point<N>,
     time: &mut f64,
     until: f64,
-    effort: Effort,
-    observe: &mut dyn FnMut(Step<N, Power>) -> Result<Flow, Jump>,
+    context: SolverContext,
+    observe: &mut dyn FnMut(Step<N, Power>) -> Result<AfterStep, Jump>,
 ) -> Result<(), Failure<Jump>> {
-    let system = &Erased(system);
+    let system = &DynSystem(system);
     match solver.method {
-        Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, effort, observe),
-        Method::Radau => integrate::advance(&Radau, system, point, time, until, effort, observe),
-        Method::Rodas4 => integrate::advance(&Rodas4, system, point, time, until, effort, observe),
-        Method::DormandPrince => integrate::advance(&DormandPrince, system, point, time, until, effort, observe),
+        Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, context, observe),
+        Method::Radau => integrate::advance(&Radau, system, point, time, until, context, observe),
+        Method::Rodas4 => integrate::advance(&Rodas4, system, point, time, until, context, observe),
+        Method::DormandPrince => integrate::advance(&DormandPrince, system, point, time, until, context, observe),
         Method::FixedStep => {
-            let counts = (effort.statistics, effort.budget);
+            let counts = (context.statistics, context.budget);
             integrate::advance_fixed(system, point, time, until, solver.fixed_step, counts, observe)
         }
     }

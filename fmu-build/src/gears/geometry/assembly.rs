@@ -193,7 +193,7 @@ mod tests {
         for sign in [1.0, -1.0] {
             let rolling = Position::rolling(&spec, 0.0, 0.05);
             // a little more than half the backlash
-            let off = sign * 0.6 * pair.normal_backlash / pair.lever()[1];
+            let off = sign * 0.6 * pair.normal_backlash / pair.sin_base()[1];
             let bodies = bodies(&spec, &Position { left: rolling.left + off, ..rolling }).expect("they assemble");
             let [deepest, least] = clearance(&pair, &outlines, &bodies[2], &bodies[0]);
             assert!(deepest > 0.0 && least < 0.0, "{deepest} {least}");

@@ -130,7 +130,7 @@ fn flank() -> DimensionGroup {
         "outer_radius_of_curvature_at_pitch_point_rho_e" "ρ_e" Length None, "R_e tan ψ",
             |d, i| d.pair.outer_cone * tan(d.pair.pitch_arc[i]);
         "mean_lever_arm_of_normal_force" "" Length None, "R_m sin δ_b, the same all along the path",
-            |d, i| d.pair.mean_cone * d.pair.lever()[i];
+            |d, i| d.pair.mean_cone * d.pair.sin_base()[i];
     )
 }
 

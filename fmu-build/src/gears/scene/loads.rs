@@ -6,7 +6,7 @@ use std::io::Write;
 use anyhow::{Context, Result, bail};
 use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
-use bevel_differential::geometry::action::Action;
+use bevel_differential::geometry::action::LineOfAction;
 use bevel_differential::model::{GearContact, ToothLoad};
 
 use super::Scene;
@@ -34,7 +34,7 @@ pub struct OnGear {
 }
 
 /// Force of `load` on the planet and on the side gear.
-pub fn on_gears(action: &Action, pair: &Pair, load: &ToothLoad) -> [OnGear; 2] {
+pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear; 2] {
     let (contact, turn) = (load.contact(action), load.turn());
     [0, 1].map(|i| {
         let own = action.in_gear(&contact, i, load.tooth_azimuth(pair, i), turn);
@@ -58,7 +58,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write) -> Result<u
     }
     let mut run = SceneRun::start(scene, scene.step.min(every))?;
     let pair = *run.simulation.pair();
-    let action = Action::new(&pair);
+    let action = LineOfAction::new(&pair);
     header(scene, every, &run, out).context("the loads cannot be written")?;
     let mut rows = csv::Writer::from_writer(out);
     let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));

@@ -52,7 +52,7 @@ impl Theory {
     /// Normal force of one mesh at the mean cone distance [N]: T / (N R_m sinδ_b).
     pub fn normal_force(&self, torque: f64) -> f64 {
         let planets = f64::from(self.parameters.geometry.planet_count);
-        torque / (planets * self.pair.mean_cone * self.pair.lever()[1])
+        torque / (planets * self.pair.mean_cone * self.pair.sin_base()[1])
     }
 
     /// Tangential force of one mesh at the mean cone distance [N]: F_n cosα.

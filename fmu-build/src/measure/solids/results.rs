@@ -164,6 +164,6 @@ fn arcs(simulation: &Simulation, facets: &[i32]) -> Vec<f64> {
 fn overlap(simulation: &Simulation) -> f64 {
     let (pair, p) = (simulation.pair(), Teeth(None).parameters(USUAL));
     let planets = f64::from(p.geometry.planet_count);
-    let force = published::LOAD / (planets * pair.mean_cone * pair.lever()[1]);
+    let force = published::LOAD / (planets * pair.mean_cone * pair.sin_base()[1]);
     (force / p.contact.stiffness).powf(1.0 / p.contact.exponent)
 }

@@ -4,7 +4,7 @@
 use super::system::{Linearisation, Matrix, Point, SecondOrder};
 
 /// The functions of a [`SecondOrder`] system that can be called through a table.
-pub trait Object<const N: usize, P> {
+pub trait DynSecondOrder<const N: usize, P> {
     /// See [`SecondOrder::rates`].
     fn rates(&self, v: &[f64; N]) -> [f64; N];
     /// See [`SecondOrder::times_rates`].
@@ -35,7 +35,7 @@ pub trait Object<const N: usize, P> {
     fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64>;
 }
 
-impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
+impl<const N: usize, S: SecondOrder<N>> DynSecondOrder<N, S::Power> for S {
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         SecondOrder::rates(self, v)
     }
@@ -81,9 +81,9 @@ impl<const N: usize, S: SecondOrder<N>> Object<N, S::Power> for S {
 }
 
 /// A system whose kind is not known at compile time.
-pub struct Erased<'a, const N: usize, P>(pub &'a dyn Object<N, P>);
+pub struct DynSystem<'a, const N: usize, P>(pub &'a dyn DynSecondOrder<N, P>);
 
-impl<const N: usize, P: Copy> SecondOrder<N> for Erased<'_, N, P> {
+impl<const N: usize, P: Copy> SecondOrder<N> for DynSystem<'_, N, P> {
     type Power = P;
 
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
