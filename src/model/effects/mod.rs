@@ -13,6 +13,7 @@ mod thrust_friction;
 mod tooth_errors;
 mod tooth_fault;
 mod tooth_friction;
+mod wheel_brake;
 
 use serde::{Deserialize, Serialize};
 
@@ -159,6 +160,7 @@ effects! {
         bearing_drag: bearing_drag::BearingDragSpec,
         final_drive: final_drive::FinalDriveSpec,
         strength: strength::StrengthSpec,
+        wheel_brake: wheel_brake::WheelBrakeSpec,
     }
     commanded {
         lock: lock::LockSpec,

@@ -4,6 +4,8 @@ use serde::{Deserialize, Serialize};
 
 /// Limits of an input that may have either sign.
 const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+/// Limits of a torque that only resists.
+const RESISTING: [f64; 2] = [0.0, f64::INFINITY];
 /// Limits of a command: 0 none, 1 full.
 const COMMAND: [f64; 2] = [0.0, 1.0];
 
@@ -84,6 +86,8 @@ inputs! {
     planet_spin: f64 = 0.0, FREE;
     /// Command of the lock, 0 open to 1 locked.
     lock: f64 = 0.0, COMMAND;
+    /// Brake torques at left and right wheel, 0 or more [N·m].
+    brake_torque: [f64; 2] = [0.0; 2], RESISTING;
     /// Triggers the tooth fault when it rises above one half.
     fault: f64 = 0.0, COMMAND;
 }

@@ -1,0 +1,85 @@
+//! Brakes at the wheels: dry friction between wheel and ground that opposes rotation and holds a wheel at standstill.
+//!
+//! While the wheel slips T = ±T_brake; at standstill a spring holds it up to that torque, T = k (z + τ ω) with the rotation
+//! z since it stopped (`effect_kinds::dry_friction`). The wheel is the end of the half-shaft where that has one, the side
+//! gear with its rigid end otherwise. The damping of the spring is critical for the inertia J of the end alone,
+//! τ = 2 √(J/k), so that a wheel comes to rest without ringing; without an end it is that of all dry friction.
+//!
+//! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
+//! of a locked mode, so that both wheels may be braked while speeds are imposed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units;
+use crate::declaration::{Parameter, Range, Row, input, real};
+use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
+use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
+use crate::model::effect_kinds::friction_source::{FrictionSource, WheelFriction};
+use crate::numeric::sqrt;
+
+/// Brakes at the wheels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WheelBrakeSpec {
+    /// Stiffness of a brake at standstill [N·m/rad].
+    pub stiffness: f64,
+}
+
+impl Default for WheelBrakeSpec {
+    fn default() -> Self {
+        Self { stiffness: 1e5 }
+    }
+}
+
+/// Far beyond any brake, near enough that no intermediate result overflows [N·m].
+const MAX_TORQUE: f64 = 1e8;
+
+impl Declare for WheelBrakeSpec {
+    const DESCRIPTION: &'static str = "Brakes at the wheels, by left.brake_torque and right.brake_torque";
+    const HEAT: Option<Heat> =
+        Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
+    const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![real(
+            "wheel_brake.stiffness",
+            units::NM_PER_RAD,
+            None,
+            (1.0, 1e9),
+            |p| &mut p.stiffness,
+            "Stiffness of a brake that holds its wheel at standstill",
+        )]
+    }
+
+    fn inputs() -> Vec<Row<InputField>> {
+        let torque = |name, at: InputField, description| {
+            // a build without effects accepts no brake torque
+            let max = if BUILT { MAX_TORQUE } else { 0.0 };
+            let row = input(name, units::NEWTON_METRE, None, MAX_TORQUE, at, description);
+            Row { range: Some(Range { min: 0.0, max }), ..row }
+        };
+        vec![
+            torque(
+                "left.brake_torque",
+                |i| &mut i.brake_torque[0],
+                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+            ),
+            torque(
+                "right.brake_torque",
+                |i| &mut i.brake_torque[1],
+                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+            ),
+        ]
+    }
+}
+
+impl Effect for WheelBrakeSpec {
+    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+        let end = [setting.inertia.left_end, setting.inertia.right_end];
+        let wheel = WheelFriction {
+            limit: |inputs| inputs.brake_torque,
+            stiffness: self.stiffness,
+            damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
+        };
+        Some(FrictionSource { wheel: Some(wheel), ..FrictionSource::new(setting.heat) })
+    }
+}
