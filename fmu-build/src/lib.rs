@@ -1,5 +1,5 @@
-//! Commands around the FMU, in rooms by reader. Arrows point down this list and never back: a check may use everything
-//! above it, a tool uses no other room. [`command_line`] joins the commands of all rooms.
+//! Commands around the FMU, in rooms by reader. A room uses only rooms above it in this list; [`command_line`] joins the
+//! commands of all rooms.
 //!
 //! - [`tools`]: shared tools without gears in them
 //! - [`fmu`]: builds the FMU

@@ -8,6 +8,7 @@ use bevel_differential::model::STATES;
 use bevel_differential::variables::guid;
 
 use super::arguments::{Flaws, VariableKind, references, row};
+use super::call_result::CallResult;
 use super::functions::Function;
 use super::random::Random;
 use super::states::{HELD, HeldStates, a_state, deserialize, get_state};
@@ -18,32 +19,6 @@ const ROOM: usize = 64;
 
 /// Sizes of communication steps that must be refused [s].
 const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
-
-/// What a call answered.
-pub struct CallResult {
-    /// Its status.
-    pub status: Status,
-    /// Numbers that it wrote; looked at only if it was carried out.
-    pub numbers: Vec<f64>,
-    /// Whether it had to be refused for its arguments.
-    pub must_fail: bool,
-    /// Bytes of the state that the instance is to be in now.
-    pub restored: Option<Vec<u8>>,
-    /// What is wrong, seen by the driver already.
-    pub broken: Option<String>,
-}
-
-impl CallResult {
-    /// With `status`, for arguments with `flaws`.
-    pub fn of(status: Status, flaws: &Flaws) -> Self {
-        Self { status, numbers: Vec::new(), must_fail: flaws.any, restored: None, broken: None }
-    }
-
-    /// With the numbers that the call wrote.
-    fn with(self, numbers: &[f64]) -> Self {
-        Self { numbers: numbers.to_vec(), ..self }
-    }
-}
 
 /// Calls `function` on `unit` through `c`, which is its component or a pointer that must be refused.
 #[allow(clippy::too_many_lines)] // one arm per function
@@ -318,16 +293,16 @@ fn instantiate(r: &mut Random) -> CallResult {
     let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
     let ids = [right.as_ptr(), right.as_ptr(), c"%n".as_ptr(), ptr::null()];
     let places = [ptr::null(), c"file:///a%20b".as_ptr(), c"\xff".as_ptr()];
-    let told = if r.chance(4) { ptr::null() } else { &raw const callbacks };
+    let callbacks = if r.chance(4) { ptr::null() } else { &raw const callbacks };
     // SAFETY: all pointers are NULL or valid through the call
-    let c = unsafe { fmi2Instantiate(names[name], kind, ids[id], r.pick(&places), told, 0, r.below(2) as i32) };
+    let c = unsafe { fmi2Instantiate(names[name], kind, ids[id], r.pick(&places), callbacks, 0, r.below(2) as i32) };
     let expected = (kind == MODEL_EXCHANGE || kind == CO_SIMULATION) && name < 2 && id < 2;
     let mut outcome = CallResult::of(Status::Ok, &Flaws::default());
     if c.is_null() == expected {
         outcome.broken = Some(format!("kind {kind}, name {name}, GUID {id}: made {}", !c.is_null()));
     }
     let silent = recorder.lines().is_empty();
-    if c.is_null() && silent && !told.is_null() {
+    if c.is_null() && silent && !callbacks.is_null() {
         outcome.broken = Some("refused without a line in the log".into());
     }
     // SAFETY: NULL, or a component that nothing else holds; it is freed before its log

@@ -5,6 +5,7 @@
 //! processes, so that a crash or a hang is reported with its seed.
 
 mod arguments;
+mod call_result;
 mod calls;
 mod functions;
 mod random;

@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use bevel_differential::fmi2::*;
 
-use super::calls::{CallResult, call};
+use super::call_result::CallResult;
+use super::calls::call;
 use super::functions::Function;
 use super::random::Random;
 use super::scenes;

@@ -6,7 +6,7 @@ use bevel_differential::fmi2::*;
 use bevel_differential::variables::fnv1a;
 
 use super::arguments::Flaws;
-use super::calls::CallResult;
+use super::call_result::CallResult;
 use super::random::Random;
 use super::unit::serialised;
 
