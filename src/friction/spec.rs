@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::LARGEST;
 use crate::problem::Problem;
+
+/// Largest coefficient any law may return: that of unlubricated steel starts beyond it.
+pub const LARGEST: f64 = 0.3;
 
 /// Law of the coefficient of friction between tooth flanks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -3,7 +3,9 @@
 //! N equally spaced planets assemble if 2 z_s / N is an integer. Mesh i on the left side is then
 //! h_iL = p_b frac(z_s φ_i / 2π) into its cycle (0 or half a pitch); the right side adds half a pitch for odd z_p.
 
+use super::pair::Pair;
 use super::spec::GearSpec;
+use crate::numeric::{TAU, frac};
 use crate::problem::Problem;
 
 /// Phases of a planet's meshes with the left and right side gear, as fractions of the base pitch: 0 or ½.
@@ -11,7 +13,7 @@ pub type Phases = [f64; 2];
 
 /// Azimuth of planet `i` of `count` about the carrier axis [rad].
 pub fn azimuth(i: usize, count: i32) -> f64 {
-    crate::numeric::TAU * i as f64 / f64::from(count)
+    TAU * i as f64 / f64::from(count)
 }
 
 /// Phases of each planet, or a validation error if they do not assemble.
@@ -34,7 +36,13 @@ pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
     Ok((0..n)
         .map(|i| {
             let left = f64::from((2 * z_s * i / n) % 2) / 2.0;
-            [left, crate::numeric::frac(left + odd)]
+            [left, frac(left + odd)]
         })
         .collect())
+}
+
+/// Angle between the tip cones of neighbouring planets, `count` of them, where they are nearest [rad]; negative where the
+/// cones overlap. Neighbours turn in opposite directions there, so that teeth do not mesh.
+pub fn between_planets(pair: &Pair, count: i32) -> f64 {
+    TAU / f64::from(count) - 2.0 * pair.gears[0].tip
 }

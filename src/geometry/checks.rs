@@ -1,8 +1,10 @@
 //! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
 
+use super::assembly::between_planets;
+use super::pair::Pair;
 use super::solid::Foot;
-use super::{GearSpec, Pair};
-use crate::numeric::{TAU, cos, sin};
+use super::spec::GearSpec;
+use crate::numeric::{cos, sin};
 use crate::problem::Problem;
 
 const NAMES: [&str; 2] = ["planet", "side gear"];
@@ -182,12 +184,6 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     found
-}
-
-/// Angle between the tip cones of neighbouring planets, `count` of them, where they are nearest [rad]; negative where the
-/// cones overlap. Neighbours turn in opposite directions there, so that teeth do not mesh.
-pub fn between_planets(pair: &Pair, count: i32) -> f64 {
-    TAU / f64::from(count) - 2.0 * pair.gears[0].tip
 }
 
 fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {

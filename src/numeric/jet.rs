@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use super::{atan2, cos, sin, sqrt};
+use super::elementary::{atan2, cos, sin, sqrt};
 
 /// Second-order Taylor arithmetic: value, first and second derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]

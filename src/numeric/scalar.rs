@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{cos, pow, sin, sqrt};
+use super::elementary::{cos, pow, sin, sqrt};
 
 /// Operations of formulas: implemented by `f64` for values alone, by [`Dual`] for values with derivatives.
 pub trait Scalar:

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use super::Dual;
+use super::scalar::Dual;
 
 /// Operations of such formulas.
 pub trait Smooth:

@@ -18,8 +18,9 @@ use nalgebra::Vector3;
 
 use super::outline::Part;
 use super::skin::Skin;
+use crate::geometry::assembly::between_planets;
 use crate::geometry::involute::direction;
-use crate::geometry::{GearSpec, Pair, checks};
+use crate::geometry::{GearSpec, Pair};
 use crate::numeric::{TAU, acos, atan2, cos, sin};
 
 /// Facets per flank.
@@ -106,7 +107,7 @@ impl Interference {
         }
         let rank = |a: &Approach| if a.parts == [Part::Flank; 2] { a.gap - resolution } else { a.gap };
         found.sort_by(|a, b| rank(a).total_cmp(&rank(b)));
-        let between_tips = [checks::between_planets(pair, spec.planet_count), TAU / 2.0 - 2.0 * pair.gears[1].tip];
+        let between_tips = [between_planets(pair, spec.planet_count), TAU / 2.0 - 2.0 * pair.gears[1].tip];
         Some(Self { approaches: found, resolution, between_tips })
     }
 
