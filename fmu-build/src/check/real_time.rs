@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
-use crate::check::{stepping, zero_cost};
+use crate::check::stepping;
 use crate::tools::numbers::Spread;
 use crate::tools::progress::Progress;
 use crate::tools::table::Table;
@@ -41,7 +41,7 @@ impl RealTimeCommand {
 
 fn run(write: bool) -> Result<()> {
     let progress = Progress::start("building the stepping program");
-    let program = stepping::build(&zero_cost::EFFECTS, "full")?;
+    let program = stepping::build(true, "full")?;
     let folder = paths::target().join("real-time");
     let mut table =
         Table::new(["scene", "`solver.fixed_step`, s", "median", "costliest", "costliest / median"]).left([0]);

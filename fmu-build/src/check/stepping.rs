@@ -8,13 +8,14 @@ use anyhow::{Context, Result, ensure};
 
 use crate::tools::paths;
 
-/// Builds the stepping program with the effects `kept` alone and returns a copy of it.
-pub fn build(kept: &[&str], name: &str) -> Result<PathBuf> {
+/// Builds the stepping program, with or without effects, and returns a copy of it named `name`.
+pub fn build(effects: bool, name: &str) -> Result<PathBuf> {
     let target = paths::target().join("off");
     let output = Command::new(env!("CARGO"))
         .current_dir(paths::workspace())
         .args(["build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench", "--quiet"])
-        .args(["--no-default-features", "--features", &kept.join(","), "--message-format", "json"])
+        .args((!effects).then_some("--no-default-features"))
+        .args(["--message-format", "json"])
         .arg("--target-dir")
         .arg(&target)
         .output()

@@ -1,31 +1,17 @@
-//! Proof that an effect that is off costs nothing: builds that leave its file out are compared with the full build, bit by
-//! bit and instruction by instruction.
+//! Proof that effects that are off cost nothing: a build without any is compared with the full build, bit by bit and
+//! instruction by instruction.
 
 use std::path::Path;
 use std::process::Command;
 
-use anyhow::{Context, Result, bail, ensure};
+use anyhow::{Context, Result, ensure};
+use bevel_differential::model::EFFECTS;
 use clap::Args;
 
 use crate::check::stepping;
 use crate::tools::progress::Progress;
 use crate::tools::sections;
 use crate::tools::table::{Table, for_terminal};
-
-/// Every effect that a build can leave out, by the name of its cargo feature.
-pub const EFFECTS: [&str; 11] = [
-    "bearing_drag",
-    "final_drive",
-    "half_shaft",
-    "limited_slip",
-    "lock",
-    "pin_compliance",
-    "strength",
-    "thrust_friction",
-    "tooth_errors",
-    "tooth_fault",
-    "tooth_friction",
-];
 
 /// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];
@@ -41,10 +27,10 @@ struct CountedRun {
     instructions: f64,
 }
 
-/// Checks that an effect that is off costs nothing, by bits and instructions of builds without it (needs valgrind)
+/// Checks that effects that are off cost nothing, by bits and instructions of a build without any (needs valgrind)
 #[derive(Args, Clone, Debug)]
 pub struct ZeroCostCommand {
-    /// Compare with one build without any effect
+    /// Leave out what each effect costs when it is on
     #[arg(long)]
     quick: bool,
     /// Also renew the table in docs/effects.md
@@ -61,45 +47,32 @@ impl ZeroCostCommand {
 
 fn run(quick: bool, write: bool) -> Result<()> {
     let progress = Progress::start("building with all effects");
-    let full = stepping::build(&EFFECTS, "full")?;
-    let off = [measure(&full, "straight", &[])?, measure(&full, "turn", &[])?];
+    let full = stepping::build(true, "full")?;
+    progress.stage("building without effects");
+    let without = stepping::build(false, "less")?;
+    progress.stage("counting instructions");
+    let scenes = ["straight", "turn"];
+    let off = scenes.iter().map(|scene| measure(&full, scene, &[])).collect::<Result<Vec<_>>>()?;
+    let left_out = scenes.iter().map(|scene| measure(&without, scene, &[])).collect::<Result<Vec<_>>>()?;
     let mut table = Table::new(["effect", "left out", "off", "on", "on / off"]).left([0]);
-    let mut different = Vec::new();
-    let mut compare = |what: &str, kept: &[&str]| -> Result<f64> {
-        progress.stage(&format!("building without {what}"));
-        let without = stepping::build(kept, "less")?;
-        let runs = [measure(&without, "straight", &[])?, measure(&without, "turn", &[])?];
-        if runs != off {
-            different.push(format!("{what}: {runs:?} left out, {off:?} off"));
-        }
-        Ok(runs[1].instructions)
-    };
-    let without_any = if quick { Some(compare("all of them", &[])?) } else { None };
-    for effect in EFFECTS {
-        let left_out = match without_any {
-            Some(count) => count,
-            None => compare(effect, &EFFECTS.into_iter().filter(|&e| e != effect).collect::<Vec<_>>())?,
-        };
-        let on = measure(&full, "turn", &[effect])?.instructions;
-        let cost = on / off[1].instructions;
-        let counts = [left_out, off[1].instructions, on].map(|count| format!("{count:.0}"));
-        table.push([format!("`{effect}`")].into_iter().chain(counts).chain([format!("{cost:.2}")]));
+    for effect in EFFECTS.iter().filter(|_| !quick) {
+        let on = measure(&full, "turn", &[effect.name])?.instructions;
+        let counts = [left_out[1].instructions, off[1].instructions, on].map(|count| format!("{count:.0}"));
+        let cost = format!("{:.2}", on / off[1].instructions);
+        table.push([format!("`{}`", effect.name)].into_iter().chain(counts).chain([cost]));
     }
     progress.finish();
+    ensure!(left_out == off, "effects that are off change results or instructions: left out {left_out:?}, off {off:?}");
+    if quick {
+        println!("left out and off: {:.0} instructions per communication step in the turn, same bits", off[1].instructions);
+        return Ok(());
+    }
     let page = format!(
-        "{}\nInstructions per communication step of 1 ms in the study's turn. {} \
-         Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
+        "{}\nInstructions per communication step of 1 ms in the study's turn. \"Left out\" is a build without any effect; its \
+         results have the same bits. Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
         table.markdown(),
-        if quick {
-            "\"Left out\" is one build without any of these files; its results have the same bits."
-        } else {
-            "\"Left out\" is a build without the file of this effect; its results have the same bits."
-        }
     );
     println!("{}", for_terminal(&page));
-    if !different.is_empty() {
-        bail!("effects that are off change results or instructions:\n{}", different.join("\n"));
-    }
     if write {
         sections::renew("docs/effects.md", MARKS, &page)?;
     }
