@@ -7,9 +7,9 @@ use fmu_build::fmu::{describe, libraries, package};
 use fmu_build::tools::paths;
 
 #[test]
-fn the_model_description_in_the_repository_is_the_table_s() -> Result<()> {
-    let file = paths::model_description();
-    assert!(!describe::is_stale(&file)?, "{} is stale; renew it: cargo run --release -- describe", paths::shown(&file));
+fn the_model_description_and_the_lists_of_effects_in_the_repository_are_the_table_s() -> Result<()> {
+    let stale = describe::stale_document(&paths::model_description())?;
+    assert!(stale.is_none(), "{stale:?} is out of date; renew it: cargo run --release -- describe");
     Ok(())
 }
 

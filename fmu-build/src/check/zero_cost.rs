@@ -64,7 +64,10 @@ fn run(quick: bool, write: bool) -> Result<()> {
     progress.finish();
     ensure!(left_out == off, "effects that are off change results or instructions: left out {left_out:?}, off {off:?}");
     if quick {
-        println!("left out and off: {:.0} instructions per communication step in the turn, same bits", off[1].instructions);
+        println!(
+            "left out and off: {:.0} instructions per communication step in the turn, same bits",
+            off[1].instructions
+        );
         return Ok(());
     }
     let page = format!(

@@ -12,6 +12,7 @@ use bevel_differential::variables::{
 };
 use clap::Args;
 
+use crate::fmu::effect_list;
 use crate::fmu::xml::Element;
 use crate::tools::paths;
 
@@ -21,26 +22,35 @@ const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";
 const STOP_TIME: f64 = 0.5;
 const STEP_SIZE: f64 = 0.001;
 
-/// Writes modelDescription/modelDescription.xml
+/// Writes modelDescription/modelDescription.xml, and the lists of effects in README.md and docs/effects.md
 #[derive(Args, Clone, Debug)]
 pub struct DescribeCommand {
-    /// Only check whether the file is up to date
+    /// Only check whether they are up to date
     #[arg(long)]
     check: bool,
 }
 
 impl DescribeCommand {
-    /// Writes or checks the file.
+    /// Writes or checks the files.
     pub fn run(&self) -> Result<()> {
         let file = paths::model_description();
         if !self.check {
             write(&file)?;
-        } else if is_stale(&file)? {
-            bail!("{} is out of date; renew it: cargo run --release -- describe", paths::shown(&file));
+            effect_list::write()?;
+        } else if let Some(stale) = stale_document(&file)? {
+            bail!("{stale} is out of date; renew it: cargo run --release -- describe");
         }
-        println!("{} is up to date", paths::shown(&file));
+        println!("{} and the lists of effects in the documents are up to date", paths::shown(&file));
         Ok(())
     }
+}
+
+/// What is out of date: the description in `file`, or the list of effects in a document.
+pub fn stale_document(file: &Path) -> Result<Option<String>> {
+    if is_stale(file)? {
+        return Ok(Some(paths::shown(file).to_string()));
+    }
+    Ok(effect_list::stale()?.map(str::to_owned))
 }
 
 /// How variables with named choices are described. FMI sets both by fmi2SetInteger.

@@ -195,7 +195,8 @@ fn row(row: &Variable) -> Element {
     Element::new("tr").children(cells.into_iter().map(|cell| Element::new("td").text(cell)))
 }
 
-fn unit(row: &Variable) -> String {
+/// Unit of a variable, with the unit that hosts show.
+pub fn unit(row: &Variable) -> String {
     let unit = row.unit.map_or("", |unit| if unit.name == "1" { "" } else { unit.name });
     row.display.map_or(unit.to_owned(), |shown| format!("{unit} [{}]", shown.name))
 }
@@ -206,7 +207,8 @@ fn shown(row: &Variable, value: f64, digits: u32) -> String {
     format!("{} {}", short(value * display.factor, digits), display.name)
 }
 
-fn start(row: &Variable) -> String {
+/// Start value of a variable, as hosts show it.
+pub fn start(row: &Variable) -> String {
     let mut defaults = Parameters::default();
     match row.access {
         Access::Real(_) | Access::Input(_) => {

@@ -3,6 +3,7 @@
 
 pub mod describe;
 pub mod documentation;
+pub mod effect_list;
 pub mod libraries;
 pub mod licences;
 pub mod package;

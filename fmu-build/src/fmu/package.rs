@@ -11,7 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, Library};
-use crate::fmu::{describe, documentation, licences, plain_types};
+use crate::fmu::{describe, documentation, effect_list, licences, plain_types};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 
@@ -71,6 +71,7 @@ pub fn packed() -> Result<PackedFmu> {
     let libraries = libraries::build()?;
     let fmu = paths::fmu();
     write_archive(&libraries.built, &fmu)?;
+    effect_list::write_json(&fmu)?;
     Ok(PackedFmu { fmu, left_out: libraries.left_out })
 }
 

@@ -42,7 +42,7 @@ impl Default for BearingDragSpec {
 }
 
 impl Declare for BearingDragSpec {
-    const DESCRIPTION: &'static str = "Drag of bearings and churned oil";
+    const DESCRIPTION: &'static str = "Friction of bearings and churning of oil";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.drag", description: "Heat of bearings and oil since the start", at_wheels: false });
 

@@ -27,7 +27,7 @@ impl Default for FinalDriveSpec {
 }
 
 impl Declare for FinalDriveSpec {
-    const DESCRIPTION: &'static str = "Excitation by the final drive's ring gear";
+    const DESCRIPTION: &'static str = "Mesh order of the final drive's ring gear on the carrier";
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![

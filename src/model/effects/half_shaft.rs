@@ -27,7 +27,7 @@ impl Default for HalfShaftSpec {
 }
 
 impl Declare for HalfShaftSpec {
-    const DESCRIPTION: &'static str = "Torsion of the half-shafts";
+    const DESCRIPTION: &'static str = "Torsion of the half-shafts, with inertia at the wheels";
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.half_shaft",
         description: "Heat of damping in the half-shafts since the start",

@@ -40,7 +40,8 @@ pub const CLUTCH_HEAT: Heat = Heat {
 };
 
 impl Declare for LimitedSlipSpec {
-    const DESCRIPTION: &'static str = "Clutch packs between side gears and carrier";
+    const DESCRIPTION: &'static str =
+        "Clutch packs between side gears and carrier, preloaded and torque-proportional, which stick";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {

@@ -138,12 +138,18 @@ macro_rules! effects {
             rows
         }
 
-        /// Rows of the inputs.
+        /// Rows of the inputs of the effect `name`.
+        pub fn inputs_of(name: &str) -> Vec<Row<InputField>> {
+            match name {
+                $(stringify!($name) => <$effect>::inputs(),)+
+                $(stringify!($command) => <$commanded>::inputs(),)+
+                _ => Vec::new(),
+            }
+        }
+
+        /// Rows of the inputs of all effects.
         pub fn inputs() -> Vec<Row<InputField>> {
-            let mut rows = Vec::new();
-            $(rows.extend(<$effect>::inputs());)+
-            $(rows.extend(<$commanded>::inputs());)+
-            rows
+            EFFECTS.iter().flat_map(|effect| inputs_of(effect.name)).collect()
         }
     };
 }

@@ -34,7 +34,7 @@ impl Default for PinComplianceSpec {
 }
 
 impl Declare for PinComplianceSpec {
-    const DESCRIPTION: &'static str = "Elastic pins and case";
+    const DESCRIPTION: &'static str = "Elastic pins and case, in series with the teeth";
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.support",
         description: "Heat of damping in pins and case since the start",

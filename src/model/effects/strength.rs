@@ -65,7 +65,7 @@ impl StrengthSpec {
 }
 
 impl Declare for StrengthSpec {
-    const DESCRIPTION: &'static str = "Stress and fatigue of the teeth";
+    const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, and Miner damage";
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
         why: "it follows from the forces of the meshes",

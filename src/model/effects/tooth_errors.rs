@@ -12,7 +12,8 @@ use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
 impl Declare for ToothErrorSpec {
-    const DESCRIPTION: &'static str = "Deviations, modifications and misalignment";
+    const DESCRIPTION: &'static str =
+        "Tooth errors: pitch by accuracy grade, runout, tip relief, crowning, misalignment";
     const NEEDS: Option<Needs> =
         Some(Needs { contacts: &[GearContact::Tooth, GearContact::Solid], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =

@@ -13,7 +13,7 @@ use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
 impl Declare for ToothFaultSpec {
-    const DESCRIPTION: &'static str = "A tooth that breaks at a time or by fault.trigger";
+    const DESCRIPTION: &'static str = "A tooth that loses a piece, at a time or by fault.trigger";
     const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];

@@ -10,7 +10,7 @@ use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
 impl Declare for ToothFrictionSpec {
-    const DESCRIPTION: &'static str = "Friction along the flanks";
+    const DESCRIPTION: &'static str = "Friction along the flanks: Coulomb-Stribeck or one of three published laws";
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.tooth_friction",
         description: "Heat of friction along the flanks since the start",

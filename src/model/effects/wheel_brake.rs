@@ -34,7 +34,8 @@ impl Default for WheelBrakeSpec {
 const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
-    const DESCRIPTION: &'static str = "Brakes at the wheels, by left.brake_torque and right.brake_torque";
+    const DESCRIPTION: &'static str =
+        "Brakes that resist and hold the wheels, by left.brake_torque and right.brake_torque";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
