@@ -28,13 +28,19 @@ pub struct BodyEffects {
 impl BodyEffects {
     /// Effects of the scene `p` that act on bodies.
     pub fn new(p: &Parameters, effects: &SceneEffects, plan: &Plan) -> Self {
-        let (forces, friction) = (effects.on_bodies(plan), effects.friction());
+        let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
         Self {
             always: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
             friction,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
         }
+    }
+
+    /// Takes over tunable parameters.
+    pub fn tune(&mut self, effects: &SceneEffects) {
+        self.friction.clear();
+        self.friction.extend(effects.friction());
     }
 
     /// Speed that an imposed carrier has at the positions `q` under its command [rad/s].

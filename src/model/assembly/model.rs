@@ -18,6 +18,7 @@ use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::effects::strength::Strength;
 use crate::model::scene::layout::MAX_DOF;
 use crate::model::scene::{GearContact, Layout, Plan, Requests};
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::model::setup::{Parameters, SceneEffects, validation};
 use crate::problem::Problem;
 
@@ -81,7 +82,7 @@ impl Model {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
                 let laws = Laws::new(parameters, &pair, tooth.slices()).map_err(|p| vec![p])?;
-                Gears::Teeth(Box::new(teeth(parameters, &pair, &ideal, laws, tooth, bodies)))
+                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, laws, tooth, bodies)))
             }
         };
         let strength = if BUILT && parameters.effects.strength {
@@ -106,16 +107,14 @@ impl Model {
         self.parameters = *parameters;
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
-            Gears::Rigid(rigid) => rigid.bodies.friction = effects.friction(),
+            Gears::Rigid(rigid) => rigid.bodies.tune(&effects),
             Gears::Teeth(teeth) => {
                 let damping = Laws::damping(parameters);
                 teeth.mesh.law.set_damping(damping);
                 let additions = &mut teeth.additions;
                 additions.detailed.damping = damping;
-                if let Ok(tooth) = effects.on_teeth() {
-                    additions.detailed.friction = tooth.friction;
-                }
-                additions.bodies.friction = effects.friction();
+                additions.detailed.friction = effects.on_flanks().map(|friction| friction.law);
+                additions.bodies.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
                 additions.in_detail |= additions.bodies.needs_loads();
             }
@@ -142,24 +141,25 @@ fn tooth_effects(p: &Parameters, effects: &SceneEffects) -> Result<ToothEffects,
 
 fn teeth(
     p: &Parameters,
-    pair: &Pair,
+    effects: &SceneEffects,
     ideal: &Ideal,
     laws: Laws,
     tooth: ToothEffects,
     mut bodies: BodyEffects,
 ) -> Teeth {
-    let plan = ideal.plan;
+    let (pair, plan) = (effects.setting.pair, ideal.plan);
+    let friction = effects.on_flanks();
     // a tooth may neither bend by the working depth nor reach the next gap
     let working_depth = (pair.gears[0].addendum + pair.gears[1].addendum) / pair.outer_cone;
     let jump = working_depth.min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
-    let in_detail = tooth.gaps[1].is_some() || tooth.friction.is_some() || plan.pins || bodies.needs_loads();
+    let in_detail = tooth.gaps[1].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
     let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, jump);
     let additions = Additions {
-        detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, tooth.friction),
+        detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, friction.map(|f| f.law)),
         in_detail,
-        friction_heat: tooth.friction_heat,
+        friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
         bodies,

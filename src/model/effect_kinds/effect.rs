@@ -6,7 +6,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 use super::body::{Bodies, BodyEffect};
 use super::friction_source::FrictionSource;
-use super::teeth::ToothEffects;
+use super::teeth::{FlankFriction, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::declaration::units::{DisplayUnit, Unit};
 use crate::declaration::{Parameter, Row};
@@ -132,6 +132,11 @@ pub trait Effect {
     /// Sets up what it does to single teeth.
     fn on_teeth(&self, _setting: &Setting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
         Ok(())
+    }
+
+    /// Friction along the flanks.
+    fn on_flanks(&self, _setting: &Setting) -> Option<FlankFriction> {
+        None
     }
 
     /// Forces and torques on bodies, other than dry friction.

@@ -1,4 +1,4 @@
-//! What effects do to single teeth: gaps of their pairs, friction along the flanks, loads that differ over the face.
+//! What effects do to single teeth: gaps of their pairs, loads that differ over the face, friction along the flanks.
 
 use std::sync::Arc;
 
@@ -17,10 +17,15 @@ pub struct ToothEffects {
     pub individual: bool,
     /// Whether loads differ over the face.
     pub sliced: bool,
-    /// Friction along the flanks.
-    pub friction: Option<ToothFriction>,
+}
+
+/// Friction along the flanks.
+#[derive(Clone, Copy, Debug)]
+pub struct FlankFriction {
+    /// The law with its parameters.
+    pub law: ToothFriction,
     /// Where its heat is booked.
-    pub friction_heat: usize,
+    pub heat: usize,
 }
 
 impl ToothEffects {

@@ -5,7 +5,7 @@ use crate::declaration::units::{self, MPA_S, UM};
 use crate::declaration::{Parameter, Row, choice, real, tunable};
 use crate::friction::{FrictionLaw, ToothFrictionSpec};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::teeth::FlankFriction;
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
@@ -90,11 +90,9 @@ impl Effect for ToothFrictionSpec {
         found.extend(self.problem());
     }
 
-    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_flanks(&self, setting: &Setting) -> Option<FlankFriction> {
         let material = setting.material;
         let modulus = material.young_modulus / (2.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
-        teeth.friction = Some(tooth_friction::ToothFriction { spec: *self, modulus });
-        teeth.friction_heat = setting.heat;
-        Ok(())
+        Some(FlankFriction { law: tooth_friction::ToothFriction { spec: *self, modulus }, heat: setting.heat })
     }
 }

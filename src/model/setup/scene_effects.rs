@@ -4,7 +4,7 @@ use super::effect_outputs::{heat_index, places_of};
 use crate::model::effect_kinds::body::{Bodies, BodyEffect};
 use crate::model::effect_kinds::effect::{BUILT, Effect, Setting};
 use crate::model::effect_kinds::friction_source::FrictionSource;
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};
 use crate::model::effects::{Declared, EffectParameters, Effects, configured};
 use crate::model::scene::{GearContact, Plan, Requests};
 use crate::problem::Problem;
@@ -93,9 +93,14 @@ impl<'a> SceneEffects<'a> {
         self.acting().filter_map(|(_, setting, effect)| effect.on_bodies(&setting, plan)).collect()
     }
 
+    /// Friction along the flanks.
+    pub fn on_flanks(&self) -> Option<FlankFriction> {
+        self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
+    }
+
     /// Dry friction.
-    pub fn friction(&self) -> Vec<FrictionSource> {
-        self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting)).collect()
+    pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
+        self.acting().filter_map(|(_, setting, effect)| effect.friction(&setting))
     }
 }
 
