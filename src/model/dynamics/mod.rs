@@ -10,6 +10,7 @@ mod loads;
 mod motion;
 pub mod power;
 pub mod rigid;
+mod rigid_sticking;
 pub mod sizes;
 pub mod state;
 mod sticking;

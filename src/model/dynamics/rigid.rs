@@ -8,11 +8,10 @@ use crate::model::assembly::rigid::{IMPOSED, Rigid};
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body::{Action, Bodies, Slopes};
-use crate::model::effect_kinds::dry_friction::{FrictionState, Mode, Pressure, Slip};
+use crate::model::effect_kinds::dry_friction::FrictionState;
 use crate::model::effect_kinds::friction::Friction;
 use crate::model::scene::layout::{CARRIER, HOLDS, PLANET, WHEELS};
 use crate::model::scene::{Course, Inputs};
-use crate::model::setup::effect_outputs::HEATS;
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,12 +29,12 @@ pub struct RigidTorques {
 pub struct RigidEquations<'a, const N: usize> {
     /// Constants.
     pub rigid: &'a Rigid,
-    inputs: Inputs,
-    course: Course,
-    driven: bool,
+    pub(super) inputs: Inputs,
+    pub(super) course: Course,
+    pub(super) driven: bool,
     /// State of the dry friction.
     pub friction_state: [FrictionState; HOLDS],
-    friction: Friction,
+    pub(super) friction: Friction,
 }
 
 impl<'a, const N: usize> RigidEquations<'a, N> {
@@ -55,50 +54,7 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &course.rates[0] }
     }
 
-    /// Bodies that may stick, by their number: side gears, wheels. Planets stick with the side gears here.
-    fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
-        [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|&i| self.friction.on(i).is_on())
-    }
-
-    /// Degree of freedom on which the friction of body `i` acts.
-    fn freedom_of(&self, i: usize) -> usize {
-        if i < WHEELS { i } else { self.wheel(i - WHEELS) }
-    }
-
-    /// Motion of body `i` against the surface it rubs on: carrier, or ground.
-    fn slip(&self, at: &Point<N>, i: usize) -> Slip {
-        let body = self.freedom_of(i);
-        if i < WHEELS {
-            return Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] };
-        }
-        let s = i - WHEELS;
-        let twist = if body == s { 0.0 } else { at.q[body] };
-        Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
-    }
-
-    /// Loads on all rubbing surfaces `time` [s] after the inputs were set.
-    fn pressures(&self, time: f64) -> [Pressure; HOLDS] {
-        let mut all = [Pressure::default(); HOLDS];
-        let wheels = if self.driven {
-            self.friction.wheel_pressures(&self.course.after(time, &self.inputs).0)
-        } else {
-            self.friction.wheel_pressures(&self.inputs)
-        };
-        all[WHEELS..].copy_from_slice(&wheels);
-        all
-    }
-
-    /// Torques of the friction on the wheels [N·m].
-    pub fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let pressures = self.pressures(0.0);
-        [WHEELS, WHEELS + 1].map(|i| {
-            let friction = self.friction.on(i);
-            let torque = || friction.torque(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
-            if friction.is_on() { torque() } else { 0.0 }
-        })
-    }
-
-    fn wheel(&self, s: usize) -> usize {
+    pub(super) fn wheel(&self, s: usize) -> usize {
         if Self::ENDS && self.rigid.plan.shafts[s] { N - 2 + s } else { s }
     }
 
@@ -201,58 +157,6 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
         let energy = |i: usize| self.friction.on(i).energy(&self.friction_state[i], self.slip(at, i).position);
         bodies + self.bodies_with_friction().map(energy).sum::<f64>()
-    }
-
-    /// Distance of each friction from its switch, where it acts.
-    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
-        let pressures = self.pressures(0.0);
-        let mut margins = [None; HOLDS];
-        for i in self.bodies_with_friction() {
-            let margin = self.friction.on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
-            margins[i] = Some(margin);
-        }
-        margins
-    }
-
-    /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
-    pub fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
-        let pressures = self.pressures(time);
-        let due = |i: usize| self.friction.on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
-        self.bodies_with_friction().any(due)
-    }
-
-    /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
-    pub fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
-        let pressures = self.pressures(time);
-        for i in self.bodies_with_friction().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction.on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
-        }
-    }
-
-    /// Switches friction where it is due at `at`, `time` [s] after the inputs were set, on `bodies`; what its springs
-    /// lose is heat.
-    pub fn settle_friction(
-        &mut self,
-        at: &Point<N>,
-        time: f64,
-        bodies: std::ops::Range<usize>,
-        heat: &mut [f64; HEATS],
-    ) {
-        let pressures = self.pressures(time);
-        for i in [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|i| bodies.contains(i)) {
-            let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
-            if friction.is_on() {
-                friction.settle(&mut self.friction_state[i], &slip, &pressures[i], 1.0, heat);
-            }
-        }
-    }
-
-    /// Takes friction over from another stiffness.
-    pub fn take_friction_over(&mut self, at: &Point<N>, heat: &mut [f64; HEATS]) {
-        for i in [0, 1, WHEELS, WHEELS + 1] {
-            let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
-            friction.take_over(&mut self.friction_state[i], &slip, heat, 1.0);
-        }
     }
 }
 

@@ -3,6 +3,8 @@
 
 pub mod body;
 pub mod dry_friction;
+#[cfg(test)]
+mod dry_friction_tests;
 pub mod effect;
 pub mod friction;
 pub mod friction_source;

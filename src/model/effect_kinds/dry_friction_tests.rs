@@ -1,0 +1,60 @@
+//! Tests of the stick element.
+
+use super::dry_friction::*;
+
+const STIFFNESS: f64 = 1e3;
+
+/// A clutch whose limit torque is its load.
+fn clutch() -> DryFriction {
+    let mut clutch = DryFriction::new(DAMPING_TIME, 0);
+    clutch.push(Part { per_load: 1.0, static_ratio: 1.0, ..Part::NONE }, STIFFNESS);
+    clutch
+}
+
+fn pressed(load: f64) -> Pressure {
+    Pressure { thrust: 0.0, load }
+}
+
+#[test]
+fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
+    let clutch = clutch();
+    let turn = |position| Slip { position, speed: 1.0 };
+    // slides under 10 N·m: the spring holds as much
+    let anchor = clutch.drag(0.0, &turn(0.5), &pressed(10.0));
+    assert!((STIFFNESS * (0.5 - anchor) - 10.0).abs() < 1e-9);
+    // the load rises a hundredfold while the body slides by 1 mrad, which winds the spring by 1 N·m
+    let anchor = clutch.drag(anchor, &turn(0.501), &pressed(1000.0));
+    assert!((STIFFNESS * (0.501 - anchor) - 11.0).abs() < 1e-9);
+    let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
+    let mut heat = [0.0];
+    let stopped = Slip { position: 0.501, speed: -1e-7 };
+    clutch.settle(&mut hold, &stopped, &pressed(1000.0), 1.0, &mut heat);
+    assert_eq!(hold.mode, Mode::Stuck);
+    assert!((clutch.torque(&hold, &Slip { speed: 0.0, ..stopped }, &pressed(1000.0)) - 11.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
+    let (clutch, by) = (clutch(), pressed(10.0));
+    // wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100 mrad
+    let hold = FrictionState { mode: Mode::Stuck, anchor: -0.01, stiffness: STIFFNESS };
+    let turn = |position| Slip { position, speed: -1.0 };
+    let part = clutch.crossing(&hold, (&turn(0.0), &by), (&turn(-0.1), &by)).unwrap();
+    let shift = DAMPING_TIME;
+    assert!((part * 0.1 - (0.02 - shift)).abs() < 1e-4, "{part}");
+}
+
+#[test]
+fn no_change_of_stiffness_gives_a_spring_energy() {
+    let turn = Slip { position: 0.01, speed: 0.0 };
+    for stiffness in [10.0, 1e3, 1e5] {
+        let mut hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness };
+        let before = 0.5 * stiffness * 1e-4;
+        let mut heat = [0.0];
+        let clutch = clutch();
+        clutch.take_over(&mut hold, &turn, &mut heat, 1.0);
+        let after = clutch.energy(&hold, turn.position);
+        assert!(after <= before * (1.0 + 1e-12), "{stiffness}: {before} J became {after} J");
+        assert!((heat.iter().sum::<f64>() - (before - after)).abs() < 1e-12);
+    }
+}
