@@ -11,7 +11,7 @@
 
 typedef enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING } Status;
 enum { MODEL_EXCHANGE, CO_SIMULATION };
-enum { STATES = 30, INDICATORS = 22 };
+enum { STATES = 30, INDICATORS = 24 };
 
 typedef struct {
     void (*logger)(void *, const char *, Status, const char *, const char *, ...);
