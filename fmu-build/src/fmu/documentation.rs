@@ -64,14 +64,14 @@ impl Figure {
 /// The pictures: the study's two cases as the program simulates them.
 pub const FIGURES: [Figure; 3] = [
     Figure {
-        file: ["docs", "images", "speeds.png"],
+        file: ["docs", "figures", "speeds.png"],
         caption: "Speeds of both half-shafts over time, straight ahead (start values) and in the turn.",
     },
     Figure {
-        file: ["docs", "images", "tooth_forces.png"],
+        file: ["docs", "figures", "tooth_forces.png"],
         caption: "Tooth forces in the same cases: straight ahead, the first touch of the teeth, and the turn.",
     },
-    Figure { file: ["docs", "images", "ripple.png"], caption: "Ripple in the turn, from pair to pair of teeth." },
+    Figure { file: ["docs", "figures", "ripple.png"], caption: "Ripple in the turn, from pair to pair of teeth." },
 ];
 
 /// The page of an archive with `libraries`, into which all of `linked` is linked.

@@ -52,9 +52,9 @@ fn run(quick: bool, write: bool) -> Result<()> {
     println!("\nresults: {}", paths::shown(&folder));
     if write {
         sections::renew(DOCUMENT, MARKS, &table)?;
-        let images = paths::workspace().join("docs").join("images");
-        fs::copy(folder.join(PICTURE), images.join(PICTURE)).context("the picture cannot be copied to docs/images")?;
-        println!("renewed: {DOCUMENT}, docs/images/{PICTURE}");
+        let figures = paths::workspace().join("docs").join("figures");
+        fs::copy(folder.join(PICTURE), figures.join(PICTURE)).context("the picture cannot be copied to docs/figures")?;
+        println!("renewed: {DOCUMENT}, docs/figures/{PICTURE}");
     }
     Ok(())
 }

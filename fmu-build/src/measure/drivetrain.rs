@@ -55,12 +55,12 @@ fn run(quick: bool, write: bool) -> Result<()> {
     println!("\nresults: {}", paths::shown(&folder));
     if write {
         sections::renew(DOCUMENT, MARKS, &tables)?;
-        let images = paths::workspace().join("docs").join("images");
+        let figures = paths::workspace().join("docs").join("figures");
         for picture in PICTURES {
-            fs::copy(folder.join(picture), images.join(picture))
-                .with_context(|| format!("{picture} cannot be copied to docs/images"))?;
+            fs::copy(folder.join(picture), figures.join(picture))
+                .with_context(|| format!("{picture} cannot be copied to docs/figures"))?;
         }
-        println!("renewed: {DOCUMENT} and its pictures in docs/images");
+        println!("renewed: {DOCUMENT} and its pictures in docs/figures");
     }
     Ok(())
 }

@@ -69,7 +69,7 @@ fn run(readme: bool) -> Result<()> {
         sections::renew(DOCUMENT, MARKS, &markdown)?;
         sections::renew("README.md", MARKS, &report.excerpt(&EXCERPT))?;
         copy_pictures(&folder)?;
-        println!("renewed: README.md, docs/study.md, docs/images");
+        println!("renewed: README.md, docs/study.md, docs/figures");
     }
     Ok(())
 }
@@ -91,12 +91,12 @@ fn simulate(
 }
 
 fn copy_pictures(folder: &Path) -> Result<()> {
-    let images = paths::workspace().join("docs").join("images");
-    fs::create_dir_all(&images).context("docs/images cannot be made")?;
+    let figures = paths::workspace().join("docs").join("figures");
+    fs::create_dir_all(&figures).context("docs/figures cannot be made")?;
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
-            fs::copy(&path, images.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
+            fs::copy(&path, figures.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
         }
     }
     Ok(())
