@@ -19,6 +19,7 @@ import sys
 from pathlib import Path
 
 import cases
+import picture
 import plan
 import table
 
@@ -46,7 +47,7 @@ def main():
     text = table.markdown(results, machine(), missing)
     (folder / "table.md").write_text(text, encoding="utf-8")
     table.write_csv(folder / "results.csv", results)
-    table.draw(folder / "peers.png", results)
+    picture.draw(folder / "peers.png", [result for result in results if table.keeps_teeth(result)])
     told = [result | {"row": vars(result["row"])} for result in results]
     (folder / "results.json").write_text(json.dumps({"machine": machine(), "results": told}, indent=1) + "\n")
     print(text, end="")

@@ -1,4 +1,4 @@
-"""The results as Markdown, CSV and a picture."""
+"""The results as Markdown and CSV."""
 
 import csv
 
@@ -137,31 +137,3 @@ def statics():
     """Sum of normal forces on a side gear [kN] with all of it at the heel, the middle and the toe."""
     return [cases.LOAD / (cone * np.sin(gears.SIDE.base)) / 1e3
             for cone in (gears.OUTER_CONE, gears.MEAN_CONE, gears.INNER_CONE)]
-
-
-def draw(path, results):
-    """Cost and ripple of the turn; a line goes from coarse to fine."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    figure, axes = plt.subplots(figsize=(9.5, 5.2), layout="constrained")
-    groups = dict.fromkeys(result["row"].group for result in results if keeps_teeth(result))
-    markers = {"this program": "o", "MuJoCo": "s", "Drake": "^"}
-    for group in groups:
-        turns = [r["cases"]["turn"] for r in results if r["row"].group == group]
-        if max(turns[0]["ripple"]) < 1e-6:
-            continue
-        marker = next(mark for tool, mark in markers.items() if group.startswith(tool))
-        label = group.replace("`", "")
-        costs, ripples = [t["cost"] for t in turns], [t["ripple"][0] for t in turns]
-        drawn, = axes.plot(costs, ripples, marker=marker, lw=1.2, ms=6, label=label)
-        axes.plot(costs[-1:], ripples[-1:], marker=marker, ms=11, mfc="none", color=drawn.get_color(), ls="")
-    axes.set(xscale="log", xlabel="CPU seconds per simulated second", ylabel="ripple, left, peak to peak, %",
-             ylim=(0.0, None), title="The study's turn: what a run costs, and whether its ripple stays where it is")
-    axes.grid(alpha=0.3)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.legend(frameon=False, fontsize=9, loc="upper left", bbox_to_anchor=(1.0, 1.0),
-                title="from coarse to fine;\nthe ring marks the finest")
-    figure.savefig(path, dpi=120)

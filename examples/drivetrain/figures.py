@@ -1,62 +1,70 @@
 """Pictures: the launch, errors by communication step, and the flow of signals."""
 
-import matplotlib.pyplot as plt
+import sys
+from pathlib import Path
 
 from masters import ALL
 from parameters import CONNECTIONS, STEP
 
-COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:red", "tab:purple")
-MARKERS = ("o", "s", "^", "D", "v")
+sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+import style  # noqa: E402
+
+RADIUS, RATIO = 0.334, 13.65
 
 
-def launch(file, reference, coupled):
+def launch(file, reference, coupled, contact):
     """Lines: the whole as one set of equations; dots: the FMUs as plain hosts couple them."""
-    radius = 0.334
     panels = [
-        ("torque, N m", {"engine × 13.65": (("engine", "torque"), 13.65), "carrier": (("final_drive", "carrier_torque"), 1),
-                         "each half-shaft (both alike)": (("differential", "left.shaft_torque"), 1)}),
+        ("torque, N·m", {f"engine × {RATIO:g}": (("engine", "torque"), RATIO), "carrier": (("final_drive", "carrier_torque"), 1),
+                         "each half-shaft (both equal)": (("differential", "left.shaft_torque"), 1)}),
         ("speed, rad/s", {"left wheel, on ice": (("left_wheel", "speed"), 1), "carrier": (("differential", "carrier.speed"), 1),
                           "right wheel, on dry road": (("right_wheel", "speed"), 1),
-                          "vehicle / tyre radius": (("vehicle", "speed"), 1 / radius)}),
+                          "vehicle / tyre radius": (("vehicle", "speed"), 1 / RADIUS)}),
         ("force of the road, N", {"left wheel, on ice": (("left_wheel", "force"), 1),
                                   "right wheel, on dry road": (("right_wheel", "force"), 1)}),
     ]
-    figure, axes = plt.subplots(3, 1, figsize=(8, 9), sharex=True, layout="constrained")
-    for axis, (unit, lines) in zip(axes, panels):
-        for k, (label, (signal, factor)) in enumerate(lines.items()):
-            axis.plot(reference[0], reference[1][signal] * factor, color=COLOURS[k], label=label, linewidth=1.2)
-            axis.plot(coupled[0][::10], coupled[1][signal][::10] * factor, ".", color=COLOURS[k], markersize=5)
-        axis.set_ylabel(unit)
-        axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
-    axes[0].set_title(f"Launch on split friction, with teeth\nlines: one set of equations; dots: FMUs, steps of "
-                      f"{STEP * 1e3:g} ms", fontsize=10)
+    figure, axes = style.panels(3, 1, 11.0, sharex=True)
+    # a dot for every hundredth of a second
+    apart = max(round(0.01 / (coupled[0][1] - coupled[0][0])), 1)
+    for axis, (label, lines) in zip(axes, panels):
+        for name, (signal, factor) in lines.items():
+            line, = axis.plot(reference[0], reference[1][signal] * factor, label=name)
+            axis.plot(coupled[0][::apart], coupled[1][signal][::apart] * factor, ".", color=line.get_color(), markersize=7)
+        axis.set_ylabel(label)
+        axis.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    axes[0].set_title("Launch on split friction: left wheel on ice, right wheel on dry road")
     axes[-1].set_xlabel("time, s")
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    style.caption(figure, "A car starts with its left wheel on ice. The wheel on ice spins up; the open differential gives both half-shafts "
+                  "the same torque, so the wheel on dry road gets no more than the ice bears, plus what the wheels take to accelerate. "
+                  "Lines: the whole drivetrain as one set of equations. Dots: six FMUs coupled by a plain host in steps of "
+                  f"{STEP * 1e3:g} ms; they lie on the lines. gear_contact = {contact}.")
+    style.save(figure, file)
 
 
 def errors(file, rows, limits):
     """Log-log, with lines of order 1 and 2, and the predicted limits as vertical lines."""
     contacts = list(dict.fromkeys(row["contact"] for row in rows))
-    figure, axes = plt.subplots(1, len(contacts), figsize=(5.5 * len(contacts), 5.5), sharey=True, layout="constrained")
+    figure, axes = style.panels(1, len(contacts), 7.6, sharey=True, squeeze=False)
+    axes = axes[0]
     for axis, contact in zip(axes, contacts):
-        for k, (name, master) in enumerate(ALL.items()):
+        for (name, master), color, marker in zip(ALL.items(), style.CYCLE, style.MARKERS):
             own = [row for row in rows if (row["contact"], row["master"], row["state"]) == (contact, name, "ok")]
-            axis.loglog([row["step"] * 1e3 for row in own], [row["largest"] for row in own], marker=MARKERS[k],
-                        color=COLOURS[k], label=master.label, markersize=5, linewidth=1.2)
-            axis.axvline(limits[name]["predicted"] * 1e3, color=COLOURS[k], linestyle=":", linewidth=1)
+            axis.plot([row["step"] * 1e3 for row in own], [row["largest"] for row in own], marker=marker, color=color,
+                      label=master.label, markersize=6)
+            axis.axvline(limits[name]["predicted"] * 1e3, color=color, linestyle=":", linewidth=1.3)
+        axis.set(xscale="log", yscale="log", title=f"gear_contact = {contact}", xlabel="communication step, ms")
         for order, at, level in ((1, 1e-2, 1e-3), (2, 1e-1, 3e-5)):
             ends = (at, 3.0 * at)
-            axis.loglog(ends, [level * (end / at) ** order for end in ends], color="black", linewidth=1)
-            axis.text(ends[1], level * 3.0**order, f" order {order}", fontsize=8, va="center")
-        axis.set_title(f"gear_contact = {contact}", fontsize=10)
-        axis.set_xlabel("communication step, ms")
-        axis.grid(alpha=0.3, which="both")
+            axis.plot(ends, [level * (end / at) ** order for end in ends], color=style.INK, linewidth=1)
+            axis.text(ends[1], level * 3.0**order, f" order {order}", fontsize=style.SMALL, va="center")
     axes[0].set_ylabel("largest error of any quantity, relative")
-    axes[0].legend(fontsize=8, loc="upper left")
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper center", ncols=3)
+    style.caption(figure, "Error of the coupled drivetrain against the communication step, by the way the host exchanges signals. Inputs held "
+                  "over a step give order 1; inputs on lines give order 2. Dotted: the longest step that the linearised parts allow, "
+                  "in the colour of the curve; no curve goes beyond its own. Teeth and ideal gears have the same errors and limits, "
+                  "because the stiff mesh stays inside one FMU.")
+    style.save(figure, file)
 
 
 # boxes of the flow of signals: place, text
@@ -68,43 +76,45 @@ BOXES = {
     "right_wheel": (7.8, 0.0, "right wheel\ninertia, tyre\non dry road"),
     "vehicle": (10.4, 1.0, "vehicle\nmass, drag"),
 }
-WIDTH, HEIGHT = 1.55, 0.75
+WIDTH, HEIGHT = 1.7, 0.8
 
 
 def signals(file):
-    """Who gives what to whom: torques and forces drawn full, speeds dashed."""
-    figure, axis = plt.subplots(figsize=(12.5, 4.2), layout="constrained")
+    """Which part gives what to which: torques and forces drawn full, speeds dashed."""
+    figure, axis = style.panels(1, 1, 5.2)
     for name, (x, y, text) in BOXES.items():
         own = name == "differential"
-        axis.add_patch(plt.Rectangle((x, y), WIDTH, HEIGHT, facecolor="#dbe9f6" if own else "#f3f3f3", edgecolor="black"))
-        axis.text(x + WIDTH / 2, y + HEIGHT / 2, text, ha="center", va="center", fontsize=8)
+        axis.add_patch(style.plt.Rectangle((x, y), WIDTH, HEIGHT, facecolor="#dbe9f6" if own else "#f3f3f3", edgecolor=style.TEXT))
+        axis.text(x + WIDTH / 2, y + HEIGHT / 2, text, ha="center", va="center", fontsize=style.SMALL)
     for (to, _), (source, output) in CONNECTIONS.items():
         arrow(axis, source, to, output)
-    axis.set_xlim(-0.2, 12.2)
-    axis.set_ylim(-0.25, 3.0)
+    axis.set_xlim(-0.1, 12.2)
+    axis.set_ylim(-0.1, 2.95)
     axis.axis("off")
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    style.caption(figure, "The drivetrain as six FMUs. Torques and forces (red) go forward, speeds (green, dashed) come back. The stiff tooth "
+                  "mesh is inside one part and never crosses an interface; the half-shafts are the soft place where the parts are "
+                  "cut.")
+    style.save(figure, file)
 
 
 def arrow(axis, source, to, output):
     forward, speed = BOXES[source][0] < BOXES[to][0], "speed" in output
     start, end = port(source, to, forward), port(to, source, forward)
-    colour = "tab:green" if speed else "tab:red"
-    axis.annotate("", xy=end, xytext=start, arrowprops={"arrowstyle": "-|>", "linestyle": "--" if speed else "-",
-                                                        "color": colour})
+    color = style.GREEN if speed else style.RED
+    axis.annotate("", xy=end, xytext=start, arrowprops={"arrowstyle": "-|>", "linestyle": "--" if speed else "-", "color": color,
+                                                        "linewidth": 1.5})
     label = f"{source.split('_')[-1]} speed" if output == "speed" else output
     label = label.removeprefix("left.").removeprefix("right.").replace("_", " ").replace(".", " ")
     level = start[1] == end[1]
     axis.text((start[0] + end[0]) / 2, (start[1] + end[1]) / 2 + (0.0 if not level else 0.06 if forward else -0.06), label,
-              fontsize=7, ha="center", va="center" if not level else "bottom" if forward else "top", color=colour,
+              fontsize=9.5, ha="center", va="center" if not level else "bottom" if forward else "top", color=color,
               bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.9})
 
 
 def port(box, other, forward):
-    """Where an arrow between two boxes meets `box`: what goes forward lies above what comes back."""
+    """Where an arrow between two boxes meets `box`: the forward one above the one back."""
     (x, y, _), (_, y_other, _) = BOXES[box], BOXES[other]
     # boxes that have two neighbours on one edge keep a half for each
-    half = 0.0 if y == y_other else (0.19 if y_other > y else -0.19) if box in ("differential", "vehicle") else 0.0
-    apart = 0.1 if half else 0.2
+    half = 0.0 if y == y_other else (0.21 if y_other > y else -0.21) if box in ("differential", "vehicle") else 0.0
+    apart = 0.11 if half else 0.22
     return x + (WIDTH if BOXES[box][0] < BOXES[other][0] else 0.0), y + HEIGHT / 2 + half + (apart if forward else -apart)

@@ -50,10 +50,10 @@ def everything(fmu, library_path, folder, quick):
     mesh = measure.mesh(library)
     measure.write_csv(folder / "errors.csv", errors)
     found = {"hosts": hosts, "references": references, "limits": limits, "errors": errors, "mesh": mesh}
-    if not quick:
-        figures.launch(folder / "drivetrain_launch.png", references["tooth"].dense, measure.coupled(fmus, "tooth"))
-        figures.errors(folder / "drivetrain_errors.png", errors, limits)
-        figures.signals(folder / "drivetrain_signals.png")
+    contact = contacts[-1]
+    figures.launch(folder / "drivetrain_launch.png", references[contact].dense, measure.coupled(fmus, contact), contact)
+    figures.errors(folder / "drivetrain_errors.png", errors, limits)
+    figures.signals(folder / "drivetrain_signals.png")
     return report.markdown(found), checks.wrong(found)
 
 

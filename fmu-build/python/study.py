@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from fmpy import extract, read_model_description, simulate_fmu
 
-import figures
+import study_figures
 
 MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
                 "left_transmission_error", "right_transmission_error"]
@@ -55,7 +55,7 @@ def main():
     results = {case: run["results"] for case, run in runs.items()}
     (folder / "results.json").write_text(json.dumps(results, indent=2) + "\n", encoding="utf-8")
     write_spectra(folder / "force_spectrum.csv", {case: run["spectrum"] for case, run in runs.items()})
-    drawings = [figures.speeds, figures.tooth_forces, figures.force_spectrum]
+    drawings = [study_figures.speeds, study_figures.tooth_forces, study_figures.force_spectrum]
     for index, draw in enumerate(drawings):
         progress(1.0 - FIGURES_SHARE * (1.0 - index / len(drawings)), f"drawing {draw.__name__}.png")
         draw(folder, order, runs)

@@ -1,0 +1,43 @@
+"""Numbers and texts as people read them in pictures."""
+
+import textwrap
+
+import numpy as np
+
+# units of the interface as they are printed
+UNITS = {"N.m": "N·m", "m/s2": "m/s²"}
+
+
+def spaced(value):
+    """A large number in groups: 16 078."""
+    return f"{value:,.0f}".replace(",", " ")
+
+
+def percent(error):
+    """A relative error in percent, short."""
+    value = 100.0 * error
+    if not np.isfinite(value):
+        return "–"
+    if value < 1e-3:
+        return "0 %" if value < 1e-9 else "< 0.001 %"
+    return f"{value:.2g} %" if value < 99.5 else f"{value:.0f} %"
+
+
+def with_unit(value, unit):
+    """A value with its unit, small ones in a smaller unit."""
+    if unit == 1.0:
+        return f"{100.0 * value:.3g} %"
+    for whole, factor, part in [("m", 1e6, "µm"), ("s", 1e3, "ms"), ("J", 1e3, "mJ")]:
+        if unit == whole and abs(value) < 0.1:
+            return f"{factor * value:.4g} {part}"
+    unit = UNITS.get(unit, unit)
+    return f"{spaced(value)} {unit}" if abs(value) >= 1e3 else f"{value:.4g} {unit}"
+
+
+def ratio(value):
+    """A ratio with two digits."""
+    return f"{value:.2g}" if value < 100.0 else spaced(float(f"{value:.2g}"))
+
+
+def wrapped(text, width):
+    return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False))
