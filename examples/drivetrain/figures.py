@@ -62,7 +62,7 @@ def errors(file, rows, limits):
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
     style.caption(figure, "Error of the coupled drivetrain against the communication step, by the way the host exchanges signals. Inputs held "
                   "over a step give order 1; inputs on lines give order 2. Dotted: the longest step that the linearised parts allow, "
-                  "in the colour of the curve; no curve goes beyond its own. Teeth and ideal gears have the same errors and limits, "
+                  "in the colour of the curve. With teeth and with ideal gears orders and limits are the same, "
                   "because the stiff mesh stays inside one FMU.")
     style.save(figure, file)
 
@@ -76,7 +76,7 @@ BOXES = {
     "right_wheel": (7.8, 0.0, "right wheel\ninertia, tyre\non dry road"),
     "vehicle": (10.4, 1.0, "vehicle\nmass, drag"),
 }
-WIDTH, HEIGHT = 1.7, 0.8
+WIDTH, HEIGHT = 1.48, 0.8
 
 
 def signals(file):
@@ -88,7 +88,7 @@ def signals(file):
         axis.text(x + WIDTH / 2, y + HEIGHT / 2, text, ha="center", va="center", fontsize=style.SMALL)
     for (to, _), (source, output) in CONNECTIONS.items():
         arrow(axis, source, to, output)
-    axis.set_xlim(-0.1, 12.2)
+    axis.set_xlim(-0.1, 12.0)
     axis.set_ylim(-0.1, 2.95)
     axis.axis("off")
     style.caption(figure, "The drivetrain as six FMUs. Torques and forces (red) go forward, speeds (green, dashed) come back. The stiff tooth "
@@ -107,7 +107,7 @@ def arrow(axis, source, to, output):
     label = label.removeprefix("left.").removeprefix("right.").replace("_", " ").replace(".", " ")
     level = start[1] == end[1]
     axis.text((start[0] + end[0]) / 2, (start[1] + end[1]) / 2 + (0.0 if not level else 0.06 if forward else -0.06), label,
-              fontsize=9.5, ha="center", va="center" if not level else "bottom" if forward else "top", color=color,
+              fontsize=9, ha="center", va="center" if not level else "bottom" if forward else "top", color=color,
               bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.9})
 
 
