@@ -24,7 +24,6 @@ def draw(path, results):
              ylim=(0.0, None), title="The study's turn: cost of a run, and the ripple that it finds")
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     style.caption(figure, "Each line runs from coarse to fine settings of one tool; the ring marks the finest. Where a line is level, the "
-                  "result no longer depends on the setting. This program's ripple is the same at every tolerance and needs a hundredth "
-                  "of the time or less; the contact models of multi-body programs for general shapes change their answer with step, "
-                  "facets and kind of contact.")
+                  "result no longer depends on the setting, as in this program at every tolerance. Multi-body programs with contact "
+                  "for general shapes change their answer with step, facets and kind of contact, and cost more.")
     style.save(figure, path)

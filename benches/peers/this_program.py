@@ -9,17 +9,18 @@ in the peers: speeds by the gear law, teeth in the middle of their gaps.
 import ctypes
 import shutil
 import statistics
+import sys
 import time as clock
+from pathlib import Path
 
 import numpy as np
 from fmpy import extract, instantiate_fmu, read_model_description
 
 import cases
 
-# values of the FMU's enumerations
-CONTACT = {"ideal": 1, "lumped": 2, "tooth": 3}
-LAW = {"impact": 1, "line": 2}
-ROLLING, IMPOSED = 2, 2
+sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+from instance import Instance  # noqa: E402
+
 FINE = 1e-4
 # a run takes milliseconds: so many of them, of which the median counts
 TIMED_RUNS = 21
@@ -33,36 +34,31 @@ class Program:
     def __init__(self, wanted):
         self.wanted, self.case = wanted, cases.CASES[wanted["case"]]
         self.description = read_model_description(wanted["fmu"])
-        self.reference = {variable.name: variable.valueReference for variable in self.description.modelVariables}
         self.folder = extract(wanted["fmu"])
 
     def start(self):
         """An instance at time 0 of the case."""
-        fmu = instantiate_fmu(self.folder, self.description, logger=lambda *_: None)
-        integers = {"scene.gear_contact": CONTACT[self.wanted["contact"]], "scene.start": ROLLING}
-        reals = {"carrier.speed_command": self.case.carrier, "solver.relative_tolerance": self.wanted["tolerance"],
-                 "left.load_torque": cases.LOAD, "right.load_torque": cases.LOAD}
+        opened = Instance(instantiate_fmu(self.folder, self.description, logger=lambda *_: None), self.description)
+        values = {"scene.gear_contact": self.wanted["contact"], "scene.start": "rolling",
+                  "carrier.speed_command": self.case.carrier, "solver.relative_tolerance": self.wanted["tolerance"],
+                  "left.load_torque": cases.LOAD, "right.load_torque": cases.LOAD}
         if self.wanted["contact"] == "tooth":
-            integers["contact.law"] = LAW[self.wanted["law"]]
+            values["contact.law"] = self.wanted["law"]
         if self.case.spin is not None:
-            integers["scene.planet_spin"], reals["planet.spin_command"] = IMPOSED, self.case.spin
-        for names, set_values in (integers, fmu.setInteger), (reals, fmu.setReal):
-            set_values([self.reference[name] for name in names], list(names.values()))
-        fmu.setupExperiment()
-        fmu.enterInitializationMode()
-        fmu.exitInitializationMode()
-        return fmu
-
-    def read(self, fmu, names):
-        return fmu.getReal([self.reference[name] for name in names])
+            values |= {"scene.planet_spin": "imposed", "planet.spin_command": self.case.spin}
+        for name, value in values.items():
+            opened.set(name, value)
+        opened.initialise()
+        return opened
 
     def timed(self, working):
         """CPU time of a run [s]; not `working`: of the same calls that have nothing to do."""
-        fmu = self.start()
+        opened = self.start()
+        fmu = opened.fmu
         step, get, component = fmu.dll.fmi2DoStep, fmu.dll.fmi2GetReal, fmu.component
         get.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         step.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int]
-        references = (ctypes.c_uint32 * 2)(*(self.reference[name] for name in SPEEDS))
+        references = (ctypes.c_uint32 * 2)(*(opened.variables[name].valueReference for name in SPEEDS))
         count = round(cases.LENGTH / cases.STEP)
         speeds = np.zeros((count, 2))
         times = [k * cases.STEP for k in range(count)]
@@ -86,16 +82,16 @@ class Program:
 
     def recorded(self):
         """Times, speeds, last angles and forces of a run in fine steps, and the integrator's steps in coarse ones."""
-        fmu, count = self.start(), round(cases.LENGTH / FINE)
+        opened, count = self.start(), round(cases.LENGTH / FINE)
         within = round(cases.STEP / FINE)
         speeds, forces = np.zeros((count, 2)), np.full((count // within, 2), np.nan)
         for k in range(count):
-            fmu.doStep(k * FINE, FINE)
-            speeds[k] = self.read(fmu, SPEEDS)
+            opened.fmu.doStep(k * FINE, FINE)
+            speeds[k] = opened.read(SPEEDS)
             if k % (within * cases.FORCES_EVERY) == 0:
-                forces[k // within] = self.read(fmu, FORCES)
-        angles = self.read(fmu, ANGLES)
-        fmu.freeInstance()
+                forces[k // within] = opened.read(FORCES)
+        angles = opened.read(ANGLES)
+        opened.fmu.freeInstance()
         return FINE * np.arange(1, count + 1), speeds, angles, forces
 
 

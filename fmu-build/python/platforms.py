@@ -18,6 +18,7 @@ from fmpy.util import add_remoting
 
 import binaries
 import platform_scenes
+from instance import Instance
 
 # what is timed, each as one step of this length [s], and how often
 TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 0.05}
@@ -38,10 +39,7 @@ class Platform:
         self.windows, self.wine = self.binary.suffix == ".dll", wine
         if self.windows:
             add_remoting(str(self.folder), "linux64", "win64")
-        self.variables = {v.name: v for v in self.description.modelVariables}
         self.outputs = [v for v in self.description.modelVariables if v.causality == "output"]
-        self.factors = {(kind.name, shown.name): shown.factor for kind in self.description.unitDefinitions
-                        for shown in kind.displayUnits}
 
     def close(self):
         if self.server:
@@ -54,14 +52,14 @@ class Platform:
         if self.windows:
             self.close()
             self.serve()
-        return instantiate_fmu(str(self.folder), self.description, logger=logger)
+        return Instance(instantiate_fmu(str(self.folder), self.description, logger=logger), self.description)
 
-    def end(self, fmu):
+    def end(self, instance):
         """Frees an instance; under wine with its server, as fmpy's client waits for ever for one it did not start."""
         if self.windows:
             self.close()
         else:
-            fmu.freeInstance()
+            instance.fmu.freeInstance()
 
     def serve(self):
         """Starts fmpy's server before anything connects: its client waits less long than wine takes to load the library."""
@@ -86,38 +84,20 @@ class Platform:
     def start(self, values):
         """An initialised instance with what it logged."""
         log = []
-        fmu = self.opened(lambda *message: log.append(message[-1]))
+        instance = self.opened(lambda *message: log.append(message[-1]))
         for name, value in values.items():
-            self.set(fmu, name, value)
+            instance.set(name, value)
         try:
-            fmu.setupExperiment(startTime=0.0)
-            fmu.enterInitializationMode()
-            fmu.exitInitializationMode()
+            instance.initialise(startTime=0.0)
         except Exception as problem:
             raise RuntimeError(f"{problem}: {log[-3:]}") from problem
-        return fmu
-
-    def set(self, fmu, name, value):
-        variable = self.variables[name]
-        if variable.type == "Enumeration":
-            value = next(int(item.value) for item in variable.declaredType.items if item.name == value)
-            fmu.setInteger([variable.valueReference], [value])
-        elif variable.type == "Real":
-            fmu.setReal([variable.valueReference], [self.si(variable, value)])
-        else:
-            getattr(fmu, "set" + variable.type)([variable.valueReference], [value])
-
-    def si(self, variable, value):
-        if not isinstance(value, str):
-            return float(value)
-        number, unit = value.split()
-        kind = variable.unit or variable.declaredType.unit
-        return float(number) / (1.0 if unit == kind else float(self.factors[kind, unit]))
+        return instance
 
     def record(self, values, events, tables, duration):
         """All outputs at all communication points."""
         step = duration / STEPS
-        fmu = self.start(values)
+        instance = self.start(values)
+        fmu = instance.fmu
         real, rest = ([v.valueReference for v in self.outputs if (v.type == "Real") == wanted] for wanted in (True, False))
         rows, events = [], sorted(events, key=lambda event: event["time"])
         for k in range(STEPS + 1):
@@ -126,43 +106,41 @@ class Platform:
             while events and events[0]["time"] <= now + 1e-9 * step:
                 event = events.pop(0)
                 for name in event.keys() - {"time"}:
-                    self.set(fmu, name, event[name])
+                    instance.set(name, event[name])
             for table in tables:
-                variable = self.variables[table["input"]]
-                place = now % table["period"] if "period" in table else now
-                points = [self.si(variable, value) for value in table["value"]]
-                fmu.setReal([variable.valueReference], [float(np.interp(place, table["time"], points))])
+                within = now % table["period"] if "period" in table else now
+                points = [instance.si(table["input"], value) for value in table["value"]]
+                instance.set(table["input"], float(np.interp(within, table["time"], points)))
             if k < STEPS:
                 fmu.doStep(now, step)
-        self.end(fmu)
+        self.end(instance)
         return np.array(rows, dtype=float)
 
     def seconds(self, values, duration):
         """The least time that one step of `duration` takes."""
         least = np.inf
         for _ in range(REPEATS):
-            fmu = self.start(values)
+            instance = self.start(values)
             begin = time.perf_counter()
-            fmu.doStep(0.0, duration)
+            instance.fmu.doStep(0.0, duration)
             least = min(least, time.perf_counter() - begin)
-            self.end(fmu)
+            self.end(instance)
         return least
 
     def refuses(self):
-        """What comes back for a wrong value and for one that would panic: statuses, while the library lives on."""
-        fmu = self.opened(lambda *_: None)
-        statuses = []
+        """Statuses that wrong calls return, while the library stays usable."""
+        instance = self.opened(lambda *_: None)
+        fmu, statuses = instance.fmu, []
         for call in [lambda: fmu.setReal([10**6], [1.0]),
                      lambda: fmu.doStep(0.0, 1e-3),
-                     lambda: fmu.setReal([self.variables["geometry.module"].valueReference], [float("nan")])
-                     or fmu.setupExperiment() or fmu.enterInitializationMode() or fmu.exitInitializationMode()]:
+                     lambda: instance.set("geometry.module", float("nan")) or instance.initialise()]:
             try:
                 call()
                 statuses.append("ok")
             except Exception as problem:
                 statuses.append(str(getattr(problem, "status", problem)))
         fmu.reset()
-        self.end(fmu)
+        self.end(instance)
         return statuses
 
 

@@ -1,11 +1,16 @@
 """The packaged FMU for the tests, and two ways to use it: `run` as a user does, `open_fmu` call by call."""
 
 import os
+import sys
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
-from driving import Drive
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+from driving import Drive  # noqa: E402
+from instance import Instance  # noqa: E402
 
 
 def pytest_addoption(parser):
@@ -60,40 +65,26 @@ def run(unpacked, description, literals):
     return simulate
 
 
-class Opened:
+class Opened(Instance):
     """An instance to be called function by function, with its warnings and errors."""
 
-    def __init__(self, unpacked, description, reference, literals, kind="CoSimulation"):
+    def __init__(self, unpacked, description, kind="CoSimulation"):
         self.log = []
-        self.description, self.reference, self.literals = description, reference, literals
-        self.fmu = instantiate_fmu(unpacked, description, fmi_type=kind, debug_logging=True, logger=self.record)
+        opened = instantiate_fmu(unpacked, description, fmi_type=kind, debug_logging=True, logger=self.record)
+        super().__init__(opened, description)
 
     def record(self, _environment, _instance, _status, category, message):
         if category != b"logEvents":
             self.log.append(message.decode())
 
-    def set(self, name, value):
-        kind = next(v.type for v in self.description.modelVariables if v.name == name)
-        if kind == "Enumeration":
-            kind, value = "Integer", self.literals[name].get(value, value)
-        getattr(self.fmu, "set" + kind)([self.reference[name]], [value])
-
-    def get(self, name):
-        return self.fmu.getReal([self.reference[name]])[0]
-
-    def initialise(self, **options):
-        self.fmu.setupExperiment(**options)
-        self.fmu.enterInitializationMode()
-        self.fmu.exitInitializationMode()
-
 
 @pytest.fixture
-def open_fmu(unpacked, description, reference, literals):
+def open_fmu(unpacked, description):
     """A context with an opened instance, freed at its end."""
 
     @contextmanager
     def opened(kind="CoSimulation"):
-        instance = Opened(unpacked, description, reference, literals, kind)
+        instance = Opened(unpacked, description, kind)
         try:
             yield instance
         finally:
@@ -103,12 +94,12 @@ def open_fmu(unpacked, description, reference, literals):
 
 
 @pytest.fixture
-def drive(unpacked, description, reference, literals):
+def drive(unpacked, description):
     """drive(values): a started scene (see driving.py); all are freed at the end of the test."""
     begun = []
 
     def start(values=None):
-        begun.append(Opened(unpacked, description, reference, literals))
+        begun.append(Opened(unpacked, description))
         return Drive(begun[-1], values)
 
     yield start

@@ -31,7 +31,7 @@ class Drive:
         self.opened, self.time, self.exchanged = opened, 0.0, 0.0
         self.set(values or {})
         opened.initialise()
-        self.heats = [name for name in opened.reference if name.startswith("heat.")]
+        self.heats = [name for name in opened.variables if name.startswith("heat.")]
 
     def __getitem__(self, name):
         return self.opened.get(name)
@@ -44,7 +44,7 @@ class Drive:
         self.set({"left.load_torque": left, "right.load_torque": left if right is None else right})
 
     def read(self, names):
-        return self.opened.fmu.getReal([self.opened.reference[name] for name in names])
+        return self.opened.read(names)
 
     def powers(self):
         return sum(map(abs, self.read(["power.in", "power.out"])))

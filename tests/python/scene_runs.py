@@ -15,10 +15,15 @@ import sys
 import tempfile
 import threading
 import time
+from pathlib import Path
 
-import random_scenes
 from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
+
+import random_scenes
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+from instance import Instance  # noqa: E402
 
 OK, DISCARD, ERROR = 0, 2, 3
 # attempts at steps that the FMU grants a communication step of up to a second before it discards it
@@ -36,15 +41,14 @@ LEAST = 1e-9
 PATIENCE = 300.0
 
 
-class Instance:
-    """An FMU to be called by names; statuses are returned and not raised."""
+class StatusInstance(Instance):
+    """An instance whose calls return their status and do not raise."""
 
     def __init__(self, folder, description):
-        self.variables = {v.name: v for v in description.modelVariables}
         self.log = []
-        self.fmu = instantiate_fmu(folder, description, logger=lambda *message: self.log.append(message[-1].decode()))
-        self.readable = [v for v in description.modelVariables if v.causality == "output"]
-        self.references = [v.valueReference for v in self.readable]
+        logger = lambda *message: self.log.append(message[-1].decode())  # noqa: E731
+        super().__init__(instantiate_fmu(folder, description, logger=logger), description)
+        self.readable = [name for name, variable in self.variables.items() if variable.causality == "output"]
 
     def call(self, function, *arguments, **options):
         try:
@@ -54,16 +58,14 @@ class Instance:
         return OK
 
     def set(self, name, value):
-        variable = self.variables[name]
-        kind = "Integer" if variable.type == "Enumeration" else variable.type
-        return self.call(getattr(self.fmu, f"set{kind}"), [variable.valueReference], [value])
+        return self.call(super().set, name, value)
 
     def initialise(self):
         return (self.call(self.fmu.setupExperiment) or self.call(self.fmu.enterInitializationMode)
                 or self.call(self.fmu.exitInitializationMode))
 
     def outputs(self):
-        return dict(zip((v.name for v in self.readable), self.fmu.getReal(self.references)))
+        return dict(zip(self.readable, self.read(self.readable)))
 
     def names_a_variable(self, since=0):
         """Whether what was logged names a variable that there is."""
@@ -77,7 +79,7 @@ class Attempt:
     def __init__(self, folder, description, scene):
         self.scene, self.problems, self.verdict = scene, [], "ran"
         self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
-        self.instance, self.told = Instance(folder, description), []
+        self.instance, self.told = StatusInstance(folder, description), []
         try:
             if self.start():
                 self.go()

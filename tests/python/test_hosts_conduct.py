@@ -8,40 +8,40 @@ import numpy as np
 import pytest
 from callbacks import silent
 from fmpy.fmi2 import FMU2Slave
+from instance import Instance
 
 OUTPUTS = ["left.speed", "right.speed", "left.angle", "left.normal_force", "heat.contact", "solver.steps"]
 STEP, STEPS = 1.0 / 512.0, 40
 
 
-class Instance:
-    """An instance named `name` of the FMU unpacked in `folder`; `load` on both sides is what instances differ by."""
+class Loaded(Instance):
+    """An instance named `name` of the FMU unpacked in `folder`; instances differ by the `load` on both sides."""
 
-    def __init__(self, folder, description, reference, name, load):
-        self.reference, self.time = reference, 0.0
-        self.slave = FMU2Slave(guid=description.guid, unzipDirectory=str(folder), instanceName=name,
-                               modelIdentifier=description.coSimulation.modelIdentifier)
+    def __init__(self, folder, description, name, load):
+        self.slave, self.time = FMU2Slave(guid=description.guid, unzipDirectory=str(folder), instanceName=name,
+                                          modelIdentifier=description.coSimulation.modelIdentifier), 0.0
         self.slave.instantiate(callbacks=silent())
-        self.slave.setInteger([reference["scene.start"]], [2])
-        self.slave.setReal([reference[f"{side}.load_torque"] for side in ("left", "right")], [load, load])
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
+        super().__init__(self.slave, description)
+        self.set("scene.start", "rolling")
+        for side in ("left", "right"):
+            self.set(f"{side}.load_torque", load)
+        self.initialise(startTime=0.0)
 
     def step(self):
         self.slave.doStep(self.time, STEP)
         self.time += STEP
-        return self.slave.getReal([self.reference[name] for name in OUTPUTS])
+        return self.read(OUTPUTS)
 
     def record(self, steps=STEPS):
         return [self.step() for _ in range(steps)]
 
 
 @pytest.fixture
-def begin(unpacked, description, reference):
+def begin(unpacked, description):
     """begin(name, load, folder): an instance."""
 
     def start(name, load, folder=unpacked):
-        return Instance(folder, description, reference, name, load)
+        return Loaded(folder, description, name, load)
 
     return start
 

@@ -84,6 +84,6 @@ def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(unpacked
     out_of_balance = scene_runs.Attempt(unpacked, description, scene)
     assert out_of_balance.verdict == "failed" and "energy residual" in out_of_balance.problems[0]
     scene["start"]["geometry.shaft_angle"] = 1.0
-    monkeypatch.setattr(scene_runs.Instance, "names_a_variable", lambda *_: False)
+    monkeypatch.setattr(scene_runs.StatusInstance, "names_a_variable", lambda *_: False)
     nameless = scene_runs.Attempt(unpacked, description, scene)
     assert nameless.verdict == "failed" and "refused with 3" in nameless.problems[0]
