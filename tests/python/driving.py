@@ -12,8 +12,13 @@ import numpy as np
 UNDAMPED, BLOWS = 1e-6, 1e-4
 SIDES = ["left", "right"]
 CARRIER = np.radians(2861.0)
-TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": np.radians(954.0),
-        "planet.spin_command": np.radians(200.0)}
+# the study's turn from equilibrium, and from rolling, unloaded teeth
+STEADY_TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": np.radians(954.0),
+               "planet.spin_command": np.radians(200.0)}
+TURN = STEADY_TURN | {"scene.start": "rolling"}
+# the carrier driven by torque, wheels held at different speeds: the difference of shaft torques shows friction
+BIAS = {"scene.carrier_drive": "torque", "carrier.torque_command": 1670.0, "carrier.speed_command": 50.0,
+        "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 52.5, "right.speed_command": 47.5}
 UNLOADED = {"left.load_torque": 0.0, "right.load_torque": 0.0}
 # gears whose inertia a test can count with, about three fifths of that of their solids
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}

@@ -1,0 +1,119 @@
+"""Switches of the effects: off leaves no trace, on balances its energy, wrong combinations are refused, states are restored."""
+
+from math import radians
+
+import numpy as np
+import pytest
+import theory
+from driving import STEADY_TURN
+
+EFFECTS = ["tooth_errors", "tooth_fault", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft",
+           "pin_compliance", "bearing_drag", "final_drive", "strength"]
+OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.speed",
+           "carrier.torque", "carrier.acceleration", "planet[1].spin_angle", "planet[1].left_normal_force",
+           "planet[2].right_normal_force", "planet[1].left_transmission_error", "heat.contact", "solver.steps",
+           "solver.energy_residual", "locking_value", "stress.contact_max", "damage.planet"]
+
+
+def other_value(variable):
+    """A value of a parameter that is neither its start value nor out of range."""
+    if variable.type == "Boolean":
+        return variable.start != "true"
+    if variable.type == "Enumeration":
+        return len(variable.declaredType.items)
+    start, low, high = (float(x) for x in (variable.start, variable.min, variable.max))
+    value = start * 1.37 + 1e-3 * (high - low) if start * 1.37 + 1e-3 * (high - low) <= high else 0.5 * (low + start)
+    return int(min(start + 1, high) if start < high else start - 1) if variable.type == "Integer" else value
+
+
+@pytest.fixture(scope="module")
+def plain(run):
+    return {"turn": run(STEADY_TURN, stop=0.2, output=OUTPUTS), "straight": run({}, stop=0.05, output=OUTPUTS)}
+
+
+@pytest.mark.parametrize("effect", EFFECTS + ["lock"])
+def test_what_is_off_leaves_no_trace(run, plain, description, effect):
+    own = [v for v in description.modelVariables if v.name.startswith(effect + ".") and v.causality == "parameter"]
+    assert len(own) >= 2
+    values = {v.name: other_value(v) for v in own if v.type != "Enumeration"}
+    for name, base, stop in (("turn", STEADY_TURN, 0.2), ("straight", {}, 0.05)):
+        record = run({**base, **values}, stop=stop, output=OUTPUTS)
+        for output in OUTPUTS:
+            assert np.array_equal(record[output], plain[name][output]), (output, name)
+
+
+ON = {"tooth_errors": {"tooth_errors.accuracy_grade": 7, "tooth_errors.planet_tip_relief": 20e-6,
+                       "tooth_errors.crowning": 10e-6, "contact.law": "line"},
+      "tooth_fault": {"tooth_fault.onset": 0.05, "contact.law": "line"},
+      "limited_slip": {"inertia.left_end": 0.2, "inertia.right_end": 0.2},
+      "half_shaft": {"inertia.left_end": 0.2, "inertia.right_end": 0.2},
+      "strength": {}}
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_what_is_on_balances_its_energy(run, plain, effect):
+    names = OUTPUTS + ["carrier.speed", "power.in"]
+    record = run({**STEADY_TURN, **ON.get(effect, {}), f"effects.{effect}": True}, stop=0.2, output=names)
+    exchanged = 2.0 * theory.LOAD * radians(954.0) * 0.2
+    assert abs(record["solver.energy_residual"][-1]) < 1e-5 * exchanged
+    changed = [o for o in OUTPUTS if not np.array_equal(record[o], plain["turn"][o])]
+    assert changed
+    for output in names:
+        assert np.isfinite(record[output]).all()
+
+
+@pytest.mark.parametrize("planets", [2, 4])
+@pytest.mark.parametrize("law", ["impact", "line"])
+def test_planets_simulated_once_give_the_bits_of_all_simulated(run, planets, law):
+    base = {**STEADY_TURN, "geometry.planet_count": planets, "contact.law": law}
+    once = run(base, stop=0.2, output=OUTPUTS)
+    each = run({**base, "solver.merge_planets": False}, stop=0.2, output=OUTPUTS)
+    for output in OUTPUTS:
+        assert np.array_equal(once[output], each[output]), output
+
+
+WRONG = [
+    ({"scene.planet_spin": "imposed", "scene.left_drive": "speed", "scene.right_drive": "speed",
+      "scene.carrier_drive": "torque"}, "scene.planet_spin"),
+    ({"scene.left_drive": "speed", "scene.right_drive": "speed"}, "scene.carrier_drive"),
+    ({"scene.left_drive": "speed", "half_shaft.left_stiffness": 0.0}, "half_shaft.left_stiffness"),
+    ({"scene.gear_contact": "ideal", "effects.thrust_friction": True}, "effects.thrust_friction"),
+    ({"scene.gear_contact": "ideal", "effects.limited_slip": True}, "limited_slip.torque_coefficient"),
+    ({"scene.gear_contact": "lumped", "effects.tooth_friction": True}, "effects.tooth_friction"),
+    ({"scene.gear_contact": "lumped", "effects.tooth_errors": True}, "effects.tooth_errors"),
+    ({"contact.stiffness_from_hertz": True, "contact.exponent": 2.0}, "contact.exponent"),
+    ({"effects.tooth_fault": True, "tooth_fault.tooth": 10}, "tooth_fault.tooth"),
+]
+
+
+@pytest.mark.parametrize("values, name", WRONG)
+def test_wrong_combinations_are_refused_by_name(open_fmu, values, name):
+    with open_fmu() as opened:
+        for key, value in values.items():
+            opened.set(key, value)
+        with pytest.raises(Exception):
+            opened.initialise()
+        assert any(name in line for line in opened.log), opened.log
+
+
+def test_a_state_with_stuck_clutches_and_a_broken_tooth_is_restored_to_the_bit(drive):
+    values = {"effects.limited_slip": True, "effects.tooth_fault": True, "effects.half_shaft": True,
+              "inertia.left_end": 0.1, "inertia.right_end": 0.1, "contact.law": "line", "effects.strength": True,
+              "left.load_torque": 900.0}
+    driven = drive(values).to(0.05, 1e-3)
+    driven.set({"fault.trigger": 1.0})
+    driven.to(0.1, 1e-3)
+    fmu, time = driven.opened.fmu, driven.time
+    state = fmu.getFMUstate()
+    kept = fmu.serializeFMUstate(state)
+    first = driven.to(0.2, 1e-3).read(OUTPUTS)
+    fmu.setFMUstate(state)
+    driven.time = time
+    assert driven.to(0.2, 1e-3).read(OUTPUTS) == first
+    fmu.freeFMUstate(state)
+    other = drive(values)
+    state = other.opened.fmu.deSerializeFMUstate(kept)
+    other.opened.fmu.setFMUstate(state)
+    other.time = time
+    assert other.to(0.2, 1e-3).read(OUTPUTS) == first
+    other.opened.fmu.freeFMUstate(state)
