@@ -4,9 +4,9 @@ usage of each script: HOST.py FMU SCENE.json OUT.csv
 
 All do the same. Parameters and inputs are set before initialisation; inputs that change at a communication point are set
 before the step that begins there; outputs are read after initialisation, where the host can, and after every step. The
-table has a line for each communication point, with 17 significant digits, from which a double is had back bit by bit. A
-line of JSON on standard output tells the host's version and the seconds from loading the FMU to freeing it. A host that
-cannot be loaded on this machine ends with status 3 and says why in one line.
+table has a line for each communication point, with 17 significant digits, which restore every bit of a double. A line of
+JSON on standard output gives the host's version and the seconds from loading the FMU to freeing it. A host that cannot be
+loaded on this machine ends with status 3 and says why in one line.
 """
 
 import json
@@ -21,7 +21,7 @@ CANNOT_LOAD = 3
 
 @dataclass(frozen=True)
 class Variable:
-    """A variable as the model description tells it."""
+    """A variable of the model description."""
 
     name: str
     reference: int
@@ -56,13 +56,13 @@ class Scene:
 
     def __init__(self, path):
         with open(path, encoding="utf-8") as file:
-            told = json.load(file)
-        self.step, self.stop = told["step"], told["stop"]
+            order = json.load(file)
+        self.step, self.stop = order["step"], order["stop"]
         self.steps = round(self.stop / self.step)
-        self.parameters, self.outputs = told["parameters"], list(told["outputs"])
+        self.parameters, self.outputs = order["parameters"], list(order["outputs"])
         # an input is a number or a series of [time, value], each value from that communication point on
         self.series = {name: value if isinstance(value, list) else [[0.0, value]]
-                       for name, value in told["inputs"].items()}
+                       for name, value in order["inputs"].items()}
 
     def start(self, known):
         """(variable, value) of all that is set before initialisation."""
@@ -82,6 +82,18 @@ class Scene:
             return {}
         return {name: float(value) for name, series in self.series.items() for time, value in series
                 if round(time / self.step) == k}
+
+
+def stepped(scene, write, step, read, at_start=True):
+    """Values at all communication points: `write(name, value)` sets an input, `step(k)` begins at point k, `read()` gives
+    the outputs; not `at_start`: the host cannot read before the first step."""
+    rows = {0: read()} if at_start else {}
+    for k in range(scene.steps):
+        for name, value in scene.changes(k).items():
+            write(name, value)
+        step(k)
+        rows[k + 1] = read()
+    return rows
 
 
 def main(load, run):

@@ -1,6 +1,6 @@
-"""Ecos by ecospy. C++, fmi4c; with --process the FMU runs in a process of its own (proxyfmu).
+"""Ecos by ecospy. C++, fmi4c; with --process the FMU runs in a separate process (proxyfmu).
 
-It knows no enumerations: it leaves their variables out, and a value given for one is lost with a warning. Values before
+It does not support enumerations: it ignores their variables, and logs a warning for a value given to one. Values before
 initialisation are a parameter set.
 """
 
@@ -41,13 +41,9 @@ def run(fmu, scene, prefix=""):
         with EcosSimulation(structure=structure, step_size=scene.step) as simulation:
             if not simulation.init(0, "start"):
                 raise SystemExit(f"ecos does not initialise: {EcosLib.get_last_error()}")
-            read = lambda: [simulation.get_real(f"d::{name}") for name in scene.outputs]  # noqa: E731
-            rows = {0: read()}
-            for k in range(scene.steps):
-                for name, value in scene.changes(k).items():
-                    simulation.set_real(f"d::{name}", value)
-                simulation.step()
-                rows[k + 1] = read()
+            rows = common.stepped(scene, lambda name, value: simulation.set_real(f"d::{name}", value),
+                                  lambda _: simulation.step(),
+                                  lambda: [simulation.get_real(f"d::{name}") for name in scene.outputs])
             simulation.terminate()
     return rows
 

@@ -1,8 +1,8 @@
 """fmi-sim, the program of the crates fmi and fmi-schema. Rust.
 
-Its path comes by the environment variable FMI_SIM. Values before initialisation go to its command line, where enumerations
-are numbers; inputs are a file. It interpolates inputs linearly between rows; with a row for every
-communication point nothing is left to interpolate. It records outputs before it sets the inputs of the same point, as the other scripts do.
+The environment variable FMI_SIM holds its path. Values before initialisation go to its command line, where enumerations
+are numbers; inputs are a file. It interpolates inputs linearly between rows; with a row for every communication point there
+is nothing to interpolate. It records outputs before it sets the inputs of the same point, as the other scripts do.
 """
 
 import csv
@@ -21,12 +21,12 @@ def load():
     program = os.environ.get("FMI_SIM", "")
     if not os.path.isfile(program):
         raise ImportError("FMI_SIM does not name the program fmi-sim")
-    # it tells its version as an error
+    # it prints its version as an error
     asked = subprocess.run([program, "--version"], capture_output=True, text=True, env=QUIET)
     return re.search(r"fmi-sim (\S+)", asked.stdout + asked.stderr).group(1)
 
 
-def told(command):
+def output_of(command):
     ended = subprocess.run(command, capture_output=True, text=True, env=QUIET)
     if ended.returncode != 0:
         raise SystemExit(f"fmi-sim fails: {ended.stderr.strip() or ended.stdout.strip()}")
@@ -44,11 +44,11 @@ def run(fmu, scene):
         command += ["co-simulation", "--output-interval", repr(scene.step), "-s", "0.0", "-f", repr(scene.stop)]
         for variable, value in scene.start(common.variables(fmu)):
             command += ["--init-values", f"{variable.name}={str(value).lower()}"]
-        told(command)
+        output_of(command)
         with out.open(newline="") as file:
             lines = list(csv.DictReader(file))
     if len(lines) != scene.steps + 1:
-        raise SystemExit(f"fmi-sim records {len(lines)} communication points in place of {scene.steps + 1}")
+        raise SystemExit(f"fmi-sim records {len(lines)} communication points instead of {scene.steps + 1}")
     return {k: [float(line[name]) for name in scene.outputs] for k, line in enumerate(lines)}
 
 

@@ -32,12 +32,8 @@ def stepped(fmu, scene, known, outputs):
     slave.enterInitializationMode()
     slave.exitInitializationMode()
     references = [known[name].reference for name in outputs]
-    rows = {0: slave.getReal(references)}
-    for k in range(scene.steps):
-        for name, value in scene.changes(k).items():
-            slave.setReal([known[name].reference], [value])
-        slave.doStep(k * scene.step, scene.step)
-        rows[k + 1] = slave.getReal(references)
+    rows = common.stepped(scene, lambda name, value: slave.setReal([known[name].reference], [value]),
+                          lambda k: slave.doStep(k * scene.step, scene.step), lambda: slave.getReal(references))
     slave.terminate()
     slave.freeInstance()
     shutil.rmtree(folder, ignore_errors=True)

@@ -1,5 +1,5 @@
 """The FMU inside another FMU: FMU Manipulation Toolbox puts it into a container, a C program that imports it. FMPy only
-turns the crank of the container. Enumerations are Integers there, parameters get the inner FMU's name in front.
+steps the container. Enumerations are Integers there, and parameters are prefixed with the inner FMU's name.
 """
 
 import subprocess
@@ -35,7 +35,7 @@ def run(fmu, scene):
 
 
 def contained(fmu, step, folder):
-    """The container, which takes steps of its own of this length."""
+    """The container; its steps have this length."""
     (folder / fmu.name).write_bytes(fmu.read_bytes())
     (folder / "container.csv").write_text(f"rule;from_fmu;from_port;to_fmu;to_port\nFMU;{fmu.name};;;\n")
     command = [sys.executable, "-c", "from fmu_manipulation_toolbox.cli.fmucontainer import fmucontainer; fmucontainer()",

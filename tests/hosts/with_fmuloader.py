@@ -18,7 +18,7 @@ def run(fmu, scene):
     known = common.variables(fmu)
     guid, identifier = common.description(fmu)
     slave = Fmi2Slave(fmu, model_identifier=identifier)
-    # the FMU declares that it does without the host's memory
+    # the FMU declares that it does not use the host's memory functions
     slave.instantiate("differential", Fmi2Type.CO_SIMULATION, guid=guid, cannot_use_memory_management_functions=True)
     setters = {"Real": slave.set_real, "Integer": slave.set_integer, "Boolean": slave.set_boolean,
                "Enumeration": slave.set_integer}
@@ -28,12 +28,8 @@ def run(fmu, scene):
     slave.enter_initialization_mode()
     slave.exit_initialization_mode()
     references = [known[name].reference for name in scene.outputs]
-    rows = {0: slave.get_real(references)}
-    for k in range(scene.steps):
-        for name, value in scene.changes(k).items():
-            slave.set_real([known[name].reference], [value])
-        slave.do_step(k * scene.step, scene.step)
-        rows[k + 1] = slave.get_real(references)
+    rows = common.stepped(scene, lambda name, value: slave.set_real([known[name].reference], [value]),
+                          lambda k: slave.do_step(k * scene.step, scene.step), lambda: slave.get_real(references))
     slave.terminate()
     slave.free_instance()
     return rows

@@ -1,8 +1,8 @@
 """libcosim, the engine of the Open Simulation Platform, by libcosimpy. C++, FMI Library.
 
-It knows no enumerations: it leaves their variables out. Values before initialisation are its initial values; inputs change
-by its override manipulator, which acts at the begin of the next step. It initialises within the first step, so nothing
-can be read at the start. Time is counted in whole nanoseconds.
+It does not support enumerations and ignores their variables. Values before initialisation are its initial values; inputs
+change by its override manipulator, which acts at the begin of the next step. It initialises within the first step, so
+nothing can be read at the start. Time is counted in whole nanoseconds.
 """
 
 from importlib.metadata import version
@@ -42,14 +42,13 @@ def run(fmu, scene):
     execution.add_observer(observer)
     execution.add_manipulator(manipulator)
     references = [seen[name] for name in scene.outputs]
-    rows = {}
-    for k in range(scene.steps):
-        for name, value in scene.changes(k).items():
-            manipulator.slave_real_values(slave, [seen[name]], [value])
+
+    def step(k):
         if not execution.step():
             raise SystemExit(f"libcosim does not complete the step from {k * scene.step} s")
-        rows[k + 1] = list(observer.last_real_values(slave, references))
-    return rows
+
+    return common.stepped(scene, lambda name, value: manipulator.slave_real_values(slave, [seen[name]], [value]), step,
+                          lambda: list(observer.last_real_values(slave, references)), at_start=False)
 
 
 if __name__ == "__main__":

@@ -5,14 +5,14 @@ import ctypes
 import numpy as np
 import pytest
 from callbacks import silent
+from driving import TURN
 from fmpy import simulate_fmu
 from fmpy.fmi2 import FMU2Model, fmi2EventInfo
 
 WHEELS = {"inertia.left_end": 0.5, "inertia.right_end": 0.5}
 SCENES = {
     "straight": {},
-    "turn": {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": 954 * np.pi / 180,
-             "planet.spin_command": 200 * np.pi / 180},
+    "turn": TURN,
     "lumped": {**WHEELS, "scene.gear_contact": "lumped", "left.load_torque": 800.0},
     "ideal": {**WHEELS, "scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.load_torque": 800.0},
     "half-shafts": {**WHEELS, "effects.half_shaft": True, "scene.carrier_drive": "torque", "left.load_torque": 820.0},

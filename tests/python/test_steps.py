@@ -7,9 +7,8 @@ import sys
 
 import numpy as np
 import pytest
+from driving import TURN
 
-TURN = {"scene.start": "rolling", "scene.planet_spin": "imposed", "carrier.speed_command": 954 * np.pi / 180,
-        "planet.spin_command": 200 * np.pi / 180}
 SCENES = {
     "turn": TURN,
     "by torque": {"scene.carrier_drive": "torque", "inertia.left_end": 0.5, "inertia.right_end": 0.8,
