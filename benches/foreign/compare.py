@@ -1,4 +1,4 @@
-"""What solvers written by others need for the same equations, beside this program's own.
+"""What solvers written by others need for the same equations, compared with this program.
 
     python compare.py LIBRARY FOLDER [--quick] [--cases a,b] [--reference CSV]
 
@@ -37,7 +37,7 @@ QUICK = ("turn_equilibrium", "clunk")
 TOLERANCES = [10.0**-k for k in range(3, 14)]
 QUICK_TOLERANCES = [1e-4, 1e-6, 1e-8]
 REPEATS, SLOW_REPEATS = 11, 2
-# a solver that took longer than this is not asked for more [s]
+# a solver that took longer than this runs no more [s]
 PATIENCE = 2.0
 REFERENCE_RTOL, REFERENCE_ATOL = 1e-13, 1e-13
 NAMES = ("left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force", "left.shaft_torque",
@@ -60,12 +60,12 @@ def main():
         solvers = [solver for solver in solvers if not solver.slow]
     rows, checks = [], {}
     for k, name in enumerate(names):
-        def tell(fraction, what, k=k, name=name):
+        def progress(fraction, what, k=k, name=name):
             print(f"progress {(k + fraction) / len(names):.4f} {name}: {what}", file=sys.stderr, flush=True)
 
         # what Python's calls cost is the same everywhere
         wanted = [solver for solver in solvers if name in QUICK or not solver.slow]
-        rows += compare(library, name, wanted, arguments, tell, checks)
+        rows += compare(library, name, wanted, arguments, progress, checks)
         write(arguments.folder / "foreign.csv", rows)
     print(table.markdown(rows, names, checks, missing), end="")
 
@@ -103,12 +103,12 @@ def fingerprint(run):
     return hashed.hexdigest()[:16]
 
 
-def compare(library, name, solvers, arguments, tell, checks):
+def compare(library, name, solvers, arguments, progress, checks):
     quick = arguments.quick
     case, level, end, step = CASES[name]
     run = Run(library, case, level)
     times = samples(run, end, step)
-    tell(0.0, "reference by DOP853")
+    progress(0.0, "reference by DOP853")
     exact = reference(run, times, arguments.folder / f"reference_{name.replace(' ', '_').replace(',', '')}.csv")
     wanted = QUICK_TOLERANCES if quick else TOLERANCES
     runs = {}
@@ -131,7 +131,7 @@ def compare(library, name, solvers, arguments, tell, checks):
                 tired.add(solver.label)
             # the slow ones come in the first rounds
             share = (min(k, SLOW_REPEATS) + i / len(jobs)) / min(rounds, SLOW_REPEATS + 1)
-            tell(min(share, 1.0), f"{solver.label}, {tolerance:.0e}")
+            progress(min(share, 1.0), f"{solver.label}, {tolerance:.0e}")
     rows = [row(name, solver, tolerance, outcomes[solver.label, tolerance], exact)
             for solver, tolerance, _ in jobs if (solver.label, tolerance) in outcomes]
     # how far the closest solver of a different family stays from the reference, without this program
@@ -139,8 +139,7 @@ def compare(library, name, solvers, arguments, tell, checks):
     checks[name] = min((max(r["speed_error"], r["force_error"]) for r in others), default=float("nan"))
     for on in {run, *runs.values()}:
         on.close()
-    # prepared memories belong to runs that are gone
-    return rows
+        return rows
 
 
 def row(name, solver, tolerance, outcomes, exact):

@@ -143,11 +143,11 @@ def scipy_odeint(exact, share):
         begin = time.thread_time()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            states, told = odeint(rhs, run.u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=10_000_000,
+            states, information = odeint(rhs, run.u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=10_000_000,
                                   full_output=True)
         cost = time.thread_time() - begin
         counts = run.counts()
-        return Outcome(cost, run.outputs(states[1:]), *counts, 0 if "successful" in told["message"] else 1)
+        return Outcome(cost, run.outputs(states[1:]), *counts, 0 if "successful" in information["message"] else 1)
 
     return integrate
 

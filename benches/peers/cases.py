@@ -10,7 +10,7 @@ import gears
 
 LOAD = 835.0
 LENGTH = 0.5
-# who drives a tool talks to it at these intervals, as often as the study writes its output
+# tools are called at these intervals, as often as the study writes its output
 STEP = 1e-3
 # the peers' load rises over this time: at once it may throw a side gear over several teeth in one step
 RISE = 0.1
@@ -84,6 +84,6 @@ def settings():
     return json.loads(sys.argv[1])
 
 
-def tell(result):
+def report(result):
     """Hands the result back to run.py."""
     print(json.dumps(result))

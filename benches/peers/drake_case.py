@@ -32,7 +32,7 @@ import gears
 IMPOSED = 1e4
 # any value does: axes are fixed, so only inertias about them count
 MASS = 0.3
-# pressure [Pa] at the middle of a tooth; with it the flanks give way about as much as steel teeth do
+# pressure [Pa] at the middle of a tooth; with it the flanks deflect about as much as steel teeth
 MODULUS = 4e10
 DISSIPATION = 20.0
 # point contact: the study's force over its penetration, at the mean force of a mesh; the pair's two teeth in series
@@ -144,4 +144,4 @@ def run(wanted):
 
 
 if __name__ == "__main__":
-    cases.tell(run(cases.settings()))
+    cases.report(run(cases.settings()))

@@ -1,7 +1,7 @@
 """A case of the study in MuJoCo: rigid teeth as convex meshes that meet in points, with soft constraints.
 
 MuJoCo's contact is a linear spring and damper, which it solves for implicitly. In its terms (time constant t, damping
-ratio 1, impedance d, A = inverse inertia that a contact feels) the spring is K = 1 / (t² A d (1 − d)) and the damper
+ratio 1, impedance d, A = inverse inertia at the contact) the spring is K = 1 / (t² A d (1 − d)) and the damper
 2 d t K. K is the study's force over its penetration, at the mean force of a mesh. With t = 0.4 ms the damper is three
 times the study's. t stays the same when the step shrinks, or the law would change with it; but MuJoCo wants t to be two
 steps at least, so that above 0.2 ms it grows.
@@ -130,4 +130,4 @@ def run(wanted):
 
 
 if __name__ == "__main__":
-    cases.tell(run(cases.settings()))
+    cases.report(run(cases.settings()))

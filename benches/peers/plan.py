@@ -50,11 +50,11 @@ ROWS = [
     simpler("ideal"),
     *(mujoco(step, quick=step == 2e-4) for step in (1e-3, 5e-4, 2e-4, 1e-4)),
     mujoco(2e-4, facets=64),
-    # shows what means do not say: it skips teeth
+    # shows what means hide: it skips teeth
     mujoco(2e-4, at_once=True),
     *(mujoco(step, many_points=True) for step in (5e-4, 2e-4, 1e-4)),
     drake("hydroelastic", 1e-3, 8, quick=True),
-    # these two tell whether the row above has converged; their own cost is of less interest, and they take long
+    # these two show whether the row above has converged; their cost is of less interest, and they take long
     drake("hydroelastic", 5e-4, 8, repeats=1),
     drake("hydroelastic", 1e-3, 24, repeats=1),
     *(drake("point", step, 16) for step in (2e-4, 1e-4)),

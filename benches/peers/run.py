@@ -2,9 +2,9 @@
 
 usage: run.py FMU FOLDER [--quick]
 
-FOLDER receives table.md, results.csv, results.json and peers.png. Each run has a process of its own; repetitions go
-round all rows, so that a slow spell of the machine meets every tool. Costs are medians. A tool that is not installed is
-left out. Lines "progress FRACTION WHAT" on standard error tell how far it is; the table goes to standard output.
+FOLDER receives table.md, results.csv, results.json and peers.png. Each run is a separate process; repetitions go
+round all rows, so that a slow period of the machine affects every tool. Costs are medians. A tool that is not installed is
+left out. Lines "progress FRACTION WHAT" on standard error report progress; the table goes to standard output.
 `cargo run --release -- peers` makes the environment and does all of it.
 """
 
@@ -48,8 +48,8 @@ def main():
     (folder / "table.md").write_text(text, encoding="utf-8")
     table.write_csv(folder / "results.csv", results)
     picture.draw(folder / "peers.png", [result for result in results if table.keeps_teeth(result)])
-    told = [result | {"row": vars(result["row"])} for result in results]
-    (folder / "results.json").write_text(json.dumps({"machine": machine(), "results": told}, indent=1) + "\n")
+    plain = [result | {"row": vars(result["row"])} for result in results]
+    (folder / "results.json").write_text(json.dumps({"machine": machine(), "results": plain}, indent=1) + "\n")
     print(text, end="")
 
 

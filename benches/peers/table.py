@@ -10,7 +10,7 @@ import gears
 # Project Chrono (C++, millimetres) with the exact IMPACT law, C = 50 N·s/mm, step 2e-6 s: CPU seconds per simulated
 # second, straight ahead. From an earlier measurement on a machine with two cores; not run here.
 CHRONO = 122.0
-# more than this [deg] is a skipped tooth; half the play and what the teeth give way come to a third of a degree
+# more than this [deg] is a skipped tooth; half the play and the deflection of teeth are a third of a degree together
 SKIPPED = 10.0
 # whose cost the others are compared with
 OURS = ("this program, `tooth`, `impact`", "tolerance 1e-6")
@@ -99,10 +99,10 @@ def factors(results):
         gross = [times(others.get(case), cost[case]) for case in CASES]
         net = [times(others.get(case), cost[case] - idle[case]) for case in CASES]
         lines.append(line([name, *gross, *net]))
-    told = (f"Of this program's {1e3 * cost['straight']:.1f} and {1e3 * cost['turn']:.1f} ms per simulated second, "
+    remark = (f"Of this program's {1e3 * cost['straight']:.1f} and {1e3 * cost['turn']:.1f} ms per simulated second, "
             f"{1e3 * idle['straight']:.1f} and {1e3 * idle['turn']:.1f} ms are Python's calls: the same loop with "
             "calls that have nothing to do. \"Net\" leaves them out.")
-    return [*lines, "", told]
+    return [*lines, "", remark]
 
 
 def keeps_teeth(result):

@@ -65,7 +65,7 @@ class Program:
         rows = [speeds.ctypes.data + k * speeds.strides[0] for k in range(count)]
         length, interval, status = 2, cases.STEP, 0
         if not working:
-            # no values are asked for, and a read takes the place of the step
+            # no values are requested, and a read replaces the step
             length, interval = 0, 0
             step = fmu.dll.fmi2GetInteger
             step.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
@@ -108,4 +108,4 @@ def run(wanted):
 
 
 if __name__ == "__main__":
-    cases.tell(run(cases.settings()))
+    cases.report(run(cases.settings()))

@@ -43,8 +43,8 @@ def errors_wrong(contact, master, rows, limits):
             problems.append(f"{contact}, {row['master']}, {row['step']:g} s: error {row['largest']:.1e}, above {bound:.1e}")
     low, high = expected(master, limits["interpolates"])
     if len(good) < 2 or not low < observed(good) < high:
-        told = f"{observed(good):.2f}" if len(good) > 1 else "unknown"
-        problems.append(f"{contact}, {master.label}: order {told}, expected {low} to {high}")
+        order = f"{observed(good):.2f}" if len(good) > 1 else "unknown"
+        problems.append(f"{contact}, {master.label}: order {order}, expected {low} to {high}")
     return problems
 
 

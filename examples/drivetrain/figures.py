@@ -35,7 +35,7 @@ def launch(file, reference, coupled, contact):
     axes[0].set_title("Launch on split friction: left wheel on ice, right wheel on dry road")
     axes[-1].set_xlabel("time, s")
     style.caption(figure, "A car starts with its left wheel on ice. The wheel on ice spins up; the open differential gives both half-shafts "
-                  "the same torque, so the wheel on dry road gets no more than the ice bears, plus what the wheels take to accelerate. "
+                  "the same torque, so the wheel on dry road gets little more than the ice transmits. "
                   "Lines: the whole drivetrain as one set of equations. Dots: six FMUs coupled by a plain host in steps of "
                   f"{STEP * 1e3:g} ms; they lie on the lines. gear_contact = {contact}.")
     style.save(figure, file)

@@ -20,7 +20,7 @@ def fmpy(ssp, signals, size, times):
                     parameter.name = f"{component.name}.{parameter.name}"
                     parameters.append(parameter)
     rows = simulate_ssp(str(ssp), stop_time=times[-1], step_size=size, parameter_set=ParameterSet(parameters=parameters))
-    # a row is told with the time its step began at
+    # a row has the time at which its step began
     at = [round(time / size) - 1 for time in times]
     return np.array([[rows[f"{part}.{output}"][k] for part, output in signals] for k in at])
 

@@ -28,7 +28,7 @@ class Jacobi:
     def step(self, system, time, size, y, before):
         for part, feeds in zip(system.parts, system.feeds):
             part.step(time, size, y[feeds])
-        return system.told()
+        return system.read()
 
 
 class GaussSeidel:
@@ -40,7 +40,7 @@ class GaussSeidel:
         y = y.copy()
         for part, feeds, gives in zip(system.parts, system.feeds, system.gives):
             part.step(time, size, y[feeds])
-            y[gives] = part.told()
+            y[gives] = part.read()
         return y
 
 
@@ -55,7 +55,7 @@ class Lines:
             part.step(time, size, y[feeds], slope[feeds])
         # what comes straight from inputs to outputs sees their values at the end
         system.put(y + size * slope)
-        return system.told()
+        return system.read()
 
 
 class IteratedHeld:
@@ -97,7 +97,7 @@ class IteratedHeld:
                 part.put(found[feeds])
             else:
                 part.step(time, size, found[feeds])
-            found[gives] = part.told()
+            found[gives] = part.read()
         return found
 
 
@@ -114,7 +114,7 @@ ALL = {"jacobi": Jacobi, "gauss_seidel": GaussSeidel, "lines": Lines, "iterated_
 
 def run(system, master, size, count, every=1):
     """Outputs at the start and after each `every` of `count` steps of `size`. A run that leaves all bounds ends early."""
-    y = system.told()
+    y = system.read()
     before, rows = y, [y]
     for k in range(count):
         y, before = master.step(system, k * size, size, y, before), y

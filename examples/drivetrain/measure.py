@@ -35,14 +35,14 @@ QUANTITIES = {
 }
 
 
-def tell(fraction, what):
+def progress(fraction, what):
     print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
 
 
 def difference(signals, rows, reference_rows):
     """Largest difference over all times of each quantity, by the quantity's largest value."""
-    told, right = (dict(zip(signals, values.T)) for values in (rows, reference_rows))
-    return {name: np.max(np.abs(np.subtract(of(told), of(right)))) / np.max(np.abs(of(right)))
+    own, right = (dict(zip(signals, values.T)) for values in (rows, reference_rows))
+    return {name: np.max(np.abs(np.subtract(of(own), of(right)))) / np.max(np.abs(of(right)))
             for name, of in QUANTITIES.items()}
 
 
@@ -57,7 +57,7 @@ def hosts(folder, fmus, quick):
             own = masters.run(system, masters.Jacobi(), STEP, round(end / STEP), round(GRID / STEP))[1:]
         rows = {}
         for name, run in HOSTS.items():
-            tell(0.02, f"{contact}: {name}")
+            progress(0.02, f"{contact}: {name}")
             rows[name] = run(folder / f"drivetrain_{contact}.ssp", signals, STEP, times)
         rows["this example's Jacobi"] = own
         first = rows["FMPy"]
@@ -67,7 +67,7 @@ def hosts(folder, fmus, quick):
 
 def references(library_path, fmus, contact):
     """The reference on the grid, finely for the picture, and how far another method of scipy is from it."""
-    tell(0.1, f"{contact}: the whole as one set of equations")
+    progress(0.1, f"{contact}: the whole as one set of equations")
     with System.of_fmus(fmus, contact) as system:
         signals = system.signals
     count = round(END / GRID)
@@ -88,7 +88,7 @@ def errors(fmus, all_references, quick):
     weight = np.cumsum([1.0 / step for _, _, step in runs])
     rows = []
     for k, (contact, name, step) in enumerate(runs):
-        tell(0.3 + 0.7 * (weight[k - 1] if k else 0.0) / weight[-1], f"{contact}, {name}, {step:g} s")
+        progress(0.3 + 0.7 * (weight[k - 1] if k else 0.0) / weight[-1], f"{contact}, {name}, {step:g} s")
         master, began = masters.ALL[name](), time.process_time()
         row = {"contact": contact, "master": name, "step": step, "state": "ok"}
         with System.of_fmus(fmus, contact) as system:
@@ -127,7 +127,7 @@ def limits(library, fmus, quick):
     linear = stability.linear_system(library, interpolates)
     found = {"interpolates": interpolates, "frequency": stability.frequency(linear)}
     for name, master in masters.ALL.items():
-        tell(0.2, f"limit of {master.label}")
+        progress(0.2, f"limit of {master.label}")
         row = {"predicted": stability.limit(linear, master()), "order": stability.order(sliding, master)}
         if not master.states:
             row["inside"] = swell(fmus, master(), INSIDE * row["predicted"])

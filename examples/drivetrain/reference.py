@@ -147,7 +147,7 @@ class Whole:
             [(forces[0] + forces[1] - resistance) / MASS],
             self.differential.rates(gears, FINAL * prop, wheels)))
 
-    def told(self, x):
+    def output_values(self, x):
         """Outputs in the order of the system's signals."""
         wheels = x[3:5]
         torques = self.differential.torques(x[8:], wheels)
@@ -166,7 +166,7 @@ class Whole:
                            atol=tolerance * 1e-2)
         if not result.success:
             raise RuntimeError(f"the reference cannot be integrated: {result.message}")
-        return [self.told(x) for x in result.y.T], result
+        return [self.output_values(x) for x in result.y.T], result
 
 
 def reference(library_path, contact, times, signals, method, tolerance):

@@ -49,7 +49,7 @@ def errors(contact, found):
         line = [f"{step * 1e3:g}"]
         for name in ALL:
             row = next((row for row in rows if (row["step"], row["master"]) == (step, name)), None)
-            line.append("–" if row is None else row["state"] if row["state"] != "ok" else told(row))
+            line.append("–" if row is None else row["state"] if row["state"] != "ok" else error_cell(row))
         lines.append(line)
     order = ["order"]
     theory = ["theory"]
@@ -64,7 +64,7 @@ def errors(contact, found):
             + rows_of(["step, ms", *(master.label for master in ALL.values())], [*lines, order, theory]))
 
 
-def told(row):
+def error_cell(row):
     return f"{row['largest']:.1e}" + (f" ({row['repeats']:.1f})" if ALL[row["master"]].states else "")
 
 
@@ -80,7 +80,7 @@ def quantities(found):
 
 def mesh(found, limits):
     swing, fastest = found["swing"], found["fastest"]
-    return (f"Were the mesh cut open: teeth under {found['load']:.0f} N.m on the carrier would swing at {swing:.2g} rad/s without damping, and\n"
-            f"with it their fastest motion dies away with {fastest:.2g} 1/s. Torque held over a step would bear no step above\n"
-            f"2/{fastest:.2g} s = {2e6 / fastest:.1f} µs, where the cut beside the half-shafts bears "
+    return (f"If the mesh were cut open: teeth under {found['load']:.0f} N·m on the carrier would oscillate at {swing:.2g} rad/s without damping, and\n"
+            f"with it their fastest motion decays with {fastest:.2g} 1/s. Torque held over a step would allow no step above\n"
+            f"2/{fastest:.2g} s = {2e6 / fastest:.1f} µs, where the cut at the half-shafts allows "
             f"{limits['jacobi']['predicted'] * 1e6:.0f} µs.\n")

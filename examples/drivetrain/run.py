@@ -19,7 +19,7 @@ import figures  # noqa: E402
 import measure  # noqa: E402
 import report  # noqa: E402
 from library import Library  # noqa: E402
-from measure import tell  # noqa: E402
+from measure import progress  # noqa: E402
 from system import make_parts, write_ssp  # noqa: E402
 
 
@@ -38,12 +38,12 @@ def main():
 def everything(fmu, library_path, folder, quick):
     folder.mkdir(parents=True, exist_ok=True)
     library, contacts = Library(library_path), ("ideal",) if quick else ("ideal", "tooth")
-    tell(0.0, "making the parts")
+    progress(0.0, "making the parts")
     fmus = make_parts(fmu, folder / "parts")
     for contact in ("ideal", "tooth"):
         write_ssp(folder / f"drivetrain_{contact}.ssp", fmus, contact)
     hosts = measure.hosts(folder, fmus, quick)
-    tell(0.1, "the whole as one set of equations")
+    progress(0.1, "the whole as one set of equations")
     references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}
     limits = measure.limits(library, fmus, quick)
     errors = measure.errors(fmus, references, quick)

@@ -38,12 +38,12 @@ class FmuPart:
 
     @property
     def follows_lines(self):
-        """Whether inputs can be lines within a step, by FMI's call or by inputs of their own."""
+        """Whether inputs can be lines within a step, by FMI's call or by separate inputs."""
         return self.interpolates or self.slopes is not None
 
     def step(self, time, size, u, slope=None):
         """One communication step with inputs `u` held, or, with a slope, on the line u + slope (t − time). A part that
-        knows no lines is given the middle of the line: its mean, which is as good up to the second order."""
+        does not support lines gets the middle of the line: its mean, which has the same second order."""
         if slope is not None and not self.follows_lines:
             u, slope = u + 0.5 * size * slope, None
         self.put(u)
@@ -57,7 +57,7 @@ class FmuPart:
     def put(self, u):
         self.fmu.setReal(self.inputs, list(u))
 
-    def told(self):
+    def read(self):
         return self.fmu.getReal(self.outputs)
 
     def save(self):
@@ -102,10 +102,10 @@ class System:
 
         return cls(make_part)
 
-    def told(self):
+    def read(self):
         y = np.empty(len(self.signals))
         for part, gives in zip(self.parts, self.gives):
-            y[gives] = part.told()
+            y[gives] = part.read()
         return y
 
     def put(self, y):

@@ -43,7 +43,7 @@ class LinearPart:
     def put(self, u):
         self.u = u
 
-    def told(self):
+    def read(self):
         return self.c @ self.x + self.d @ self.u
 
     def save(self):
@@ -63,7 +63,7 @@ def parts(library, grip):
     rows = np.eye(7)
     # x = (twists, speeds of the sides), u = (carrier torque, wheels)
     both = np.array([ideal.rates(row[:4], row[4], row[5:]) for row in rows]).T
-    told = np.array([[ideal.carrier_speed(row[:4]), *ideal.torques(row[:4], row[5:])] for row in rows]).T
+    outputs = np.array([[ideal.carrier_speed(row[:4]), *ideal.torques(row[:4], row[5:])] for row in rows]).T
 
     def wheel(grip):
         force, damping, arm = grip * r.SLIP_STIFFNESS, grip * r.TYRE_DAMPING, r.RADIUS / r.WHEEL_INERTIA
@@ -77,7 +77,7 @@ def parts(library, grip):
         "final_drive": ([[-c / ratio**2 / r.ENGINE_INERTIA, -k / ratio / r.ENGINE_INERTIA], [1 / ratio, 0]],
                         [[1 / r.ENGINE_INERTIA, c * r.FINAL / ratio / r.ENGINE_INERTIA], [0, -r.FINAL]],
                         [[1, 0], [r.FINAL * c / ratio, r.FINAL * k]], [[0, 0], [0, -c * r.FINAL**2]]),
-        "differential": (both[:, :4], both[:, 4:], told[:, :4], told[:, 4:]),
+        "differential": (both[:, :4], both[:, 4:], outputs[:, :4], outputs[:, 4:]),
         "left_wheel": wheel(grip), "right_wheel": wheel(1.0),
         "vehicle": ([[-rolling]], [[1 / r.MASS, 1 / r.MASS]], [[1]], [[0, 0]]),
     }
@@ -145,8 +145,8 @@ def whole(system):
             b[own, feed] += part.b[:, j]
             d[gives, feed] += part.d[:, j]
         begin = own.stop
-    told = np.linalg.solve(np.eye(y) - d, c)
-    return a + b @ told, told
+    outputs = np.linalg.solve(np.eye(y) - d, c)
+    return a + b @ outputs, outputs
 
 
 def frequency(system):
@@ -157,19 +157,19 @@ def frequency(system):
 
 def order(system, make_master, end=0.02, sizes=(1e-4, 5e-5)):
     """Order at which `make_master` converges on the linear parts when the torque of the engine dies away."""
-    rates, told = whole(system)
+    rates, outputs = whole(system)
     begin = np.zeros(len(rates))
     begin[0] = 1.0
-    exact = told @ expm(rates * end) @ begin
+    exact = outputs @ expm(rates * end) @ begin
     errors = []
     for size in sizes:
         place = 0
         for part in system.parts:
             part.x, part.u = begin[place:place + len(part.x)], 0.0 * part.u
             place += len(part.x)
-        y = told @ begin
+        y = outputs @ begin
         # the line that came before
-        master, before = make_master(), told @ expm(-rates * size) @ begin
+        master, before = make_master(), outputs @ expm(-rates * size) @ begin
         for k in range(round(end / size)):
             y, before = master.step(system, k * size, size, y, before), y
         errors.append(np.max(np.abs(y - exact) / np.maximum(np.abs(exact), 1e-3 * np.max(np.abs(exact)))))

@@ -30,7 +30,7 @@ def make_parts(differential, folder):
 
 
 def write_ssp(file, fmus, contact):
-    """drivetrain.ssp: the FMUs in resources, connectors, connections, and the values of each part beside it."""
+    """drivetrain.ssp: the FMUs in resources, connectors, connections, and the values of each part."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, fmu in sorted(fmus.items()):
             archive.write(fmu, f"resources/{name}.fmu")

@@ -1,11 +1,11 @@
-"""What a library for Linux (ELF) or Windows (PE) offers and what it needs of a system."""
+"""What a library for Linux (ELF) or Windows (PE) exports and what it needs of a system."""
 
 import pefile
 from elftools.elf.elffile import ELFFile
 
 
 def of_linux(file):
-    """Exported symbols, libraries, and the newest version of glibc that is asked for, as (2, 17)."""
+    """Exported symbols, libraries, and the newest version of glibc that is required, as (2, 17)."""
     with open(file, "rb") as stream:
         elf = ELFFile(stream)
         exported = [symbol.name for symbol in elf.get_section_by_name(".dynsym").iter_symbols()

@@ -16,17 +16,17 @@ PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
 # what to see in the cases of the documentation
 REMARKS = {
     "aligned": "even load; dark band: one pair alone carries",
-    "crowned": "load leaves both ends for the middle",
-    "angle_wide": "even along the face; foot of the flank relieved",
-    "angle_narrow": "even along the face; foot of the flank strained",
-    "planet_out": "to the heel, and from the tip to the foot",
-    "planet_in": "to the toe, and from the foot to the tip",
-    "side_out": "to the heel, and from the foot to the tip",
-    "side_in": "to the toe, and from the tip to the foot",
+    "crowned": "load moves from both ends to the middle",
+    "angle_wide": "even along the face; less load at the root",
+    "angle_narrow": "even along the face; more load at the root",
+    "planet_out": "to the heel, and from the tip to the root",
+    "planet_in": "to the toe, and from the root to the tip",
+    "side_out": "to the heel, and from the root to the tip",
+    "side_in": "to the toe, and from the tip to the root",
     "pin_ahead": "more load, and it moves to the toe",
     "pin_behind": "less load, and it moves to the heel",
-    "hypoid_forward": "planet 1 bears twice its share, at the toe",
-    "hypoid_backward": "drive flank bare, coast flank jams at the toe",
+    "hypoid_forward": "planet 1 carries twice its share, at the toe",
+    "hypoid_backward": "drive flank free, coast flank jams at the toe",
 }
 # cases whose lines of contact are drawn, the first two that are there
 LINES = ["aligned", "hypoid_forward", "planet_out"]

@@ -4,7 +4,7 @@ usage: platforms.py SCENES WINE64 NAME=FMU...
 
 Each FMU holds the library for one platform; the first one is what the others are compared with. One for win64 runs in
 fmpy's server under WINE64. Prints the tables of docs/platforms.md; fails if any bits differ. A line
-"progress FRACTION WHAT" on standard error tells how far it is.
+"progress FRACTION WHAT" on standard error reports progress.
 """
 
 import subprocess
@@ -25,12 +25,12 @@ TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 
 REPEATS = 3
 # communication steps of a scene
 STEPS = 100
-# port of fmpy's server, seconds that it gets to start, and pause between looks
+# port of fmpy's server, time limit of its start [s], and pause between checks [s]
 PORT, PATIENCE, PAUSE = 8080, 60.0, 0.1
 
 
 class Platform:
-    """An FMU with one library, and a server of its own if that is for Windows."""
+    """An FMU with one library, and a server if that is for Windows."""
 
     def __init__(self, name, fmu, wine):
         self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
@@ -48,21 +48,21 @@ class Platform:
             self.server = None
 
     def opened(self, logger):
-        """A new instance; under wine with a server of its own, as that ends with the instance."""
+        """A new instance; under wine with a new server, as that ends with the instance."""
         if self.windows:
             self.close()
             self.serve()
         return Instance(instantiate_fmu(str(self.folder), self.description, logger=logger), self.description)
 
     def end(self, instance):
-        """Frees an instance; under wine with its server, as fmpy's client waits for ever for one it did not start."""
+        """Frees an instance; under wine with its server, as fmpy's client waits forever for one it did not start."""
         if self.windows:
             self.close()
         else:
             instance.fmu.freeInstance()
 
     def serve(self):
-        """Starts fmpy's server before anything connects: its client waits less long than wine takes to load the library."""
+        """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
         deadline = time.monotonic() + PATIENCE
         while is_listening():
             self.wait(deadline, f"port {PORT}, which fmpy's server needs, is in use")
@@ -78,7 +78,7 @@ class Platform:
     @staticmethod
     def wait(deadline, problem):
         if time.monotonic() > deadline:
-            sys.exit(f"{problem}: given up after {PATIENCE:g} s")
+            sys.exit(f"{problem}: no success after {PATIENCE:g} s")
         time.sleep(PAUSE)
 
     def start(self, values):
@@ -145,7 +145,7 @@ class Platform:
 
 
 def is_listening():
-    """Whether a server waits on the port; a look that does not connect, as the server takes one client."""
+    """Whether a server waits on the port; checked without connecting, as the server accepts one client."""
     with open("/proc/net/tcp", encoding="ascii") as sockets:
         rows = [line.split() for line in sockets][1:]
     return any(row[1].endswith(f":{PORT:04X}") and row[3] == "0A" for row in rows)
@@ -168,7 +168,7 @@ def described(platform):
 def compared(one, other):
     """Whether all bits agree, and in words."""
     if one.shape != other.shape:
-        return False, f"{len(other)} communication points in place of {len(one)}"
+        return False, f"{len(other)} communication points instead of {len(one)}"
     different = one.view(np.uint64) != other.view(np.uint64)
     if not different.any():
         return True, "same"
@@ -194,17 +194,17 @@ def main():
         for name, fmu in (pair.split("=", 1) for pair in named):
             progress(0.0, f"starting {name}")
             platforms.append(Platform(name, fmu, wine))
-        told, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder))))
+        text, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder))))
     finally:
         for platform in platforms:
             platform.close()
-    print(told, end="", file=sys.stdout if same else sys.stderr)
+    print(text, end="", file=sys.stdout if same else sys.stderr)
     return 0 if same else 1
 
 
 def tables(platforms, scenes):
     first, *others = platforms
-    told = table(["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
+    text = table(["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
                  [described(platform) for platform in platforms], right=(1, 2, 4)) + "\n"
     same, rows, lines = True, [], []
     for index, (name, values, *rest) in enumerate(scenes):
@@ -216,21 +216,21 @@ def tables(platforms, scenes):
             same &= agrees
             row.append(words)
         rows.append(row)
-    told += table(["scene", "points", "values", *(platform.name for platform in others)], rows, right=(1, 2)) + "\n"
+    text += table(["scene", "points", "values", *(platform.name for platform in others)], rows, right=(1, 2)) + "\n"
     for index, (name, duration) in enumerate(TIMED.items()):
         progress(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
         values = next(scene[1] for scene in scenes if scene[0] == name)
         seconds = [platform.seconds(values, duration) for platform in platforms]
         lines.append([name, f"{duration:g} s", f"{1e3 * seconds[0]:.1f} ms",
                       *(f"{one / seconds[0]:.2f}" for one in seconds[1:])])
-    told += table(["scene", "simulated", first.name, *(f"{platform.name} / that" for platform in others)], lines,
+    text += table(["scene", "simulated", first.name, *(f"{platform.name} / that" for platform in others)], lines,
                   right=range(1, len(platforms) + 2)) + "\n"
     statuses = {tuple(platform.refuses()) for platform in platforms}
     same &= len(statuses) == 1
     words = "; ".join(", ".join(one) for one in statuses)
-    told += (f"A variable that does not exist, a step before initialisation, and a module that is not a number come back as "
+    text += (f"A variable that does not exist, a step before initialisation, and a module that is not a number return "
              f"status: {words} ({'alike on all' if len(statuses) == 1 else 'NOT alike'}).\n")
-    return told, same
+    return text, same
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 usage: study.py FMU FOLDER
 
 FOLDER/order.json says what to simulate and what theory expects (written by `fmu-build study`). A line
-"progress FRACTION WHAT" on standard error tells how far it is.
+"progress FRACTION WHAT" on standard error reports progress.
 """
 
 import json
@@ -66,29 +66,29 @@ def progress(fraction, what):
     print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
 
 
-def simulate(unpacked, description, order, case, duration, interval, tell=None):
+def simulate(unpacked, description, order, case, duration, interval, report=None):
     """A record of a case, sampled at every communication point."""
     messages = []
     start_values = {name: (value, unit) if unit else value
                     for name, (value, unit) in order[case]["start_values"].items()}
     try:
         return simulate_fmu(unpacked, model_description=description, start_values=start_values, output=OUTPUTS,
-                            stop_time=duration, output_interval=interval, step_finished=tell and sparsely(tell),
+                            stop_time=duration, output_interval=interval, step_finished=report and sparsely(report),
                             logger=lambda *message: messages.append(message[-1].decode()))
     except Exception as error:
-        said = " | ".join(messages) or "nothing"
-        raise SystemExit(f"the {case} case fails: {error}; the FMU says: {said}") from error
+        logged = " | ".join(messages) or "nothing"
+        raise SystemExit(f"the {case} case fails: {error}; the FMU logged: {logged}") from error
 
 
-def sparsely(tell, every=20):
-    """Calls `tell` with the time at every 20th step."""
+def sparsely(report, every=20):
+    """Calls `report` with the time at every 20th step."""
     count = 0
 
     def step_finished(now, _recorder):
         nonlocal count
         count += 1
         if count % every == 0:
-            tell(now)
+            report(now)
         return True
 
     return step_finished

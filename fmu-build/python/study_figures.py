@@ -97,7 +97,7 @@ def tooth_forces(folder, order, runs):
     style.caption(figure, f"Left: started in the middle of the play, the teeth strike once with {peak:.1f} times the static "
                   "force and settle within a fraction of a millisecond; an output every millisecond, as in the study, cannot "
                   f"show this. Afterwards the force straight ahead stays within {max(still, 0.01):.2g} parts per million of T/r. "
-                  "Right: the turn. One mesh bears its share "
+                  "Right: the turn. One mesh carries its share "
                   "T/(N Rₘ sin δ_b), a few per cent more while the corner of a tip carries at a shorter lever arm; one pair and "
                   "two pairs take turns once per tooth. The sum of all planets at the outer pitch circle stays T/r = "
                   f"{turning['tangential_force'] / 1e3:.2f} kN within {swing:.0f} parts per million, as the load is constant. "

@@ -1,11 +1,11 @@
-"""Drives an opened FMU from communication point to communication point and keeps account of the energy it turns over.
+"""Drives an opened FMU from communication point to communication point and accounts for the energy it turns over.
 
 Limits of the energy residual, each against what it is compared with:
 
-UNDAMPED  of the energy turned over, in scenes where nothing is lost: what is demanded of the solver at its default
-          tolerance of 1e-6, and all damped scenes that are smooth keep it too
-BLOWS     of the heat, where teeth strike: the heat of a blow is what a clunk or a rattle is judged by, and is to be
-          known to four digits"""
+UNDAMPED  of the energy turned over, in scenes without losses: the requirement on the solver at its default tolerance
+          of 1e-6; smooth damped scenes meet it too
+BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of a clunk or a rattle, and must be
+          correct to four digits"""
 
 import numpy as np
 
@@ -20,7 +20,7 @@ TURN = STEADY_TURN | {"scene.start": "rolling"}
 BIAS = {"scene.carrier_drive": "torque", "carrier.torque_command": 1670.0, "carrier.speed_command": 50.0,
         "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 52.5, "right.speed_command": 47.5}
 UNLOADED = {"left.load_torque": 0.0, "right.load_torque": 0.0}
-# gears whose inertia a test can count with, about three fifths of that of their solids
+# gears with known inertia, about three fifths of that of their solids
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
 # energy below which nothing was turned over [J]
 LEAST = 1e-9

@@ -2,7 +2,7 @@
 
     python tests/python/make_reference.py [CASE]...     writes tests/data/reference_<case>.csv, minutes for each
 
-Each file tells how far a second integration is from it, by another method: that is its own error."""
+Each file states how far a second integration by another method is from it: that is its own error."""
 
 import sys
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ from scipy.integrate import DOP853, Radau
 
 DATA = Path(__file__).parent.parent / "data"
 SIDES = ("left", "right")
-# planets of the cases stand in phase and move as one, so that the first tells for all; checked as the files are written
+# planets of the cases are in phase and move as one, so that the first represents all; checked when the files are written
 MESH = [f"planet[1].{side}_{what}" for side in SIDES for what in ("normal_force", "transmission_error")]
 OUTPUTS = ["left.speed", "right.speed", "planet[1].spin_speed", "carrier.torque", *MESH]
 UNITS = {"speed": "rad/s", "torque": "N.m", "force": "N", "error": "m"}
@@ -41,7 +41,7 @@ CLUNKING = {"carrier_speed": 0.0, "backlash": 0.1885e-3, "carrier_inertia": 0.05
 
 @dataclass
 class Case:
-    """One scene, told to the FMU and to the plain model."""
+    """One scene, for the FMU and for the plain model."""
 
     what: str
     fmu: dict
@@ -93,7 +93,7 @@ def solve(case, times, method="DOP853", tolerance=1e-12):
     """Outputs of the plain model at `times`, by scipy, which lands on each: what lies between steps is less exact."""
     model, state = case.begin()
     absolute = np.full(model.size, tolerance)  # of speeds [rad/s]
-    absolute[model.angles] *= 1e-3  # of the order of what teeth give way by [rad]
+    absolute[model.angles] *= 1e-3  # of the order of tooth deflections [rad]
     options = {"rtol": tolerance, "atol": absolute, "first_step": 1e-9}
     if method == "Radau":
         solver = Radau(model.rate, times[0], state, times[-1], jac=lambda _, y: jacobian(model, y), **options)

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 MATE = {"planet": "side", "side": "planet"}
 SIGMA = (1.0, -1.0)  # of left and right (§3)
 RATIO = theory.PLANET_TEETH / theory.SIDE_TEETH
-# Arc past the end of the path where the gap is ten times what teeth give way by: no corner touches from there on.
+# Arc past the end of the path where the gap is ten times the deflection of teeth: no corner touches from there on.
 REACH = 0.1
 
 
@@ -197,7 +197,7 @@ class Differential:
         return state
 
     def equilibrium(self):
-        """Planets as assembled, side gears where their teeth bear the loads; α̇ follows an imposed spin as in statics
+        """Planets as assembled, side gears where their teeth carry the loads; α̇ follows an imposed spin as in statics
         (§12). Refused where planets would not stay so."""
         scene = self.scene
 
@@ -235,15 +235,15 @@ class Differential:
         state = [float(value) for value in state]
         sides = self.meshes(state)
         reaction = sum(mesh.on_side for side in sides for mesh in side)
-        told = {"carrier.speed": state[4], "left.speed": state[2], "right.speed": state[3],
+        outputs = {"carrier.speed": state[4], "left.speed": state[2], "right.speed": state[3],
                 "carrier.torque": reaction if scene.carrier_torque is None else scene.carrier_torque}
         for side, name in enumerate(("left", "right")):
-            told[f"{name}.shaft_torque"] = scene.loads[side]
+            outputs[f"{name}.shaft_torque"] = scene.loads[side]
             if scene.shafts is not None:
-                told[f"{name}.shaft_torque"] = scene.shafts[side] * state[self.end_at + side]
+                outputs[f"{name}.shaft_torque"] = scene.shafts[side] * state[self.end_at + side]
             for planet, mesh in enumerate(sides[side]):
-                told[f"planet[{planet + 1}].{name}_normal_force"] = mesh.normal
-                told[f"planet[{planet + 1}].{name}_transmission_error"] = mesh.approach * theory.MEAN_CONE
+                outputs[f"planet[{planet + 1}].{name}_normal_force"] = mesh.normal
+                outputs[f"planet[{planet + 1}].{name}_transmission_error"] = mesh.approach * theory.MEAN_CONE
         for planet in range(scene.planets):
-            told[f"planet[{planet + 1}].spin_speed"] = state[5 + scene.planets + planet]
-        return told
+            outputs[f"planet[{planet + 1}].spin_speed"] = state[5 + scene.planets + planet]
+        return outputs

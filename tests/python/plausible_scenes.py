@@ -1,7 +1,7 @@
-"""Values of parameters and inputs that make a differential which can be built, loaded and turned.
+"""Values of parameters and inputs of a differential that can be built, loaded and turned.
 
 Where the interface allows many decades, because gears of watches and of ships do, a band is given here around the start
-value. Sizes follow the module. What is documented not to go together is drawn such that it does."""
+value. Sizes follow the module. Values that are documented to exclude each other are drawn so that they agree."""
 
 from math import atan2, exp, log, pi, sin
 
@@ -49,7 +49,7 @@ IN_MODULES = {
     "tooth_errors.side_axial_offset": (-0.01, 0.01), "tooth_errors.axis_offset": (-0.01, 0.01),
     "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
     "thrust_friction.planet_washer_radius": (1.0, 4.0), "thrust_friction.side_washer_radius": (2.0, 6.0)}
-# torques, in those that teeth of this size carry
+# torques, relative to those that teeth of this size carry
 IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_command": 2.0}
 
 
@@ -113,13 +113,13 @@ def gears(scene, u):
     growth = (scene["geometry.module"] / MODULE) ** 5
     for name in ("inertia.carrier", "inertia.side_gear", "inertia.planet"):
         scene[name] *= growth
-    # ends of half-shafts: none for a tenth, else those of wheels, which keep unequal loads from spinning light gears up
+    # ends of half-shafts: none for a tenth, else those of wheels, so that unequal loads do not spin light gears up
     for name in ("inertia.left_end", "inertia.right_end"):
         scene[name] = 0.0 if u[name] < 0.1 else growth * 10.0 ** (-1.5 + 2.0 * u[name])
 
 
 def contact(scene, u):
-    """A stiffness that lets a tooth of this size bend by 0.01 to 1 % of the module under the load it is made for."""
+    """A stiffness that lets a tooth of this size bend by 0.01 to 1 % of the module under its design load."""
     force = 16e3 * (scene["geometry.module"] / MODULE) ** 2
     exponent = 1.5 if scene["contact.stiffness_from_hertz"] else scene["contact.exponent"]
     deflection = scene["geometry.module"] * 10.0 ** (-4.0 + 2.0 * u["contact.stiffness"])
@@ -131,7 +131,7 @@ def contact(scene, u):
 
 
 def drives(scene, u):
-    """At most two imposed speeds, and speeds at the start that go together."""
+    """At most two imposed speeds, and consistent speeds at the start."""
     choices = [{"carrier"}, {"carrier", "spin"}, set(), {"left"}, {"right", "carrier"}, {"left", "right"}, {"spin"}]
     imposed = choices[int(u["scene.carrier_drive"] * len(choices))]
     scene["scene.carrier_drive"] = 1 if "carrier" in imposed else TORQUE_CARRIER
@@ -141,11 +141,11 @@ def drives(scene, u):
 
 
 def effects(scene, u):
-    """No effect where there is nothing for it to act on."""
+    """Effects only with levels of contact that they work with."""
     gear_contact = [IDEAL, LUMPED, TOOTH, TOOTH, TOOTH][int(u["scene.gear_contact"] * 5)]
     scene["scene.gear_contact"] = gear_contact
     for name in u:
-        # one or two effects at a time, so that it shows which is to blame
+        # one or two effects at a time, so that a failure shows its cause
         if name.startswith("effects.") and name not in ("effects.backlash", "effects.corner_contact"):
             scene[name] = u[name] < 0.15
     scene["effects.corner_contact"] = u["effects.corner_contact"] < 0.95

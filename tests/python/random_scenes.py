@@ -1,8 +1,8 @@
 """Random scenes: Latin hypercubes over all parameters and inputs of the FMU.
 
-`wild` takes every value from its whole range, so that hardly anything fits together. `plausible` stays near scenes that
+`wild` takes every value from its whole range, so that few values agree. `plausible` stays near scenes that
 can be built and obeys the documented rules of combination, so that most of them run. `bold` is plausible but for a few
-values from their whole ranges: it gets past the first checks and meets the others."""
+values from their whole ranges: it passes the first checks and reaches the others."""
 
 import numpy as np
 
@@ -10,7 +10,7 @@ import plausible_scenes
 from sampling import latin, spread
 
 KINDS = ("wild", "bold", "plausible")
-# of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make each step dear
+# of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make steps expensive
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03

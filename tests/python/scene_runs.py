@@ -1,6 +1,6 @@
 """Attempts at scenes: each is refused with a clear error, or runs, and what must hold of either is checked here.
 
-`Attempts` runs them in a process of its own, so that a crash or a hang is told with the scene that made it. Replay one:
+`Attempts` runs them in a separate process, so that a crash or a hang is reported with the scene that caused it. Replay one:
 
     FMU=target/fmu/BevelDifferential.fmu python tests/python/scene_runs.py replay 'the scene as it was printed'
 """
@@ -30,7 +30,7 @@ OK, DISCARD, ERROR = 0, 2, 3
 ATTEMPTS = 2_000_000
 # Energy residual over the energy turned over, in tolerances: the error of a speed is one at most in each step, that of
 # its energy two, and fifty blows may err to the same side. The method of fixed steps has no error control. Without tip
-# corners a bent pair leaves its path with the energy it holds, which nothing books.
+# corners a bent pair leaves its path with its energy, which no output accounts for.
 IMBALANCE = 100.0
 # heat below zero, over the energy turned over
 COLD = 1e-3
@@ -79,13 +79,13 @@ class Attempt:
     def __init__(self, folder, description, scene):
         self.scene, self.problems, self.verdict = scene, [], "ran"
         self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
-        self.instance, self.told = StatusInstance(folder, description), []
+        self.instance, self.messages = StatusInstance(folder, description), []
         try:
             if self.start():
                 self.go()
             else:
                 self.verdict = "refused"
-            self.told = self.instance.log[-2:]
+            self.messages = self.instance.log[-2:]
             self.fresh_again()
         finally:
             self.instance.fmu.freeInstance()
@@ -93,9 +93,9 @@ class Attempt:
             self.verdict = "failed"
 
     def record(self):
-        told = {name: getattr(self, name) for name in ("verdict", "problems", "imbalance", "turned_over", "attempts",
-                                                       "slowest")}
-        return {**told, "log": self.told}
+        found = {name: getattr(self, name) for name in ("verdict", "problems", "imbalance", "turned_over", "attempts",
+                                                        "slowest")}
+        return {**found, "log": self.messages}
 
     def demand(self, holds, what):
         if not holds:
@@ -145,10 +145,10 @@ class Attempt:
             if status > 1:
                 break
             now += size
-        books = one.outputs()
-        heat = {name: value for name, value in books.items() if name.startswith("heat.")}
+        outputs = one.outputs()
+        heat = {name: value for name, value in outputs.items() if name.startswith("heat.")}
         self.turned_over = sum(map(abs, heat.values())) + exchanged + inertial
-        self.imbalance = abs(books["solver.energy_residual"]) / max(self.turned_over, LEAST)
+        self.imbalance = abs(outputs["solver.energy_residual"]) / max(self.turned_over, LEAST)
         start = self.scene["start"]
         if start["solver.method"] != FIXED_STEP and start["effects.corner_contact"]:
             limit = IMBALANCE * start["solver.relative_tolerance"]
@@ -183,7 +183,7 @@ def kinetic(scene, outputs):
 
 
 def work(folder, kind, count, seed, first):
-    """The worker: attempts scenes from `first` on, telling begin and end of each."""
+    """The worker: attempts scenes from `first` on and reports begin and end of each."""
     description = read_model_description(os.path.join(folder, "modelDescription.xml"))
     for index, scene in random_scenes.scenes(description, kind, count, seed, first):
         print(json.dumps({"index": index}), flush=True)
@@ -209,12 +209,12 @@ def attempts(folder, kind, count, seed):
         try:
             while (line := lines.get(timeout=PATIENCE)) is not None:
                 try:
-                    told = json.loads(line)
+                    record = json.loads(line)
                 except ValueError:
                     said.append(line)
                     continue
-                if "verdict" in told:
-                    yield running, told
+                if "verdict" in record:
+                    yield running, record
                     running += 1
             end = f"process ended with {process.wait()}: {''.join(said[-20:])}"
         except queue.Empty:

@@ -1,7 +1,7 @@
 """The threshold at which free planets roll under unequal loads, against statics computed here from the formulas.
 
 Stiffness that varies along the path makes a potential well for the planets' spin. Its depth and steepest slope follow
-from the tooth geometry alone: energy of all pairs, side gears in balance with their load, as the planets turn."""
+from the tooth geometry alone: energy of all pairs, with side gears in balance with their load, while the planets turn."""
 
 from math import pi
 
@@ -11,7 +11,7 @@ import theory
 from plain import Differential, Gears, Scene
 
 GEARS = Gears()
-# only its elastic forces: pairs are asked at no speed
+# only its elastic forces: pairs at zero speed
 MODEL = Differential(Scene())
 
 
@@ -22,7 +22,7 @@ def energy(approach, travel):
 
 
 def balanced(sign, spin):
-    """Potential of one side with its two planets, the side gear where its load is borne."""
+    """Potential of one side with its two planets, the side gear where its load is carried."""
     travel = sign * GEARS.lever["planet"] * spin
     lever = GEARS.lever["side"]
 

@@ -1,4 +1,4 @@
-"""Model exchange: fmpy's CVode moves the state, and comes to what the FMU's own solver comes to."""
+"""Model exchange: fmpy's CVode integrates the state and agrees with the FMU's own solver."""
 
 import ctypes
 
@@ -36,7 +36,7 @@ def simulate(unpacked, description, literals):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_cvode_comes_to_what_the_own_solver_comes_to(simulate, scene):
+def test_cvode_agrees_with_the_own_solver(simulate, scene):
     values, stop = SCENES[scene], 0.02
     own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-9}, stop, None)
     theirs = simulate("ModelExchange", values, stop, 1e-8, solver="CVode")
@@ -49,7 +49,7 @@ def test_cvode_comes_to_what_the_own_solver_comes_to(simulate, scene):
         assert np.max(np.abs(rows[name] - own[name])) < 1e-4 * size, name
 
 
-def test_what_cvode_comes_to_converges_to_the_own_solver(simulate):
+def test_cvode_converges_to_the_own_solver(simulate):
     values = SCENES["lumped"]
     own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-11}, 0.01, None)
     errors = []
@@ -59,7 +59,7 @@ def test_what_cvode_comes_to_converges_to_the_own_solver(simulate):
     assert errors[2] < 1e-2 * errors[0] and errors[2] < 0.1, errors
 
 
-def test_states_and_derivatives_stand_in_the_model_structure(description):
+def test_states_and_derivatives_are_in_the_model_structure(description):
     derivatives = [unknown.variable for unknown in description.derivatives]
     assert len(derivatives) == 30
     names = [variable.derivative.name for variable in derivatives]

@@ -1,4 +1,4 @@
-"""The method with fixed steps: stable however the teeth come together, and of order 2 where the motion is smooth."""
+"""The method with fixed steps: stable however the teeth meet, and of order 2 where the motion is smooth."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def test_the_study_s_gears_settle_to_the_right_motion_from_every_start(drive, sc
     # blows are over after 0.1 s; a step of 1 ms then sees a handover of tooth pairs in some five steps
     speed, force = errors(rows[10:], reference[10:])
     assert speed < 1e-3 and force < 1e-3
-    # nothing that gears without teeth would not do, but the rolling back of a blow
+    # no speed that gears without teeth would not have, except the rebound of a blow
     assert np.abs(rows[:, :2]).max() < 1.5 * CARRIER
     # every step is one step
     assert driven["solver.steps"] == round(0.4 / size) and driven["solver.rejected"] == 0.0
@@ -44,7 +44,7 @@ def test_errors_fall_with_the_square_of_the_step(drive):
     values = TURN | {"scene.start": "equilibrium"}
     reference, _ = record(drive, values, None, 0.1)
     coarse, fine = (errors(record(drive, values, size, 0.1)[0], reference)[0] for size in (4e-4, 1e-4))
-    # four times finer is sixteen times better, where no kink is stepped over at its worst
+    # four times finer is sixteen times better, where no kink falls within a step
     assert fine < coarse / 8.0
 
 

@@ -47,7 +47,7 @@ def test_straight_ahead_both_sides_turn_with_the_carrier(straight):
     assert willis(part) < 1e-6
 
 
-def test_straight_ahead_the_teeth_bear_what_theory_says(straight):
+def test_straight_ahead_the_teeth_carry_what_theory_says(straight):
     part = settled(straight)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
@@ -60,7 +60,7 @@ def test_in_the_turn_the_speeds_follow_willis(turn):
     part = settled(turn)
     for side, expected in zip(SIDES, theory.side_speeds(CARRIER, SPIN)):
         assert np.degrees(np.mean(part[f"{side}.speed"])) == pytest.approx(expected, rel=1e-3)
-    # the teeth's stiffness gives what it takes within a mesh period; what is left is the sampling of the mean
+    # the stiffness of teeth returns its energy within a mesh period; the remainder is the sampling of the mean
     assert willis(part) < 2e-6
 
 
@@ -70,7 +70,7 @@ def willis(part):
     return abs(np.mean(part["left.speed"]) + np.mean(part["right.speed"]) - carrier) / carrier
 
 
-def test_in_the_turn_the_teeth_bear_what_theory_says(turn):
+def test_in_the_turn_the_teeth_carry_what_theory_says(turn):
     part = settled(turn)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
@@ -104,7 +104,7 @@ def test_no_tooth_slips(turn):
     for side, sign in zip(SIDES, [1.0, -1.0]):
         spin = part["planet[1].spin_angle"]
         lag = part["carrier.angle"] + sign * ratio * spin - part[f"{side}.angle"]
-        # through half the play, and not farther than one pair alone bends
+        # through half the play, and no farther than the deflection of one pair
         assert np.all(lag > theory.half_play())
         assert np.all(lag < theory.half_play() + 1.05 * theory.largest_wind_up())
         # several teeth have passed, so a slip of one would show
@@ -112,7 +112,7 @@ def test_no_tooth_slips(turn):
     assert theory.half_play() + theory.largest_wind_up() < 0.1 * 2.0 * np.pi / theory.SIDE_TEETH
 
 
-def test_four_planets_bear_half_each(run):
+def test_four_planets_carry_half_each(run):
     part = settled(run(STRAIGHT | {"geometry.planet_count": 4}, stop=0.3))
     for planet in [1, 2, 3, 4]:
         for side in SIDES:
@@ -169,7 +169,7 @@ def test_an_input_that_is_no_number_is_refused_and_the_run_goes_on(open_fmu):
     assert speeds[0] == speeds[1]
 
 
-def test_no_message_is_needed_but_the_warning_about_the_face_width(open_fmu):
+def test_the_only_message_is_the_warning_about_the_face_width(open_fmu):
     with open_fmu() as opened:
         opened.initialise()
         opened.fmu.doStep(0.0, 1e-3)

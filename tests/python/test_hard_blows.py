@@ -7,7 +7,7 @@ import pytest
 import theory
 from driving import BLOWS, GIVEN, SIDES, TURN, UNDAMPED, UNLOADED
 
-# next to nothing: enough to tell on which flank the teeth lie
+# almost no load: enough to show on which flank the teeth are
 TOUCH = 1e-3
 
 
@@ -101,7 +101,7 @@ def test_rattling_gears_gain_no_energy(drive, law, damping):
     assert max(early) > 1e-6
     assert max(late) == pytest.approx(max(early), rel=1e-3)
     assert scene.heat() > heat if damping else scene.heat() == heat == 0.0
-    # what the solver errs by in the swing is told above; the free rattle is counted by itself
+    # the solver's error in the oscillation is tested above; the free rattle counts separately
     assert abs(scene["solver.energy_residual"] - begin) < 1e-3 * max(early)
 
 

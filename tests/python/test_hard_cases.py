@@ -55,7 +55,7 @@ def test_one_wheel_on_ice_without_inertia_at_the_ends_stays_finite_and_balanced(
     scene = drive({"left.load_torque": 0.0}).to(0.002, 1e-4)
     assert 3e3 < scene["left.speed"] < 6e3
     assert np.all(np.isfinite(scene.read(["right.speed", "left.normal_force", "planet[1].spin_speed"])))
-    # teeth that roll so fast do nothing but strike
+    # teeth that roll so fast only strike
     assert scene.imbalance_of_blows() < BLOWS
 
 
@@ -69,7 +69,7 @@ def test_both_loads_reversed_and_back_cross_the_play_and_settle(drive):
         # drive flanks touch under positive load; under negative load they stand a whole play apart
         error = scene["planet[1].left_transmission_error"]
         assert error > 0.0 if sign > 0.0 else error < -2.0 * theory.half_play_arc() * theory.MEAN_CONE
-    # blows of one fall through the play: far below what undamped teeth would feel from four added up
+    # blows of one fall through the play: far below the force of four added up on undamped teeth
     assert max(peak) < 6.0 * theory.normal_force()
     assert scene.imbalance_of_blows() < BLOWS
 
@@ -109,7 +109,7 @@ def test_the_ideal_differential_accelerates_by_its_closed_form(drive):
     assert scene["planet[2].spin_speed"] == pytest.approx(0.1 * spin, rel=1e-10)
     assert scene["right.acceleration"] == pytest.approx(-ratio * spin, rel=1e-10)
     assert scene["left.speed"] + scene["right.speed"] == pytest.approx(2.0 * CARRIER, rel=1e-12)
-    # a closed form: nothing but rounding
+    # a closed form: only rounding
     assert scene.imbalance() < 1e-12
 
 

@@ -9,7 +9,7 @@ from driving import UNDAMPED
 
 CLUTCH = {"effects.limited_slip": True, "limited_slip.preload": 100.0, "limited_slip.torque_coefficient": 0.0,
           "inertia.left_end": 0.5, "inertia.right_end": 0.5}
-# integrator steps granted to a half-cycle of the load beside one for each communication step. It sticks and breaks
+# integrator steps allowed for a half-cycle of the load, besides one for each communication step. It sticks and breaks
 # loose once; after either the step size grows again from that of the landing, and a mesh that was shaken rings: some
 # tens of steps each, where chatter takes them by the hundred. Gears that roll pass some teeth besides.
 PER_HALF_CYCLE = {"ideal": 100.0, "lumped": 100.0, "tooth": 400.0}
@@ -47,7 +47,7 @@ def test_a_clutch_at_crossing_speed_sticks_and_slips_in_a_bounded_number_of_step
 @pytest.mark.parametrize("step", [1e-3, 1e-2])
 def test_a_clutch_that_is_crossed_under_far_more_than_it_holds_turns_round_without_chatter(drive, contact, step):
     halves, work = 20, []
-    # the same swing without a clutch tells what the gears that roll take by themselves
+    # the same oscillation without a clutch shows the steps that rolling gears need
     for clutch in [{"limited_slip.preload": 10.0}, {"effects.limited_slip": False}]:
         scene = drive(CLUTCH | {"scene.gear_contact": contact} | clutch)
         speeds = []

@@ -22,9 +22,9 @@ def refusal(opened, name, value):
         opened.initialise()
     assert failure.value.status in (DISCARD, ERROR), (name, value)
     lines = "\n".join(opened.log[begin:]).replace(": ", ":\n", 1).splitlines()
-    told = [line.strip() for line in lines if line.strip().startswith(f"{name}: ")]
-    assert len(told) == 1, (name, value, opened.log[begin:])
-    return told[0]
+    messages = [line.strip() for line in lines if line.strip().startswith(f"{name}: ")]
+    assert len(messages) == 1, (name, value, opened.log[begin:])
+    return messages[0]
 
 
 def assert_usable_after_reset(opened):
@@ -36,17 +36,17 @@ def assert_usable_after_reset(opened):
     opened.fmu.reset()
 
 
-def assert_told(told, variable, value):
+def assert_message(message, variable, value):
     """Variable, value, unit and range."""
     unit = "" if variable.unit in (None, "1") else variable.unit
-    assert unit in told, told
+    assert unit in message, message
     if math.isfinite(value):
-        shown = re.match(rf"{re.escape(variable.name)}: (\S+)", told)[1]
-        assert float(shown.rstrip(",:;")) == pytest.approx(value, rel=1e-6), told
+        shown = re.match(rf"{re.escape(variable.name)}: (\S+)", message)[1]
+        assert float(shown.rstrip(",:;")) == pytest.approx(value, rel=1e-6), message
     else:
-        assert "not a finite number" in told, told
-    low, high = re.search(r"\[(\S+), (\S+)\]", told).groups()
-    assert [float(low), float(high)] == pytest.approx([float(variable.min), float(variable.max)], rel=1e-9), told
+        assert "not a finite number" in message, message
+    low, high = re.search(r"\[(\S+), (\S+)\]", message).groups()
+    assert [float(low), float(high)] == pytest.approx([float(variable.min), float(variable.max)], rel=1e-9), message
 
 
 @pytest.mark.parametrize("value", [NONE, *ENDLESS, 1e300, -1e300])
@@ -60,7 +60,7 @@ def test_an_absurd_input_is_refused_by_name_value_unit_and_range_and_the_run_goe
             with pytest.raises(FMICallException) as failure:
                 opened.set(variable.name, value)
             assert failure.value.status in (DISCARD, ERROR)
-            assert_told(opened.log[begin].split(": ", 1)[1], variable, value)
+            assert_message(opened.log[begin].split(": ", 1)[1], variable, value)
             assert opened.get(variable.name) == kept
         outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
         for one in (undisturbed, opened):
@@ -75,7 +75,7 @@ def test_a_value_out_of_its_range_is_refused_by_name_value_unit_and_range(open_f
         for variable in reals(description, causality):
             low, high = float(variable.min), float(variable.max)
             for value in [low - max(abs(low), 1e-9 * high), 2.0 * high, NONE, *ENDLESS]:
-                assert_told(refusal(opened, variable.name, value), variable, value)
+                assert_message(refusal(opened, variable.name, value), variable, value)
                 assert_usable_after_reset(opened)
 
 
@@ -86,7 +86,7 @@ def test_a_whole_number_out_of_its_range_is_refused_by_name_value_and_range(open
                 low, high = int(variable.min), int(variable.max)
                 # a seed may be any number there is
                 for value in [v for v in (low - 1, high + 1) if -2**31 <= v < 2**31]:
-                    assert_told(refusal(opened, variable.name, value), variable, value)
+                    assert_message(refusal(opened, variable.name, value), variable, value)
                     assert_usable_after_reset(opened)
 
 
@@ -96,8 +96,8 @@ def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(open_fmu
             if variable.type == "Enumeration":
                 literals = [f"{item.value} = {item.name}" for item in variable.declaredType.items]
                 for value in (0, -3, len(literals) + 1):
-                    told = refusal(opened, variable.name, value)
-                    assert all(literal in told for literal in literals), told
+                    message = refusal(opened, variable.name, value)
+                    assert all(literal in message for literal in literals), message
                     assert_usable_after_reset(opened)
 
 
@@ -109,8 +109,8 @@ def test_all_that_is_wrong_is_told_at_once(open_fmu):
         with pytest.raises(FMICallException) as failure:
             opened.initialise()
         assert failure.value.status == ERROR
-        told = "\n".join(opened.log)
-        assert all(name in told for name in wrong), told
+        message = "\n".join(opened.log)
+        assert all(name in message for name in wrong), message
         assert_usable_after_reset(opened)
 
 

@@ -1,4 +1,4 @@
-"""What hosts do to an FMU beyond a single run, with fmpy in their place. Names of tests are sentences."""
+"""Uses of an FMU beyond a single run: several instances, threads, unusual folders. Names of tests are sentences."""
 
 import shutil
 from concurrent.futures import ThreadPoolExecutor
@@ -54,13 +54,13 @@ def alone(begin, load):
     return record
 
 
-def test_two_instances_step_by_turns_and_are_freed_in_any_order(begin):
+def test_two_instances_step_alternately_and_are_freed_in_any_order(begin):
     expected = [alone(begin, load) for load in (835.0, 400.0)]
     assert expected[0] != expected[1]
     for first_freed in [0, 1]:
         pair = [begin("one", 835.0), begin("other", 400.0)]
         records = [list(steps) for steps in zip(*[[instance.step() for instance in pair] for _ in range(STEPS // 2)])]
-        # the one that is left goes on as if nothing had been beside it
+        # the other one continues as if it had been alone
         pair[first_freed].slave.terminate()
         pair[first_freed].slave.freeInstance()
         left = 1 - first_freed

@@ -93,7 +93,7 @@ def test_all_friction_together_is_near_the_textbook_s_bias_ratio(run, mu, ratio)
 
 
 @pytest.mark.parametrize("law", ["benedict_kelley", "iso_14179", "xu_kahraman"])
-def test_published_friction_laws_lose_what_their_coefficients_say(run, law):
+def test_published_friction_laws_lose_energy_by_their_coefficients(run, law):
     record = run({**STEADY_TURN, "effects.tooth_friction": True, "tooth_friction.law": law}, stop=0.36,
                  output=["heat.tooth_friction", "solver.energy_residual"])
     # mu H_v T |dw| of both sides, H_v = 0.267 on the path; all three lie between 0.02 and 0.2 here

@@ -46,7 +46,7 @@ def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, s
         assert scene[f"{side}.speed"] == pytest.approx(CARRIER, rel=1e-6)
         assert scene[f"{side}.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
     # 4.3 million radians: what both side gears lag behind in the mean, wherever the free planets came to rest, is still
-    # told to less than a micrometre at the teeth
+    # exact to less than a micrometre at the teeth
     lag = scene["carrier.angle"] - 0.5 * (scene["left.angle"] + scene["right.angle"])
     assert lag == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
     assert scene["carrier.angle"] == pytest.approx(DAY * CARRIER, rel=1e-12)

@@ -1,7 +1,7 @@
 """Random scenes on the packaged FMU: each finishes in balance or is refused with a clear error.
 
 None panics, hangs, calls a step good that gave a value which is no number, or takes more steps than are granted.
-200 by default; `cargo run --release -- test-python -k random --scenes 10000` runs as many as asked for."""
+200 by default; `cargo run --release -- test-python -k random --scenes 10000` runs more."""
 
 import collections
 
@@ -12,11 +12,11 @@ import scene_runs
 from sampling import latin, spread
 
 SEED = 1
-# failures told with their whole scene
-TOLD = 5
+# failures shown with their whole scene
+SHOWN = 5
 
 
-def tell(description, kind, count, index, record):
+def described(description, kind, count, index, record):
     """What reproduces a failure."""
     _, scene = next(random_scenes.scenes(description, kind, count, SEED, index, index + 1))
     return f"{kind} scene {index} of {count}: {record['problems']}\nlog: {record['log']}\nscene: {scene!r}\n"
@@ -31,8 +31,8 @@ def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(unpac
         if record["verdict"] == "failed":
             failures.append((index, record))
     print(kind, dict(verdicts))
-    told = "\n".join(tell(description, kind, count, *failure) for failure in failures[:TOLD])
-    assert not failures, f"{len(failures)} of {count} failed: {[index for index, _ in failures]}\n{told}"
+    shown = "\n".join(described(description, kind, count, *failure) for failure in failures[:SHOWN])
+    assert not failures, f"{len(failures)} of {count} failed: {[index for index, _ in failures]}\n{shown}"
     assert sum(verdicts.values()) == count
     if kind == "plausible":
         assert verdicts["ran"] >= 0.5 * count, verdicts

@@ -84,7 +84,7 @@ def test_the_blows_of_a_rolling_start_follow_the_reference(errors, case):
 
 
 def test_the_clunk_follows_the_reference(errors):
-    # gears without weight chatter between undamped teeth and shafts; what is asked for is what a vehicle feels
+    # gears without weight chatter between undamped teeth and shafts; the outputs here are those that a vehicle transmits
     _, found = errors("clunk")
     assert found["carrier.speed"].max() <= SPEED_ERROR
     assert largest(found, "shaft_torque") <= (FORCE_ERROR, "")

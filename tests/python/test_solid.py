@@ -15,7 +15,7 @@ MISALIGNED = {"effects.tooth_errors": True, "tooth_errors.shaft_angle_error": 1e
 
 
 @pytest.fixture(scope="module")
-def turn(unpacked, description, reference, literals):
+def turn(unpacked, description):
     """turn(facets): outputs every millisecond over a mesh cycle of the study's turn, and after it the drive; 0 facets are
     tooth pairs on the path of contact."""
     from conftest import Opened
@@ -25,7 +25,7 @@ def turn(unpacked, description, reference, literals):
 
     def record(facets):
         if facets not in kept:
-            opened, rows = Opened(unpacked, description, reference, literals), []
+            opened, rows = Opened(unpacked, description), []
             level = SOLID | {"solid.facets": facets} if facets else {}
             # one mesh cycle of 5.556 Hz
             Drive(opened, STEADY | level).to(0.18, 1e-3, lambda d: rows.append(d.read(WATCHED)))
@@ -63,9 +63,9 @@ def test_straight_ahead_the_normal_force_is_the_torque_over_the_base_circle_s_le
 @pytest.mark.parametrize("part, order", [(slice(0, 2), 1.0), (slice(2, 4), 1.0), (slice(4, 5), 1.5)],
                          ids=["force", "speed", "deflection"])
 def test_what_facets_do_falls_with_their_number_at_the_expected_order(turn, part, order):
-    """Heights of arc over facets, which deflections feel, fall with the square of the facets' number, at tip corners but for
+    """Heights of arc over facets, which determine deflections, fall with the square of the facets' number, at tip corners but for
     a logarithm (the patch there lies on one side of the corner, and its part of the sum falls with the softness);
-    slopes, which forces and speeds feel, fall with the number, and faster where the patch smooths them."""
+    slopes, which determine forces and speeds, fall with the number, and faster where the patch smooths them."""
     of = ripple(turn)
     values = np.array([of(facets, part) for facets in (8, 16, 32, 64)])
     assert np.all(np.diff(values) < 0.0), values

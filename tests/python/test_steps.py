@@ -1,4 +1,4 @@
-"""The trajectory does not hang on the communication steps; a state goes on in another process as in this one."""
+"""The trajectory does not depend on the communication steps; a state continues in another process as in this one."""
 
 import json
 import os
@@ -49,7 +49,7 @@ def end(open_fmu, scene, steps):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_the_trajectory_does_not_hang_on_the_communication_steps(open_fmu, scene):
+def test_the_trajectory_does_not_depend_on_the_communication_steps(open_fmu, scene):
     ends = {way: end(open_fmu, scene, steps) for way, steps in WAYS.items()}
     finest = ends["1e-5"]
     for way, values in ends.items():
@@ -73,7 +73,7 @@ print(json.dumps([value.hex() for value in fmu.getReal([reference[name] for name
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_a_state_goes_on_in_another_process_as_in_this_one(open_fmu, unpacked, tmp_path, description, scene):
+def test_a_state_continues_in_another_process_as_in_this_one(open_fmu, unpacked, tmp_path, description, scene):
     names = [v.name for v in description.modelVariables if v.causality == "output"]
     with open_fmu() as opened:
         for name, value in SCENES[scene].items():

@@ -1,4 +1,4 @@
-"""Switches of the effects: off leaves no trace, on balances its energy, wrong combinations are refused, states are restored."""
+"""Switches of the effects: off changes no bit, on balances its energy, wrong combinations are refused, states are restored."""
 
 from math import radians
 
@@ -32,7 +32,7 @@ def plain(run):
 
 
 @pytest.mark.parametrize("effect", EFFECTS + ["lock"])
-def test_what_is_off_leaves_no_trace(run, plain, description, effect):
+def test_an_effect_that_is_off_changes_no_bit(run, plain, description, effect):
     own = [v for v in description.modelVariables if v.name.startswith(effect + ".") and v.causality == "parameter"]
     assert len(own) >= 2
     values = {v.name: other_value(v) for v in own if v.type != "Enumeration"}
@@ -51,7 +51,7 @@ ON = {"tooth_errors": {"tooth_errors.accuracy_grade": 7, "tooth_errors.planet_ti
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
-def test_what_is_on_balances_its_energy(run, plain, effect):
+def test_an_effect_that_is_on_balances_its_energy(run, plain, effect):
     names = OUTPUTS + ["carrier.speed", "power.in"]
     record = run({**STEADY_TURN, **ON.get(effect, {}), f"effects.{effect}": True}, stop=0.2, output=names)
     exchanged = 2.0 * theory.LOAD * radians(954.0) * 0.2
@@ -64,7 +64,7 @@ def test_what_is_on_balances_its_energy(run, plain, effect):
 
 @pytest.mark.parametrize("planets", [2, 4])
 @pytest.mark.parametrize("law", ["impact", "line"])
-def test_planets_simulated_once_give_the_bits_of_all_simulated(run, planets, law):
+def test_planets_simulated_once_give_the_same_bits_as_each_simulated(run, planets, law):
     base = {**STEADY_TURN, "geometry.planet_count": planets, "contact.law": law}
     once = run(base, stop=0.2, output=OUTPUTS)
     each = run({**base, "solver.merge_planets": False}, stop=0.2, output=OUTPUTS)

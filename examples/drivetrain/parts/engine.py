@@ -14,8 +14,8 @@ def ramp(t, begin, end):
 class Engine(Part):
     description = "Engine: the pedal's torque over time, less at speed, behind a lag of first order"
     parameters = {
-        "high": (110.0, "Torque asked for from rise on, N.m"),
-        "low": (35.0, "Torque asked for after fall, N.m"),
+        "high": (110.0, "Requested torque from rise on, N.m"),
+        "low": (35.0, "Requested torque after fall, N.m"),
         "rise": (0.15, "Time from rest to the high torque, s"),
         "fall": (0.35, "When the driver begins to take the foot back, s"),
         "release": (0.1, "How long that takes, s"),
@@ -30,5 +30,5 @@ class Engine(Part):
         asked = self.high * ramp(t, 0.0, self.rise) - (self.high - self.low) * ramp(t, self.fall, self.fall + self.release)
         return [(asked / sqrt(1.0 + (u[0] / self.knee) ** 2) - x[0]) / self.lag]
 
-    def told(self, x, u):
+    def output_values(self, x, u):
         return {"torque": x[0]}

@@ -25,5 +25,5 @@ class FinalDrive(Part):
         torque, rate = self.shaft(x, u)
         return [(u[0] - torque / self.gear) / self.inertia, rate]
 
-    def told(self, x, u):
+    def output_values(self, x, u):
         return {"carrier_torque": self.final * self.shaft(x, u)[0], "engine_speed": x[0]}

@@ -1,8 +1,8 @@
 """What all parts of the drivetrain that pythonfmu makes have in common.
 
-A part holds its inputs over a communication step, or follows a line where the input `der(NAME)` tells its slope
+A part holds its inputs over a communication step, or follows a line where the input `der(NAME)` gives its slope
 [unit/s]: what fmi2SetRealInputDerivatives does, for a tool that does not offer it. It integrates itself with steps so
-short that its own error does not show beside that of the coupling, and its state can be taken and put back.
+short that its own error is negligible against that of the coupling, and its state can be saved and restored.
 """
 
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real
@@ -32,7 +32,7 @@ class Part(Fmi2Slave):
             self.register_input(f"der({name})", self.slope, i, f"Slope of {name} within a step, per second; 0: held")
         for name, description in self.outputs:
             self.register_variable(Real(name, causality=Fmi2Causality.output, description=description,
-                                        getter=lambda name=name: self.told(self.x, self.u)[name]))
+                                        getter=lambda name=name: self.output_values(self.x, self.u)[name]))
 
     def register_input(self, name, values, i, description):
         def put(value):
@@ -45,7 +45,7 @@ class Part(Fmi2Slave):
         """Rates of the states."""
         raise NotImplementedError
 
-    def told(self, x, u):
+    def output_values(self, x, u):
         """Outputs by name."""
         raise NotImplementedError
 

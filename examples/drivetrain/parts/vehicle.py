@@ -22,5 +22,5 @@ class Vehicle(Part):
         resistance = self.drag * v * abs(v) + self.rolling * self.mass * 9.81 * tanh(v / self.breakaway)
         return [(u[0] + u[1] - resistance) / self.mass]
 
-    def told(self, x, u):
+    def output_values(self, x, u):
         return {"speed": x[0]}

@@ -1,4 +1,4 @@
-"""Wheel with a tyre that builds its slip up over a relaxation length, on a road of its own friction."""
+"""Wheel with a tyre that builds its slip up over a relaxation length, on a road with given friction."""
 
 from math import atan, sin
 
@@ -34,5 +34,5 @@ class Wheel(Part):
         return [(torque - self.radius * self.force(x, v)) / self.inertia,
                 (self.radius * x[0] - v - abs(v) * x[1]) / self.relaxation]
 
-    def told(self, x, u):
+    def output_values(self, x, u):
         return {"speed": x[0], "force": self.force(x, u[1]), "slip": x[1]}
