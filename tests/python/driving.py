@@ -70,6 +70,21 @@ class Drive:
                 each(self)
         return self
 
+    def save(self):
+        """The state as bytes, and its time."""
+        state = self.opened.fmu.getFMUstate()
+        kept = self.opened.fmu.serializeFMUstate(state)
+        self.opened.fmu.freeFMUstate(state)
+        return kept, self.time
+
+    def restore(self, saved):
+        """Back to a saved state, of this instance or another."""
+        kept, self.time = saved
+        state = self.opened.fmu.deSerializeFMUstate(kept)
+        self.opened.fmu.setFMUstate(state)
+        self.opened.fmu.freeFMUstate(state)
+        return self
+
     def heat(self):
         return sum(self.read(self.heats))
 

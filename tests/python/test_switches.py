@@ -102,18 +102,7 @@ def test_a_state_with_stuck_clutches_and_a_broken_tooth_is_restored_to_the_bit(d
               "left.load_torque": 900.0}
     driven = drive(values).to(0.05, 1e-3)
     driven.set({"fault.trigger": 1.0})
-    driven.to(0.1, 1e-3)
-    fmu, time = driven.opened.fmu, driven.time
-    state = fmu.getFMUstate()
-    kept = fmu.serializeFMUstate(state)
+    kept = driven.to(0.1, 1e-3).save()
     first = driven.to(0.2, 1e-3).read(OUTPUTS)
-    fmu.setFMUstate(state)
-    driven.time = time
-    assert driven.to(0.2, 1e-3).read(OUTPUTS) == first
-    fmu.freeFMUstate(state)
-    other = drive(values)
-    state = other.opened.fmu.deSerializeFMUstate(kept)
-    other.opened.fmu.setFMUstate(state)
-    other.time = time
-    assert other.to(0.2, 1e-3).read(OUTPUTS) == first
-    other.opened.fmu.freeFMUstate(state)
+    assert driven.restore(kept).to(0.2, 1e-3).read(OUTPUTS) == first
+    assert drive(values).restore(kept).to(0.2, 1e-3).read(OUTPUTS) == first
