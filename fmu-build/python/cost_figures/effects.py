@@ -5,6 +5,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 import style
+from cost_figures.cells import draw_cells
 from readable import percent, ratio, wrapped
 from records import read
 
@@ -42,18 +43,15 @@ def changes(axes, rows, names, scene):
     outputs = list(dict.fromkeys(row["output"] for row in rows))
     cell = {(row["effect"], row["output"]): row for row in rows}
     found = np.array([[cell[name, output]["change"] for output in outputs] for name in names])
-    axes.imshow(np.where(np.isfinite(found), found, 0.0), cmap=COLORS, norm=LIMITS, aspect="auto")
-    for i, name in enumerate(names):
-        for j, output in enumerate(outputs):
-            change, status = found[i, j], cell[name, output]["status"]
-            text = percent(change) if status == "ok" else "×" if status == "failed" else "–"
-            axes.text(j, i, text, ha="center", va="center", fontsize=9, color="white" if change >= 0.1 else style.INK)
-    axes.set(xticks=range(len(outputs)), yticks=range(len(names)))
+    texts = [[text_of(cell[name, output]) for output in outputs] for name in names]
+    draw_cells(axes, found, texts, COLORS, LIMITS, lambda change: change >= 0.1, 9)
     axes.set_title(f"Scene {scene}: change of each output by each effect, with all others on", fontsize=11.5)
     axes.set_xticklabels([broken(output) for output in outputs], fontsize=9)
     axes.set_yticklabels(names, fontsize=style.SMALL)
-    axes.grid(False)
-    axes.tick_params(length=0)
+
+
+def text_of(row):
+    return percent(row["change"]) if row["status"] == "ok" else "×" if row["status"] == "failed" else "–"
 
 
 def broken(name):

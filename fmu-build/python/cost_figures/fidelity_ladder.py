@@ -5,6 +5,7 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
 import style
+from cost_figures.cells import draw_cells
 from readable import percent, ratio, with_unit, wrapped
 from records import read
 
@@ -38,22 +39,16 @@ def errors(axes, rows, rungs, title):
     quantities = list(dict.fromkeys(row["quantity"] for row in rows))
     cell = {(row["rung"], row["quantity"]): row for row in rows}
     found = np.array([[cell[rung, quantity]["error"] for quantity in quantities] for rung in rungs])
-    axes.imshow(np.where(np.isfinite(found), found, 1e8), cmap=COLORS, norm=LIMITS, aspect="auto")
-    for i, rung in enumerate(rungs):
-        for j, quantity in enumerate(quantities):
-            row = cell[rung, quantity]
-            text = "failed" if row["status"] == "failed" else percent(row["error"])
-            if i == len(rungs) - 1:
-                text = with_unit(row["richest"], row["unit"])
-            dark = found[i, j] < 1e-3 or found[i, j] >= 0.5
-            axes.text(j, i, text, ha="center", va="center", fontsize=style.SMALL, color="white" if dark else style.INK)
-    axes.set(xticks=range(len(quantities)), yticks=range(len(rungs)))
+    texts = [["failed" if cell[rung, quantity]["status"] == "failed" else percent(cell[rung, quantity]["error"])
+              for quantity in quantities] for rung in rungs[:-1]]
+    last = [cell[rungs[-1], quantity] for quantity in quantities]
+    texts.append([with_unit(row["richest"], row["unit"]) for row in last])
+    # what failed has no number: the colour of the largest errors
+    draw_cells(axes, np.where(np.isfinite(found), found, 1e8), texts, COLORS, LIMITS, lambda error: error < 1e-3 or error >= 0.5)
     axes.set_title(f"{title}: error against the most detailed level (bottom)", fontsize=11.5)
     axes.set_xticklabels([wrapped(quantity, 14) for quantity in quantities], fontsize=style.SMALL)
     adds = [cell[rung, quantities[0]]["adds"] for rung in rungs]
     axes.set_yticklabels([f"{rung}\n" + wrapped(what, 27) for rung, what in zip(rungs, adds)], fontsize=9)
-    axes.grid(False)
-    axes.tick_params(length=0)
 
 
 def costs(axes, rows):
