@@ -15,7 +15,7 @@ ERRORS = {"speed_error": "error in speed of the side gears", "force_error": "err
 
 
 def other_solvers(folder):
-    """Nothing if `fmu-build foreign` has not measured."""
+    """Nothing if `compare-solvers` has not measured."""
     path = folder / "foreign.csv"
     if not path.is_file():
         return
