@@ -90,7 +90,7 @@ def jacobian(model, state):
 
 
 def solve(case, times, method="DOP853", tolerance=1e-12):
-    """Outputs of the plain model at `times`, by scipy, which lands on each: what lies between steps is less exact."""
+    """Outputs of the plain model at `times`, by scipy, whose steps end on each: interpolated values are less exact."""
     model, state = case.begin()
     absolute = np.full(model.size, tolerance)  # of speeds [rad/s]
     absolute[model.angles] *= 1e-3  # of the order of tooth deflections [rad]

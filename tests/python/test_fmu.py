@@ -189,8 +189,8 @@ def acted_on(opened, inputs, outputs):
 
 
 def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(open_fmu, description):
-    """The dependencies of the model structure are the union over all scenes and both kinds: nothing missing, nothing too
-    much."""
+    """The dependencies of the model structure are the union over all scenes and both kinds: nothing missing, nothing
+    superfluous."""
     inputs = [v.name for v in description.modelVariables if v.causality == "input"]
     outputs = [v.name for v in description.modelVariables if v.causality == "output"]
     declared = {(unknown.variable.name, known.name)

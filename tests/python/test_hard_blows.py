@@ -1,4 +1,4 @@
-"""Teeth that strike: torque steps, clunk across the lash, rattle, backlash from nothing to much."""
+"""Teeth that strike: torque steps, clunk across the lash, rattle, small and large backlash."""
 
 from math import sqrt
 
@@ -49,7 +49,7 @@ def test_a_torque_step_of_5000_newton_metres_in_one_communication_step_finishes(
 def test_clunk_peaks_at_the_torque_of_two_inertias_across_the_lash(drive):
     stiffness, inertia_1, inertia_2, torque = 2e4, 0.05, 1.0, 100.0
     backlash = 0.1885e-3
-    # at rest on the coast flanks, held there by next to nothing
+    # at rest on the coast flanks under almost no load
     scene = drive({
         "scene.carrier_drive": "torque", "carrier.torque_command": -2.0 * TOUCH, "carrier.speed_command": 0.0,
         "left.load_torque": -TOUCH, "right.load_torque": -TOUCH, "inertia.carrier": inertia_1,
@@ -82,7 +82,7 @@ def relative_motion(scene):
 @pytest.mark.parametrize("law", ["impact", "line"])
 @pytest.mark.parametrize("damping", [5e4, 0.0])
 def test_rattling_gears_gain_no_energy(drive, law, damping):
-    """The carrier swings and sets the unloaded gears rattling; from when it stands, nothing drives them any more."""
+    """The carrier swings and sets the unloaded gears rattling; once it stands still, nothing drives them."""
     carrier = 0.02
     scene = drive({**GIVEN, **UNLOADED, "scene.start": "rolling", "carrier.speed_command": 0.0, "contact.law": law,
                    "contact.damping": damping, "inertia.carrier": carrier})
@@ -97,7 +97,7 @@ def test_rattling_gears_gain_no_energy(drive, law, damping):
     begin, heat, early, late = scene["solver.energy_residual"], scene.heat(), [], []
     scene.to(0.15, 1e-4, lambda s: early.append(relative_motion(s) + s.heat() - heat))
     scene.to(0.25, 1e-4, lambda s: late.append(relative_motion(s) + s.heat() - heat))
-    # between blows nothing is bent: then motion and heat are all there is, and stay what they were
+    # between blows nothing is bent: the energy is in motion and heat, and both stay constant
     assert max(early) > 1e-6
     assert max(late) == pytest.approx(max(early), rel=1e-3)
     assert scene.heat() > heat if damping else scene.heat() == heat == 0.0

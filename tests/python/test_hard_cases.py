@@ -1,4 +1,4 @@
-"""Scenes that break careless models: wheels locked, on ice, thrown about, teeth overloaded. Each keeps its energy."""
+"""Hard scenes: wheels locked, on ice, loads that change fast, overloaded teeth. Each balances its energy."""
 
 import numpy as np
 import pytest
@@ -24,11 +24,11 @@ def test_with_one_wheel_locked_the_other_turns_at_twice_the_carrier_s_speed_and_
     begin, angle, forces = scene.time, scene["right.angle"], []
     meshes = ["planet[1].left_normal_force", "planet[2].right_normal_force"]
     scene.to(0.22, 1e-3, lambda s: forces.extend(s.read(meshes)))
-    # by Willis, but for what the locked wheel's shaft winds up further, and the slack
+    # by Willis, except for the further wind-up of the locked wheel's shaft, and the slack
     expected = 2.0 * CARRIER * (scene.time - begin)
     twist = theory.LOAD / 1e4
     assert scene["right.angle"] - angle == pytest.approx(expected, abs=2.0 * twist + SLACK)
-    # no more than the same load applied at once would make, undamped
+    # at most as large as under the same load applied at once, undamped
     assert max(forces) < 2.5 * theory.normal_force()
     assert scene.imbalance() < UNDAMPED
 
@@ -66,7 +66,7 @@ def test_both_loads_reversed_and_back_cross_the_play_and_settle(drive):
         begin = scene.time
         scene.to(begin + 0.01, 1e-4, lambda s: peak.append(s["planet[1].left_normal_force"])).to(begin + 0.1, 1e-3)
         assert_straight(scene, sign)
-        # drive flanks touch under positive load; under negative load they stand a whole play apart
+        # drive flanks touch under positive load; under negative load they are a whole play apart
         error = scene["planet[1].left_transmission_error"]
         assert error > 0.0 if sign > 0.0 else error < -2.0 * theory.half_play_arc() * theory.MEAN_CONE
     # blows of one fall through the play: far below the force of four added up on undamped teeth

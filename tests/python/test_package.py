@@ -1,4 +1,4 @@
-"""What lies in the packaged FMU: libraries that offer FMI and nothing else, a valid description, complete documentation.
+"""Contents of the packaged FMU: libraries that export FMI only, a valid description, complete documentation.
 
 The environment variable PLATFORMS names what the archive must hold, as "linux64-glibc-2.17 win64": where the tool chains are
 there, nothing of that may be missing. Without it, whatever is in the archive is held to what its documentation says."""

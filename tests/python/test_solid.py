@@ -1,4 +1,4 @@
-"""Solid teeth: they converge to tooth pairs on the path of contact, keep their energy, and are restored to the bit."""
+"""Solid teeth: they converge to tooth pairs on the path of contact, balance their energy, and are restored to the bit."""
 
 import numpy as np
 import pytest
