@@ -4,15 +4,16 @@ import tomllib
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
-MANY = TURN | ENDS | {f"effects.{name}": True for name in [
-    "tooth_errors", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag",
-    "final_drive", "strength"]}
 # seconds of a scene that are compared
 LONGEST = 0.5
 
 
-def all_scenes(folder):
+def all_scenes(folder, effects):
     """(name, start values, events, tables, duration [s]) of each scene."""
+    together = TURN | ENDS
+    for effect in effects:
+        if effect.switch and "tooth" in effect.contact:
+            together |= effect.inputs | {effect.switch: True}
     for level, duration in [("tooth", 0.5), ("lumped", 0.5), ("ideal", 0.5), ("solid", 0.05)]:
         yield f"study, straight, {level}", {"scene.gear_contact": level}, [], [], duration
         yield f"study, turn, {level}", TURN | {"scene.gear_contact": level}, [], [], duration
@@ -25,8 +26,8 @@ def all_scenes(folder):
     for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
         friction = {"effects.tooth_friction": True, "tooth_friction.law": law}
         yield f"turn, friction {law}", TURN | friction, [], [], 0.05
-    yield "nine effects", MANY, [], [], 0.1
-    yield "nine effects, line", MANY | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05
+    yield "all effects", together, [], [], 0.1
+    yield "all effects, line", together | {"contact.law": "line", "tooth_errors.crowning": 1e-5}, [], [], 0.05
     for file in sorted(folder.glob("*.toml")):
         scene = tomllib.loads(file.read_text(encoding="utf-8"))
         duration = min(float(scene["stop_time"]), LONGEST)

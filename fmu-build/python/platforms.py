@@ -18,10 +18,13 @@ from fmpy.util import add_remoting
 
 import binaries
 import platform_scenes
+from effects_list import effects
 from instance import Instance
 
+# where the list of effects is
+FMU = Path(__file__).resolve().parents[2] / "target" / "fmu" / "BevelDifferential.fmu"
 # what is timed, each as one step of this length [s], and how often
-TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "nine effects": 0.05}
+TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects": 0.05}
 REPEATS = 3
 # communication steps of a scene
 STEPS = 100
@@ -194,7 +197,7 @@ def main():
         for name, fmu in (pair.split("=", 1) for pair in named):
             progress(0.0, f"starting {name}")
             platforms.append(Platform(name, fmu, wine))
-        text, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder))))
+        text, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder), effects(FMU))))
     finally:
         for platform in platforms:
             platform.close()

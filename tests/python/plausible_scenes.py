@@ -3,9 +3,15 @@
 Where the interface allows many decades, because gears of watches and of ships do, a band is given here around the start
 value. Sizes follow the module. Values that are documented to exclude each other are drawn so that they agree."""
 
+import os
+import sys
 from math import atan2, exp, log, pi, sin
+from pathlib import Path
 
 from sampling import spread
+
+sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+import effects_list  # noqa: E402
 
 # the interface's enumerations, by number
 EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
@@ -149,10 +155,10 @@ def effects(scene, u):
         if name.startswith("effects.") and name not in ("effects.backlash", "effects.corner_contact"):
             scene[name] = u[name] < 0.15
     scene["effects.corner_contact"] = u["effects.corner_contact"] < 0.95
-    if gear_contact != TOOTH:
-        scene.update({f"effects.{name}": False for name in ("tooth_errors", "tooth_fault", "tooth_friction")})
+    level = {IDEAL: "ideal", LUMPED: "lumped", TOOTH: "tooth"}[gear_contact]
+    known = effects_list.effects(os.environ["FMU"])
+    scene.update({effect.switch: False for effect in known if effect.switch and level not in effect.contact})
     if gear_contact == IDEAL:
-        scene.update({f"effects.{name}": False for name in ("thrust_friction", "pin_compliance", "strength")})
         scene["limited_slip.torque_coefficient"] = 0.0
     grade = int(u["tooth_errors.accuracy_grade"] * 10)
     scene["tooth_errors.accuracy_grade"] = grade + 1 if grade else 0

@@ -1,14 +1,15 @@
 """Switches of the effects: off changes no bit, on balances its energy, wrong combinations are refused, states are restored."""
 
+import os
 from math import radians
 
 import numpy as np
 import pytest
 import theory
 from driving import STEADY_TURN
+from effects_list import effects
 
-EFFECTS = ["tooth_errors", "tooth_fault", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft",
-           "pin_compliance", "bearing_drag", "final_drive", "strength"]
+EFFECTS = {effect.name: effect for effect in effects(os.environ["FMU"])}
 OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.speed",
            "carrier.torque", "carrier.acceleration", "planet[1].spin_angle", "planet[1].left_normal_force",
            "planet[2].right_normal_force", "planet[1].left_transmission_error", "heat.contact", "solver.steps",
@@ -31,35 +32,32 @@ def plain(run):
     return {"turn": run(STEADY_TURN, stop=0.2, output=OUTPUTS), "straight": run({}, stop=0.05, output=OUTPUTS)}
 
 
-@pytest.mark.parametrize("effect", EFFECTS + ["lock"])
+@pytest.mark.parametrize("effect", EFFECTS.values(), ids=EFFECTS)
 def test_an_effect_that_is_off_changes_no_bit(run, plain, description, effect):
-    own = [v for v in description.modelVariables if v.name.startswith(effect + ".") and v.causality == "parameter"]
-    assert len(own) >= 2
+    own = [v for v in description.modelVariables if v.name.startswith(effect.name + ".") and v.causality == "parameter"]
     values = {v.name: other_value(v) for v in own if v.type != "Enumeration"}
+    if effect.switch:
+        values |= effect.inputs
+    assert values
     for name, base, stop in (("turn", STEADY_TURN, 0.2), ("straight", {}, 0.05)):
         record = run({**base, **values}, stop=stop, output=OUTPUTS)
         for output in OUTPUTS:
             assert np.array_equal(record[output], plain[name][output]), (output, name)
 
 
-ON = {"tooth_errors": {"tooth_errors.accuracy_grade": 7, "tooth_errors.planet_tip_relief": 20e-6,
-                       "tooth_errors.crowning": 10e-6, "contact.law": "line"},
-      "tooth_fault": {"tooth_fault.onset": 0.05, "contact.law": "line"},
-      "limited_slip": {"inertia.left_end": 0.2, "inertia.right_end": 0.2},
-      "half_shaft": {"inertia.left_end": 0.2, "inertia.right_end": 0.2},
-      "strength": {}}
-
-
-@pytest.mark.parametrize("effect", EFFECTS)
+@pytest.mark.parametrize("effect", EFFECTS.values(), ids=EFFECTS)
 def test_an_effect_that_is_on_balances_its_energy(run, plain, effect):
-    names = OUTPUTS + ["carrier.speed", "power.in"]
-    record = run({**STEADY_TURN, **ON.get(effect, {}), f"effects.{effect}": True}, stop=0.2, output=names)
+    level = {} if "tooth" in effect.contact else {"scene.gear_contact": effect.contact[-1]}
+    names = OUTPUTS + ["carrier.speed", "power.in"] + ([effect.heat] if effect.heat else [])
+    record = run({**STEADY_TURN, **level, **effect.on}, stop=0.2, output=names)
     exchanged = 2.0 * theory.LOAD * radians(954.0) * 0.2
     assert abs(record["solver.energy_residual"][-1]) < 1e-5 * exchanged
     changed = [o for o in OUTPUTS if not np.array_equal(record[o], plain["turn"][o])]
     assert changed
     for output in names:
         assert np.isfinite(record[output]).all()
+    if effect.heat:
+        assert record[effect.heat][-1] > 0.0
 
 
 @pytest.mark.parametrize("planets", [2, 4])
