@@ -65,7 +65,7 @@ def test_states_and_derivatives_are_in_the_model_structure(description):
     names = [variable.derivative.name for variable in derivatives]
     assert names[0] == "left.relative_angle" and names[15] == "left.speed" and len(set(names)) == 30
     assert all(variable.derivative.nominal for variable in derivatives)
-    assert description.numberOfEventIndicators == 22
+    assert description.numberOfEventIndicators == 24
 
 
 def test_states_are_read_in_the_order_of_the_model_structure(unpacked, description, reference):
