@@ -310,7 +310,9 @@ fn is_speed(input: &Variable) -> bool {
 }
 
 fn is_of_books(row: &Variable) -> bool {
-    matches!(row.access, Access::Output(OutputSource::Books(_)))
+    let by_step =
+        |source| matches!(source, OutputSource::Books(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
+    matches!(row.access, Access::Output(source) if by_step(source))
 }
 
 fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
@@ -329,7 +331,7 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
         Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
             FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
         }),
-        Access::Output(OutputSource::Forces(_)) if !named(&BY_POSITION) => {
+        Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
                 return inputs_where(table, |input| is_torque(input) && input.name.starts_with(side));
             }

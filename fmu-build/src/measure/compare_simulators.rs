@@ -53,7 +53,8 @@ fn run(quick: bool, write: bool) -> Result<()> {
     if write {
         sections::renew(DOCUMENT, MARKS, &table)?;
         let figures = paths::workspace().join("docs").join("figures");
-        fs::copy(folder.join(PICTURE), figures.join(PICTURE)).context("the picture cannot be copied to docs/figures")?;
+        fs::copy(folder.join(PICTURE), figures.join(PICTURE))
+            .context("the picture cannot be copied to docs/figures")?;
         println!("renewed: {DOCUMENT}, docs/figures/{PICTURE}");
     }
     Ok(())

@@ -85,6 +85,19 @@ pub struct Setting<'a> {
     pub heat: usize,
 }
 
+/// What readings follow from.
+#[derive(Clone, Copy)]
+pub struct Instant<'a> {
+    /// Whether the effect is switched on.
+    pub on: bool,
+    /// Plan of the scene.
+    pub plan: &'a Plan,
+    /// Motion and inputs.
+    pub bodies: &'a Bodies<'a>,
+    /// Torques that the half-shafts deliver to the wheels, left and right [N·m].
+    pub shaft_torque: [f64; 2],
+}
+
 /// What an effect declares. The type that declares is the struct of its parameters; its `Default` are their start values.
 pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeOwned {
     /// What its switch switches.
@@ -150,5 +163,5 @@ pub trait Effect {
     }
 
     /// Sets its readings that change at any instant.
-    fn read(&self, _on: bool, _plan: &Plan, _at: &Bodies, _out: &mut [f64]) {}
+    fn read(&self, _at: &Instant, _out: &mut [f64]) {}
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, real};
 use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Reading, Setting};
+use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
 
@@ -101,13 +101,13 @@ impl Effect for HalfShaftSpec {
         plan.ends.then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
     }
 
-    fn read(&self, on: bool, plan: &Plan, at: &Bodies, out: &mut [f64]) {
+    fn read(&self, at: &Instant, out: &mut [f64]) {
         for s in 0..2 {
-            if plan.shafts[s] {
-                out[s] = at.q[at.layout.end(s)];
-            } else if on && self.stiffness[s] > 0.0 {
+            if at.plan.shafts[s] {
+                out[s] = at.bodies.q[at.bodies.layout.end(s)];
+            } else if at.on && self.stiffness[s] > 0.0 {
                 // the static twist, as the end has no motion of its own
-                out[s] = at.inputs.load_torque[s] / self.stiffness[s];
+                out[s] = at.shaft_torque[s] / self.stiffness[s];
             }
         }
     }

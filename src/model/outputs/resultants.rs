@@ -12,6 +12,7 @@ use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid::RigidEquations;
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body::Bodies;
+use crate::model::effect_kinds::effect::Instant;
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
@@ -66,7 +67,8 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
     let bodies = Bodies { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
-    scene_effects::read(&p.effects, &p.specs, plan, &bodies, &mut out.readings);
+    let at = Instant { on: false, plan, bodies: &bodies, shaft_torque: out.shaft_torque };
+    scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
 
 /// Power turned into heat within the differential [W].
@@ -83,10 +85,9 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
 ) -> Forces {
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
-    let Instant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
+    let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
-    read_effects(&mut out, model, inputs, state);
     let brakes = if FULL { equations.brake_torques(point) } else { [0.0; 2] };
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
@@ -96,6 +97,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
         };
         out.side_tangential[s] = gears[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
+    read_effects(&mut out, model, inputs, state);
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
     for g in 0..plan.groups().len() {
@@ -124,7 +126,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
 }
 
 /// Accelerations and torques at an instant, of one evaluation.
-struct Instant<const N: usize> {
+struct ForcesAtInstant<const N: usize> {
     acceleration: [f64; N],
     /// Torques of the meshes on the side gears, alone [N·m].
     gears: [f64; 2],
@@ -136,7 +138,7 @@ struct Instant<const N: usize> {
 }
 
 impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
-    fn instant(&self, at: &Point<N>) -> Instant<N> {
+    fn instant(&self, at: &Point<N>) -> ForcesAtInstant<N> {
         let plan = &self.teeth.plan;
         let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
         let gears;
@@ -156,7 +158,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         let spin_torque =
             if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);
-        Instant { acceleration: sum, gears, carrier_torque, spin_torque, power }
+        ForcesAtInstant { acceleration: sum, gears, carrier_torque, spin_torque, power }
     }
 
     /// Torques of the meshes on side gears, where other torques act on them too.
@@ -205,10 +207,10 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
         spin_torque: motion.spin_torque,
         ..Forces::default()
     };
-    read_effects(&mut out, model, inputs, state);
     for s in 0..2 {
         out.shaft_torque[s] = inputs.load_torque[s] + inertia.end[s] * side_acceleration[s];
     }
+    read_effects(&mut out, model, inputs, state);
     let torque = [0, 1].map(|s| inputs.load_torque[s] + inertia.side[s] * side_acceleration[s]);
     pitch_point_meshes(&mut out, pair, ideal.plan.planets, torque);
     add_powers(&mut out, &ideal.plan, state, [state.v[0], state.v[1]], 0.0);
@@ -232,7 +234,6 @@ pub fn rigid_forces<const N: usize>(
         spin_torque: torques.spin,
         ..Forces::default()
     };
-    read_effects(&mut out, model, inputs, state);
     let brakes = equations.brake_torques(point);
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
@@ -241,6 +242,7 @@ pub fn rigid_forces<const N: usize>(
             inputs.load_torque[s] + brakes[s] + equations.rigid.rigid_end[s] * a[s]
         };
     }
+    read_effects(&mut out, model, inputs, state);
     pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
     add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
     out

@@ -1,8 +1,8 @@
 //! The effects of a scene: what they check, require and bring, gathered from all that are on.
 
 use super::effect_outputs::{heat_index, places_of};
-use crate::model::effect_kinds::body::{Bodies, BodyEffect};
-use crate::model::effect_kinds::effect::{BUILT, Effect, Setting};
+use crate::model::effect_kinds::body::BodyEffect;
+use crate::model::effect_kinds::effect::{BUILT, Effect, Instant, Setting};
 use crate::model::effect_kinds::friction_source::FrictionSource;
 use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};
 use crate::model::effects::{Declared, EffectParameters, Effects, configured};
@@ -105,10 +105,10 @@ impl<'a> SceneEffects<'a> {
 }
 
 /// Sets the readings of all effects that change at any instant.
-pub fn read(effects: &Effects, parameters: &EffectParameters, plan: &Plan, at: &Bodies, out: &mut [f64]) {
+pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, out: &mut [f64]) {
     for (declared, on, effect) in configured(effects, parameters) {
         if !declared.readings.is_empty() {
-            effect.read(on, plan, at, &mut out[places_of(declared.name)]);
+            effect.read(&Instant { on, ..*at }, &mut out[places_of(declared.name)]);
         }
     }
 }
