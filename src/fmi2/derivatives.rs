@@ -137,7 +137,7 @@ impl Instance {
             let row = row(reference)?;
             let source = output_source(row)?;
             let slope = match source {
-                OutputSource::Books(of) => of(&simulation.book_rates()),
+                OutputSource::Ledger(of) => of(&simulation.ledger_rates()),
                 _ => slopes.of(source),
             };
             value.write(finite_slope(row, slope)?);
@@ -229,7 +229,7 @@ impl<'a> Slopes<'a> {
                 along.slope(|forces| forces.readings[place])
             }
             // the ledger changes with time alone
-            OutputSource::Books(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
+            OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
             OutputSource::State(k) => simulation.gather(|i| direction.q[i], &direction.v)[k],
             OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
                 let [q, v] = simulation.rate_slopes(direction);
@@ -306,9 +306,9 @@ fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
         OutputSource::Motion(of) => of(&simulation.motion()),
         OutputSource::Forces(of) => of(simulation.forces()),
         OutputSource::Reading(place) => simulation.forces().readings[place],
-        OutputSource::Books(of) => of(&simulation.books()),
-        OutputSource::LedgerReading(place) => simulation.books().readings[place],
-        OutputSource::Heat(place) => simulation.books().heat[place],
+        OutputSource::Ledger(of) => of(&simulation.ledger()),
+        OutputSource::LedgerReading(place) => simulation.ledger().readings[place],
+        OutputSource::Heat(place) => simulation.ledger().heat[place],
         OutputSource::State(k) => simulation.states()[k],
         OutputSource::Rate(k) => simulation.state_rates()[k],
     }

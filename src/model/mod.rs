@@ -23,8 +23,13 @@ pub use assembly::bodies::Inertias;
 pub use dynamics::state::{Accepted, State};
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::{EFFECTS, EffectParameters, Effects};
-pub use outputs::readings::{Books, Forces, MeshForces, Motion, efficiency};
-pub use run::{Along, BODIES, Body, CostClass, Direction, INDICATORS, PLACES, STATES, Simulation, StepFailure, Update};
+pub use outputs::forces::{Forces, efficiency};
+pub use outputs::ledger_readings::LedgerReadings;
+pub use outputs::mesh_forces::MeshForces;
+pub use outputs::motion::Motion;
+pub use run::{
+    Along, BODIES, Body, CostClass, Direction, INDICATORS, PLACES, Reported, STATES, Simulation, StepFailure, Update,
+};
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, Course, GearContact, Group, InertiaSpec, Inputs, Material, Method, ORDERS, Plan, PlanetSpin, Scene,

@@ -1,6 +1,7 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
-use super::readings::{Forces, MeshForces, bias};
+use super::forces::{Forces, bias};
+use super::mesh_forces::MeshForces;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder, in_pairs};

@@ -193,9 +193,10 @@ impl Simulation {
                 let (_, last) = DynSystem(&equations).evaluate(&end);
                 // what lies between is the host's: for stiff teeth no curve through both ends would tell it
                 let power = [first, first.mean(&last), last];
-                let step = Step { h, time: state.time, start: &start, end: &end, power };
+                let step = Step { h, time: h, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;
-                let outcome = equations.record(model, &step, &mut Records { work, heat, bias, fatigue });
+                let outcome =
+                    equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, 0.0, &mut anchors);
                 equations.anchor(&anchors);
@@ -203,7 +204,7 @@ impl Simulation {
                 state.friction = *equations.friction_state();
                 outcome
             });
-            outcome.map_err(|jump| StepFailure { time: state.time, message: jump.to_string() })?;
+            outcome.map_err(|tooth| StepFailure { time: state.time, message: tooth.message(model) })?;
             state.statistics.accepted += 1;
             state.statistics.evaluations += 2;
             state.control.last = h;

@@ -1,7 +1,6 @@
-//! The ledger of accepted steps: work, heat, mesh cycles, fatigue; and the error where teeth would jump.
+//! The ledger of accepted steps: work, heat, mesh cycles, fatigue.
 
-use std::fmt;
-
+use super::excessive_deflection::ExcessiveDeflection;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::cycle::Cycle;
@@ -10,34 +9,14 @@ use crate::model::dynamics::power::{Power, book, simpson};
 use crate::model::dynamics::rigid::RigidEquations;
 use crate::model::dynamics::state::Bias;
 use crate::model::effect_kinds::dry_friction::FrictionState;
-use crate::model::effects::strength::{Fatigue, MeshLoad, Strength};
+use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledStep};
 use crate::model::scene::layout::HOLDS;
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
-/// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
-pub struct Jump {
-    deflection: f64,
-    limit: f64,
-    planet: usize,
-    side: usize,
-}
-
-impl fmt::Display for Jump {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        write!(
-            out,
-            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action \
-             exceeds the limit {:.3} mm; reduce the load or raise contact.stiffness",
-            self.planet + 1,
-            ["left", "right"][self.side],
-            self.deflection * 1e3,
-            self.limit * 1e3
-        )
-    }
-}
-
-/// What is kept beside the motion.
+/// Sums that accepted steps add to.
 pub struct Records<'a> {
+    /// Time from which steps are counted [s].
+    pub begin: f64,
     /// Work of all inputs [J].
     pub work: &'a mut f64,
     /// Heat by cause [J].
@@ -60,8 +39,8 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     fn anchor(&mut self, anchors: &[f64; HOLDS]);
     /// Switches friction where it is due and books what its springs lose.
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
-    /// Refuses an accepted step that teeth cannot follow, and records it otherwise.
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump>;
+    /// Records an accepted step, or returns the tooth that it bends too far.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection>;
 }
 
 impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<N> for Equations<'_, N, G, P, FULL> {
@@ -90,13 +69,11 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<
     }
 
     #[inline(always)]
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
         let teeth = self.teeth;
         let (approach, g, side) = self.deepest(step.end);
         if approach > teeth.jump {
-            let planet = teeth.plan.group(g).planet;
-            let [deflection, limit] = [approach, teeth.jump].map(|arc| arc * teeth.mesh.cone);
-            return Err(Jump { deflection, limit, planet, side });
+            return Err(ExcessiveDeflection { deflection: approach, planet: teeth.plan.group(g).planet, side });
         }
         book(step, records.work, records.heat, FULL);
         if !teeth.mesh.engagement.corner_contact() {
@@ -109,7 +86,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<
             cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
         }
         if let (true, Some(strength)) = (FULL, &model.strength) {
-            count_fatigue(self, model, strength, step, records.fatigue);
+            count_fatigue(self, model, strength, step, records);
         }
         Ok(())
     }
@@ -136,7 +113,7 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         self.settle_friction(at, time, 0..HOLDS, heat);
     }
 
-    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
         book(step, records.work, records.heat, true);
         Ok(())
     }
@@ -177,9 +154,9 @@ const RESOLVED: f64 = 1e-13;
 fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: bool>(
     equations: &Equations<N, G, P, FULL>,
     model: &Model,
-    strength: &Strength,
+    strength: &GearStrength,
     step: &Step<N, Power>,
-    fatigue: &mut Fatigue,
+    records: &mut Records,
 ) {
     let mut loads = [[MeshLoad::default(); 2]; G];
     let first = Equations::<N, G, P, FULL>::PLANET;
@@ -191,5 +168,7 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: boo
             equations.tooth_loads(&model.pair, step.end, g, s, |load| loads[g][s].add(strength, load));
         }
     }
-    strength.count(fatigue, &spin, roll, &loads, &members);
+    let time = records.begin + step.time;
+    let rolled = RolledStep { time, spin: &spin, roll, mesh: &loads, members: &members };
+    strength.count(records.fatigue, &rolled);
 }

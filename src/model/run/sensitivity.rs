@@ -10,7 +10,9 @@ use super::simulation::Simulation;
 use crate::integrate::{DynSystem, Point, SecondOrder};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::with_equations;
-use crate::model::outputs::readings::{Books, Forces, Motion};
+use crate::model::outputs::forces::Forces;
+use crate::model::outputs::ledger_readings::LedgerReadings;
+use crate::model::outputs::motion::Motion;
 use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
 use crate::model::scene::{Course, Inputs};
 
@@ -166,13 +168,13 @@ impl Simulation {
     }
 
     /// Rates of the ledger.
-    pub fn book_rates(&self) -> Books {
+    pub fn ledger_rates(&self) -> LedgerReadings {
         let (inputs, state) = (&self.inputs, &self.state);
         let heat = with_equations!(self.model, state, inputs, |equations| DynSystem(&equations)
             .evaluate(&state.point::<N>())
             .1
             .heat);
-        Books { heat, ..Books::default() }
+        LedgerReadings { heat, ..LedgerReadings::default() }
     }
 
     fn displaced(&self, direction: &Direction, factor: f64) -> Self {

@@ -1,5 +1,7 @@
 //! The state at the start time.
 
+use super::excessive_deflection::limit_name;
+use super::hints;
 use crate::integrate::{Matrix, Point};
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
@@ -106,7 +108,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>
     let held = Ideal { plan: plan.with_spin_held(), ..*ideal };
     let still = loads(model, &held, inputs);
     let mut point = Point::ZERO;
-    press_sides(teeth, equations, still, &mut point)?;
+    press_sides(model, teeth, equations, still, &mut point)?;
     let mut carried = still;
     let in_detail = FULL && (teeth.additions.in_detail || P > 0);
     if !plan.spin_imposed || in_detail {
@@ -115,7 +117,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>
             point = settled;
         } else if !plan.spin_imposed {
             carried = loads(model, ideal, inputs);
-            press_sides(teeth, equations, carried, &mut point)?;
+            press_sides(model, teeth, equations, carried, &mut point)?;
         }
     }
     let (_, stiffness) = equations.statics(&point);
@@ -161,6 +163,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
 /// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
 fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+    model: &Model,
     teeth: &Teeth,
     equations: &Equations<N, G, P, FULL>,
     torque: [f64; 2],
@@ -183,9 +186,10 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
             return Err(Problem::new(
                 name,
                 format!(
-                    "{:.6} N.m cannot be carried at the start: a tooth would be bent beyond the working depth; \
-                     reduce the load or raise contact.stiffness",
-                    torque[s]
+                    "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+                    torque[s],
+                    limit_name(model),
+                    hints::stiffer_teeth(&model.parameters)
                 ),
             ));
         }
