@@ -8,8 +8,7 @@ const TOO_MUCH: f64 = 1e8;
 
 /// Messages of a start and of a step under a load that bends teeth too far.
 fn messages(p: &Parameters) -> [String; 2] {
-    let mut inputs = Inputs::default();
-    inputs.load_torque = [TOO_MUCH; 2];
+    let inputs = Inputs { load_torque: [TOO_MUCH; 2], ..Inputs::default() };
     let refused = Simulation::start(p, &inputs, 0.0).unwrap_err();
     let mut simulation = Simulation::start(p, &Inputs::default(), 0.0).unwrap();
     simulation.set_inputs(&inputs);
@@ -19,7 +18,8 @@ fn messages(p: &Parameters) -> [String; 2] {
 
 #[test]
 fn teeth_bent_too_far_name_what_stiffens_them_under_the_law_in_use() {
-    let changes: [(&str, fn(&mut Parameters)); 7] = [
+    type Change = fn(&mut Parameters);
+    let changes: [(&str, Change); 7] = [
         ("or raise contact.stiffness", |_| {}),
         ("contact.stiffness_from_hertz = false", |p| p.contact.stiffness_from_hertz = true),
         ("geometry.face_width", |p| p.contact.law = ContactLaw::Line),

@@ -91,8 +91,8 @@ impl Instance {
         };
         if let Some(simulation) = &mut self.now.simulation {
             match self.now.kind {
-                Kind::CoSimulation => simulation.set_course(self.now.course),
-                Kind::ModelExchange => simulation.hand_over(),
+                Kind::CoSimulation => simulation.set_input_derivatives(self.now.input_derivatives),
+                Kind::ModelExchange => simulation.start_model_exchange(),
             }
         }
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Events)) {
@@ -150,20 +150,20 @@ impl Instance {
         let stop = self.now.stop_time;
         let time = self.simulation()?.time();
         check_step(time, stop, point, h)?;
-        self.check_course(h)?;
+        self.check_inputs_within_step(h)?;
         let until = point + h;
         // a step below the resolution of time changes nothing
         if until <= time {
             return Ok(());
         }
-        let course = self.now.course;
+        let input_derivatives = self.now.input_derivatives;
         let simulation = self.simulation()?;
-        simulation.set_course(course);
+        simulation.set_input_derivatives(input_derivatives);
         let outcome = simulation.advance(until);
         let last = simulation.time();
-        if course.is_some() {
-            let (inputs, course) = (*simulation.inputs(), simulation.course().copied());
-            (self.now.inputs, self.now.course) = (inputs, course);
+        if input_derivatives.is_some() {
+            let (inputs, input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
+            (self.now.inputs, self.now.input_derivatives) = (inputs, input_derivatives);
         }
         self.now.derivatives_set = 0;
         let Err(failure) = outcome else {

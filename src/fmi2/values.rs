@@ -223,7 +223,7 @@ impl Instance {
                 if parameters {
                     simulation.tune(&tuned(&now.parameters, simulation.parameters()));
                 }
-                if simulation.is_handed_over() {
+                if simulation.is_model_exchange() {
                     simulation.follow_commands();
                 }
             }

@@ -1,9 +1,10 @@
 //! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
 
-use super::additions::{Additions, BodyEffects};
-use super::bodies::Inertias;
+use super::additions::Additions;
+use super::body_effects::BodyEffects;
 use super::face::{centroid, slice_cones};
 use super::ideal::Ideal;
+use super::inertias::Inertias;
 use super::laws::Laws;
 use super::rigid::Rigid;
 use super::solid;
@@ -150,11 +151,11 @@ fn teeth(
     let (pair, plan) = (effects.setting.pair, ideal.plan);
     let friction = effects.on_flanks();
     // a tooth may neither bend by the working depth nor reach the next gap
-    let jump = pair.working_depth().min(0.5 * pair.base_pitch);
+    let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[1].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
-    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, jump);
+    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, deflection_limit);
     let additions = Additions {
         detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, friction.map(|f| f.law)),
         in_detail,
@@ -163,5 +164,5 @@ fn teeth(
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
         bodies,
     };
-    Teeth::new(pair, mesh, plan, &ideal.inertia, jump, additions)
+    Teeth::new(pair, mesh, plan, &ideal.inertia, deflection_limit, additions)
 }

@@ -55,7 +55,7 @@ pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     (ratio, (torque[0] - torque[1]).abs() / sum)
 }
 
-/// Torque bias ratios are shown up to this.
+/// Largest magnitude of the torque bias ratio.
 const MOST_BIAS: f64 = 1e6;
 
 /// Share of the power fed in that is not lost, whichever end feeds; 1 at zero power. What the teeth store and give back

@@ -10,9 +10,9 @@ use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::rigid::RigidEquations;
+use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body::Bodies;
+use crate::model::effect_kinds::body_effect::Bodies;
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
@@ -76,9 +76,9 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
 }
 
 /// Forces of the differential with teeth.
-pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     model: &Model,
-    equations: &Equations<N, G, P, FULL>,
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     inputs: &Inputs,
     state: &State,
 ) -> Forces {
@@ -88,7 +88,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
     read_effects(&mut out, model, inputs, state);
-    let brakes = if FULL { equations.brake_torques(point) } else { [0.0; 2] };
+    let brakes = if WITH_EFFECTS { equations.brake_torques(point) } else { [0.0; 2] };
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
             equations.shaft_torque(point, s)
@@ -136,12 +136,12 @@ struct Instant<const N: usize> {
     power: Power,
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     fn instant(&self, at: &Point<N>) -> Instant<N> {
         let plan = &self.teeth.plan;
         let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
         let gears;
-        if FULL {
+        if WITH_EFFECTS {
             self.act(at, &mut sum, &mut imposed, &mut power, None);
             gears = self.gear_torques(at);
         } else {
@@ -153,7 +153,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         } else {
             self.inputs.carrier_torque + power.drive
         };
-        let inertial = self.teeth.inertia[Self::PLANET] * self.course.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[Self::PLANET] * self.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);

@@ -3,7 +3,7 @@
 /// What a step costs, by what has to be evaluated, cheapest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum CostClass {
-    /// No teeth and nothing that acts beside them: a step is a formula.
+    /// No teeth and no effect on bodies: a step is a formula.
     ClosedForm,
     /// No teeth, but torques of effects: integrated, without fast motion.
     Rigid,

@@ -19,5 +19,5 @@ pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
 pub use reports::Reported;
-pub use sensitivity::{Along, Direction, PLACES};
+pub use sensitivity::{Direction, DirectionalForces, STENCIL};
 pub use simulation::Simulation;

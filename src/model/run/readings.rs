@@ -6,16 +6,16 @@ use super::imposed;
 use super::simulation::Simulation;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
-use crate::model::assembly::bodies::Inertias;
+use crate::model::assembly::inertias::Inertias;
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::{by_rigid_size, by_size};
-use crate::model::effect_kinds::dry_friction::Mode;
+use crate::model::effect_kinds::friction_state::Mode;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
 use crate::model::outputs::motion::Motion;
 use crate::model::outputs::resultants;
 use crate::model::scene::Plan;
-use crate::model::scene::layout::{CARRIER, HELD_PLANETS, HOLDS, MAX_PLANETS, WHEELS};
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS};
 use crate::model::setup::Parameters;
 use crate::model::setup::effect_outputs::{READINGS, places_of};
 use crate::numeric::TAU;
@@ -28,7 +28,7 @@ impl Simulation {
     }
 
     /// The simulation as its inputs have it: speeds follow commands that were set since the last step, where there are
-    /// any. The step itself begins with the jump, and books it.
+    /// any. The step itself begins with the jump, and records its work.
     pub fn present(&self) -> Option<Self> {
         if imposed::are_met(&self.model, &self.inputs, &self.state) {
             return None;
@@ -90,7 +90,7 @@ impl Simulation {
         }
     }
 
-    /// Shows the load of every tooth pair, of one planet of each group; none where there are no teeth.
+    /// Visits the load of every tooth pair, of one planet of each group; none where there are no teeth.
     pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return };
@@ -125,7 +125,11 @@ impl Simulation {
         LedgerReadings {
             heat: self.state.heat,
             readings,
-            held: [held(0..HELD_PLANETS), held(HELD_PLANETS..WHEELS), held(WHEELS..HOLDS)],
+            held: [
+                held(0..FRICTION_PLANETS),
+                held(FRICTION_PLANETS..FRICTION_WHEELS),
+                held(FRICTION_WHEELS..FRICTION_BODIES),
+            ],
             energy_residual: self.energy() - self.state.energy_at_start - self.state.work
                 + self.state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
@@ -150,7 +154,7 @@ impl Simulation {
         &self.model.ideal.inertia
     }
 
-    /// One line that tells what the solver did, by cause.
+    /// One line on the solver's steps and rejections, by cause.
     pub fn account(&self) -> String {
         let s = &self.state.statistics;
         format!(

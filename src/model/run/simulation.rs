@@ -6,10 +6,11 @@ use super::events::{break_tooth, end_of_stretch, update_friction};
 use super::failure::StepFailure;
 use super::{imposed, start, stretch};
 use crate::model::assembly::model::{Gears, Model};
+use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::{by_size, with_equations};
-use crate::model::dynamics::state::{Accepted, State};
+use crate::model::dynamics::state::State;
 use crate::model::outputs::forces::Forces;
-use crate::model::scene::{Course, Inputs, Start};
+use crate::model::scene::{InputDerivatives, Inputs, Start};
 use crate::model::setup::Parameters;
 use crate::model::setup::effect_outputs::HEATS;
 use crate::problem::Problem;
@@ -52,7 +53,7 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// A simulation of `parameters` that goes on from `state`.
+    /// A simulation of `parameters` that continues from `state`.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters)?);
         Ok(Self { model, state, inputs: *inputs, forces: None, accepted: None })
@@ -71,17 +72,17 @@ impl Simulation {
         &self.inputs
     }
 
-    /// Tells how inputs go on from now; they stay as they are if that is not told.
-    pub fn set_course(&mut self, course: Option<Course>) {
-        if course != self.state.course {
-            self.state.course = course;
+    /// Sets the derivatives of the inputs; without any, inputs are constant.
+    pub fn set_input_derivatives(&mut self, input_derivatives: Option<InputDerivatives>) {
+        if input_derivatives != self.state.input_derivatives {
+            self.state.input_derivatives = input_derivatives;
             self.forces = None;
         }
     }
 
-    /// How inputs go on, where it was told.
-    pub fn course(&self) -> Option<&Course> {
-        self.state.course.as_ref()
+    /// Derivatives of the inputs, where they are set.
+    pub fn input_derivatives(&self) -> Option<&InputDerivatives> {
+        self.state.input_derivatives.as_ref()
     }
 
     /// Takes over tunable parameters.
@@ -90,7 +91,7 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Integrates to `until` [s]; inputs go on as told. On failure the state is that of the last good time.
+    /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
         let Self { model, state, inputs, .. } = self;
@@ -103,7 +104,7 @@ impl Simulation {
             let h = until - state.time;
             let (q, v, work) = (state.q, state.v, state.work);
             model.ideal.advance(state, inputs, h);
-            if !state.moves() {
+            if !state.is_motion_finite() {
                 (state.q, state.v, state.work) = (q, v, work);
                 return Err(StepFailure::not_finite(state.time));
             }
@@ -146,7 +147,7 @@ fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f64) 
         if let Gears::Rigid(_) = &model.gears {
             model.ideal.constrain(&mut state.v);
         }
-        go_on(inputs, state, if outcome.is_ok() { end } else { state.time } - begin);
+        advance_inputs(inputs, state, if outcome.is_ok() { end } else { state.time } - begin);
         outcome?;
         // the rounding of the time axis may leave a rest too small to integrate
         state.time = end;
@@ -160,10 +161,10 @@ fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f64) 
 }
 
 /// Takes inputs to what they are `time` [s] later.
-fn go_on(inputs: &mut Inputs, state: &mut State, time: f64) {
-    if let Some(course) = state.course {
-        let (later, rest) = course.after(time, inputs);
-        (*inputs, state.course) = (later, Some(rest));
+fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
+    if let Some(input_derivatives) = state.input_derivatives {
+        let (later, rest) = input_derivatives.after(time, inputs);
+        (*inputs, state.input_derivatives) = (later, Some(rest));
         state.carrier_command = inputs.carrier_speed;
     }
 }

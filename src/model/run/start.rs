@@ -97,8 +97,8 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
 /// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
 /// differential and ψ = 0.
-pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    equations: &Equations<N, G, P, FULL>,
+pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     model: &Model,
     inputs: &Inputs,
     state: &mut State,
@@ -110,7 +110,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>
     let mut point = Point::ZERO;
     press_sides(model, teeth, equations, still, &mut point)?;
     let mut carried = still;
-    let in_detail = FULL && (teeth.additions.in_detail || P > 0);
+    let in_detail = WITH_EFFECTS && (teeth.additions.in_detail || P > 0);
     if !plan.spin_imposed || in_detail {
         let mut settled = point;
         if minimise(equations, still, &mut settled) && within_a_tooth(teeth, &settled) {
@@ -145,10 +145,10 @@ fn within_a_tooth<const N: usize>(teeth: &Teeth, point: &Point<N>) -> bool {
     (0..teeth.layout.groups).all(|g| point.q[teeth.layout.planet(g)].abs() < pitch)
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
     fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
-        if FULL && (self.teeth.additions.in_detail || P > 0) {
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
             return self.structure(at);
         }
         let still = Point { q: at.q, v: [0.0; N] };
@@ -157,15 +157,19 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<N>) -> f64 {
-        if FULL && (self.teeth.additions.in_detail || P > 0) { self.stored(at, false) } else { self.elastic_energy(at) }
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
+            self.stored(at, false)
+        } else {
+            self.elastic_energy(at)
+        }
     }
 }
 
 /// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
-fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     model: &Model,
     teeth: &Teeth,
-    equations: &Equations<N, G, P, FULL>,
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> Result<(), Problem> {
@@ -174,9 +178,10 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
         if torque[s] == 0.0 {
             continue;
         }
-        // Q_α falls steadily with α: bracket between mid-gap and the angle at which a tooth would jump
+        // Q_α falls steadily with α: bracket between mid-gap and the angle of the largest deflection
         let mut free = 0.0;
-        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.mesh.half_backlash()) / teeth.sin_base[1];
+        let mut pressed =
+            -torque[s].signum() * (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
         let excess = |alpha: f64, point: &mut Point<N>| {
             point.q[s] = alpha;
             (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()
@@ -206,8 +211,8 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
 }
 
 /// Damped Newton descent of V + Σ T_s α_s over all that is free but the carrier; whether it reached a balance.
-fn minimise<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    equations: &Equations<N, G, P, FULL>,
+fn minimise<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> bool {

@@ -16,7 +16,7 @@ use crate::model::scene::{Method, SolverSpec};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
-/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and at the least.
+/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and the least.
 const SOLID_PER_FACET: usize = 6;
 const LEAST_SOLID: usize = 128;
 /// Entries of the matrices of plain teeth with planets that are alike.

@@ -47,7 +47,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         switch(
             "solver.merge_planets",
             |p| &mut p.solver.merge_planets,
-            "Planets that are identical and in phase are simulated once and counted; false: each by itself",
+            "Planets that are identical and in phase are simulated once and counted; false: each is simulated",
         ),
     ]
 }
