@@ -564,6 +564,29 @@ def test_a_friction_law_outside_its_range_warns_once(open_fmu):
         assert not any("tooth_friction" in line for line in opened.log)
 
 
+def test_stresses_above_the_strength_warn_once_each(open_fmu):
+    with open_fmu() as opened:
+        started(opened, **{"effects.strength": True, "strength.bending_strength": 1e7, "strength.contact_strength": 1e8})
+        walk(opened, 0.02)
+        warnings = [line for line in opened.log if "exceeds the strength" in line]
+        gears = ["root stress of planet[1]", "root stress of the left side gear", "contact stress between planet[1]"]
+        assert len(warnings) == 3 and all(any(gear in line for line in warnings) for gear in gears), opened.log
+        assert all("at t = " in line and "MPa" in line for line in warnings)
+    with open_fmu() as opened:
+        started(opened, **{"effects.strength": True, "strength.bending_strength": 1e11,
+                           "strength.contact_strength": 1e11})
+        walk(opened, 0.02)
+        assert not any("exceeds the strength" in line for line in opened.log)
+
+
+def test_pins_and_washers_that_do_not_fit_the_gears_warn(open_fmu):
+    small = {"geometry.module": 2.25e-3, "geometry.face_width": 10e-3, "effects.thrust_friction": True}
+    for values, expected in [({}, 3), ({"thrust_friction.radii_from_geometry": True}, 0)]:
+        with open_fmu() as opened:
+            started(opened, **small, **values)
+            assert sum("radii_from_geometry" in line for line in opened.log) == expected, opened.log
+
+
 @pytest.mark.parametrize("law", ["benedict_kelley", "iso_14179", "xu_kahraman"])
 def test_published_friction_laws_lose_what_their_coefficients_say(run, law):
     record = run({**TURN, "effects.tooth_friction": True, "tooth_friction.law": law}, stop=0.36,

@@ -39,9 +39,9 @@ impl Power {
         let work = simpson(&|p| p.input);
         let heat = simpson(&|p| if ALL { p.heat.iter().sum() } else { p.heat[CONTACT_HEAT] });
         let gained = (after[0] - before[0]) + (after[1] - before[1]);
-        let dealt = before[1].max(after[1]) + work.abs() + heat.abs();
+        let exchanged = before[1].max(after[1]) + work.abs() + heat.abs();
         let off = (gained - work + heat).abs() - ENERGY_ROUNDING * (before[0] + after[0]);
-        if off > 0.0 { off / dealt.max(f64::MIN_POSITIVE) } else { 0.0 }
+        if off > 0.0 { off / exchanged.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
 

@@ -97,9 +97,8 @@ impl Declare for ThrustFrictionSpec {
             switch(
                 "thrust_friction.radii_from_geometry",
                 |p| &mut p.radii_from_geometry,
-                "Radii from the gears instead of the given ones: pins fill the bores of the planets, or without bores \
-                 0.8 times the root circle at the toe; washers act at the mean of pin or shaft and the root circle at \
-                 the heel",
+                "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
+                 heel; false: as given",
             ),
             real(
                 "thrust_friction.pin_radius",
