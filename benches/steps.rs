@@ -88,7 +88,7 @@ fn main() {
     if effects.iter().any(|e| e == "unread") {
         return;
     }
-    let (f, b) = (*simulation.forces(), simulation.books());
+    let (f, b) = (*simulation.forces(), simulation.ledger());
     for value in [f.carrier_torque, f.mesh[0][0].normal, f.side_thrust[1], b.energy_residual, b.steps] {
         hash = (hash ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3);
     }

@@ -22,8 +22,8 @@ fn undamped_residual(start: Start, tolerance: f64) -> f64 {
         let f = s.forces();
         turnover += (f.power_in.abs() + f.power_out.abs()) * 0.5 / f64::from(steps);
     }
-    assert_eq!(s.books().heat[CONTACT_HEAT], 0.0);
-    (s.books().energy_residual / turnover).abs()
+    assert_eq!(s.ledger().heat[CONTACT_HEAT], 0.0);
+    (s.ledger().energy_residual / turnover).abs()
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn an_ideal_differential_accelerates_by_its_closed_form() {
     let f = *s.forces();
     let difference = (f.side_tangential[0] - f.side_tangential[1]) * radius;
     assert!((difference + 2.0 * j.planet / r * spin).abs() < 1e-9, "{difference}");
-    assert!(s.books().energy_residual.abs() < 1e-9 * 835.0 * 50.0);
+    assert!(s.ledger().energy_residual.abs() < 1e-9 * 835.0 * 50.0);
 }
 
 #[test]
@@ -121,7 +121,7 @@ fn a_jump_of_an_imposed_speed_is_counted_as_work() {
         }
         let m = s.motion();
         assert!((m.side_speed[0] / inputs.carrier_speed - 1.0).abs() < 1e-4, "{contact:?}: {m:?}");
-        let b = s.books();
+        let b = s.ledger();
         assert!(b.energy_residual.abs() < 1e-2 * b.heat[CONTACT_HEAT].max(1.0), "{contact:?}: {b:?}");
     }
 }
@@ -153,6 +153,6 @@ fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     s.advance(0.5).unwrap();
     // each jump is of some tenths of a joule, and there are a dozen of them
-    let residual = s.books().energy_residual;
+    let residual = s.ledger().energy_residual;
     assert!(residual.abs() < 1e-3, "{residual} J");
 }

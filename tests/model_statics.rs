@@ -190,14 +190,14 @@ fn a_load_no_tooth_can_carry_is_an_error_with_a_hint() {
     inputs.load_torque[1] = 1e7;
     let problems = Simulation::start(&Parameters::default(), &inputs, 0.0).unwrap_err();
     assert_eq!(problems[0].variable, "right.load_torque");
-    assert!(problems[0].message.contains("working depth"), "{}", problems[0]);
+    assert!(problems[0].message.contains("tooth deflection exceeds half the base pitch"), "{}", problems[0]);
     // during a run it is a step failure with time and cause, and the state stays valid
     let mut s = started(&Parameters::default(), &Inputs::default());
     s.advance(0.01).unwrap();
     let before = s.clone();
     s.set_inputs(&inputs);
     let failure = s.advance(0.02).unwrap_err();
-    assert!(failure.message.contains("a tooth would jump"), "{failure}");
+    assert!(failure.message.contains("tooth deflection exceeds half the base pitch"), "{failure}");
     assert!(failure.time >= 0.01 && failure.time < 0.02 && s.state().is_valid());
     // from the state before the load the run continues
     let mut s = before;

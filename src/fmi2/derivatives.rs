@@ -7,7 +7,7 @@ use super::instance::Instance;
 use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{finite, row, wrong_type};
-use crate::model::{Course, Direction, Inputs, ORDERS, PLACES, STATES, Simulation};
+use crate::model::{Direction, InputDerivatives, Inputs, ORDERS, STATES, STENCIL, Simulation};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
 /// Highest order of output derivatives.
@@ -58,46 +58,46 @@ impl Instance {
             }
         }
         let now = &mut self.now;
-        let mut course = now.course.unwrap_or(Course::STILL);
+        let mut input_derivatives = now.input_derivatives.unwrap_or(InputDerivatives::ZERO);
         for ((reference, order), value) in references.iter().zip(orders.iter()).zip(values.iter()) {
             if let Access::Input(slot) = row(reference)?.access {
-                *slot(&mut course.rates[order as usize - 1]) = value;
+                *slot(&mut input_derivatives.rates[order as usize - 1]) = value;
                 now.derivatives_set |= input_bit(reference);
             }
         }
-        self.set_course(course);
+        self.replace_input_derivatives(input_derivatives);
         Ok(())
     }
 
     /// An input set without derivatives since the last step is held constant.
     pub fn end_derivatives_of(&mut self, references: InputArray<u32>) {
-        let Some(mut course) = self.now.course else { return };
+        let Some(mut input_derivatives) = self.now.input_derivatives else { return };
         for reference in references.iter().filter(|&r| self.now.derivatives_set & input_bit(r) == 0) {
             if let Ok(Variable { access: Access::Input(slot), .. }) = row(reference) {
-                course.rates.iter_mut().for_each(|rates| *slot(rates) = 0.0);
+                input_derivatives.rates.iter_mut().for_each(|rates| *slot(rates) = 0.0);
             }
         }
-        self.set_course(course);
+        self.replace_input_derivatives(input_derivatives);
     }
 
-    fn set_course(&mut self, course: Course) {
+    fn replace_input_derivatives(&mut self, input_derivatives: InputDerivatives) {
         let now = &mut self.now;
-        now.course = (course != Course::STILL).then_some(course);
+        now.input_derivatives = (input_derivatives != InputDerivatives::ZERO).then_some(input_derivatives);
         if let (Phase::StepComplete, Some(simulation)) = (now.phase, &mut now.simulation) {
-            simulation.set_course(now.course);
+            simulation.set_input_derivatives(now.input_derivatives);
         }
     }
 
     /// Refuses a step of `h` [s] in which an input would leave its range.
-    pub fn check_course(&self, h: f64) -> CallResult {
-        let Some(course) = self.now.course else { return Ok(()) };
-        let [mut first, mut second] = course.rates;
+    pub fn check_inputs_within_step(&self, h: f64) -> CallResult {
+        let Some(input_derivatives) = self.now.input_derivatives else { return Ok(()) };
+        let [mut first, mut second] = input_derivatives.rates;
         for &index in &table().inputs {
             let row = &table().rows[index];
             let Access::Input(slot) = row.access else { continue };
             let peak = -*slot(&mut first) / *slot(&mut second);
             for time in [h, peak].into_iter().filter(|&time| time > 0.0 && time <= h) {
-                let (mut inputs, _) = course.after(time, &self.now.inputs);
+                let (mut inputs, _) = input_derivatives.after(time, &self.now.inputs);
                 check_value(row, *slot(&mut inputs)).map_err(|problem| {
                     CallError::error(format!(
                         "with its derivatives, an input leaves its range within the step: {problem}"
@@ -137,7 +137,7 @@ impl Instance {
             let row = row(reference)?;
             let source = output_source(row)?;
             let slope = match source {
-                OutputSource::Books(of) => of(&simulation.book_rates()),
+                OutputSource::Ledger(of) => of(&simulation.ledger_rates()),
                 _ => slopes.of(source),
             };
             value.write(finite_slope(row, slope)?);
@@ -210,7 +210,7 @@ struct Slopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
     motion: Option<crate::model::Motion>,
-    forces: Option<crate::model::Along>,
+    forces: Option<crate::model::DirectionalForces>,
     rates: Option<[f64; STATES]>,
 }
 
@@ -229,11 +229,11 @@ impl<'a> Slopes<'a> {
                 along.slope(|forces| forces.readings[place])
             }
             // the ledger changes with time alone
-            OutputSource::Books(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
-            OutputSource::State(k) => simulation.gather(|i| direction.q[i], &direction.v)[k],
+            OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
+            OutputSource::State(k) => simulation.states_of(|i| direction.q[i], &direction.v)[k],
             OutputSource::Rate(k) => self.rates.get_or_insert_with(|| {
                 let [q, v] = simulation.rate_slopes(direction);
-                simulation.gather(|i| q[i], &v)
+                simulation.states_of(|i| q[i], &v)
             })[k],
         }
     }
@@ -280,8 +280,8 @@ fn initial_derivatives(
     };
     // one-sided where the other side leaves the range
     let all_valid = |offsets: &&[(f64, f64)]| offsets.iter().all(|&(offset, _)| moved(offset).is_ok());
-    let sides: [&[(f64, f64)]; 3] = [&PLACES, &FORWARD, &BACKWARD];
-    let offsets = sides.into_iter().find(all_valid).unwrap_or(&PLACES);
+    let sides: [&[(f64, f64)]; 3] = [&STENCIL, &FORWARD, &BACKWARD];
+    let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
     let mut sums = vec![0.0; sources.len()];
     for &(offset, weight) in offsets {
         let mut simulation = moved(offset)?.start().map_err(|problems| {
@@ -306,9 +306,9 @@ fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
         OutputSource::Motion(of) => of(&simulation.motion()),
         OutputSource::Forces(of) => of(simulation.forces()),
         OutputSource::Reading(place) => simulation.forces().readings[place],
-        OutputSource::Books(of) => of(&simulation.books()),
-        OutputSource::LedgerReading(place) => simulation.books().readings[place],
-        OutputSource::Heat(place) => simulation.books().heat[place],
+        OutputSource::Ledger(of) => of(&simulation.ledger()),
+        OutputSource::LedgerReading(place) => simulation.ledger().readings[place],
+        OutputSource::Heat(place) => simulation.ledger().heat[place],
         OutputSource::State(k) => simulation.states()[k],
         OutputSource::Rate(k) => simulation.state_rates()[k],
     }

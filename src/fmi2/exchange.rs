@@ -51,9 +51,7 @@ impl Instance {
     pub fn completed_integrator_step(&mut self) -> CallResult<bool> {
         let outcome = self.exchange_simulation()?.complete_step();
         let due = self.valid_after(outcome)?;
-        if self.now.simulation.as_ref().is_some_and(Simulation::is_watched) {
-            self.warn_outside_range();
-        }
+        self.warn_while_running();
         Ok(due)
     }
 

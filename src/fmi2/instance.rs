@@ -6,8 +6,7 @@ use super::log::{Category, Log};
 use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::declaration::Field;
-use crate::model::Parameters;
-use crate::model::Simulation;
+use crate::model::{Parameters, Reported, Simulation};
 use crate::problem;
 use crate::variables::{self, Access, Variable};
 
@@ -29,8 +28,8 @@ pub struct Instance {
     pub now: Snapshot,
     /// Messages to the host.
     pub log: Log,
-    /// Whether the use of a law outside its range was reported.
-    warned: bool,
+    /// Warnings that are logged once in a run, so far.
+    reported: Reported,
 }
 
 /// Tolerance and time interval of fmi2SetupExperiment.
@@ -47,7 +46,7 @@ pub struct Experiment {
 impl Instance {
     /// A new instance with start values.
     pub fn new(kind: Kind, log: Log) -> Self {
-        Self { now: Snapshot::new(kind), log, warned: false }
+        Self { now: Snapshot::new(kind), log, reported: Reported::default() }
     }
 
     /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
@@ -92,8 +91,8 @@ impl Instance {
         };
         if let Some(simulation) = &mut self.now.simulation {
             match self.now.kind {
-                Kind::CoSimulation => simulation.set_course(self.now.course),
-                Kind::ModelExchange => simulation.hand_over(),
+                Kind::CoSimulation => simulation.set_input_derivatives(self.now.input_derivatives),
+                Kind::ModelExchange => simulation.start_model_exchange(),
             }
         }
         if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Events)) {
@@ -119,7 +118,7 @@ impl Instance {
     /// fmi2Reset: as after fmi2Instantiate, except for the settings of the log.
     pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.now.kind);
-        self.warned = false;
+        self.reported = Reported::default();
         Ok(())
     }
 
@@ -151,26 +150,24 @@ impl Instance {
         let stop = self.now.stop_time;
         let time = self.simulation()?.time();
         check_step(time, stop, point, h)?;
-        self.check_course(h)?;
+        self.check_inputs_within_step(h)?;
         let until = point + h;
         // a step below the resolution of time changes nothing
         if until <= time {
             return Ok(());
         }
-        let course = self.now.course;
+        let input_derivatives = self.now.input_derivatives;
         let simulation = self.simulation()?;
-        simulation.set_course(course);
+        simulation.set_input_derivatives(input_derivatives);
         let outcome = simulation.advance(until);
-        let (last, watched) = (simulation.time(), simulation.is_watched());
-        if course.is_some() {
-            let (inputs, course) = (*simulation.inputs(), simulation.course().copied());
-            (self.now.inputs, self.now.course) = (inputs, course);
+        let last = simulation.time();
+        if input_derivatives.is_some() {
+            let (inputs, input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
+            (self.now.inputs, self.now.input_derivatives) = (inputs, input_derivatives);
         }
         self.now.derivatives_set = 0;
         let Err(failure) = outcome else {
-            if watched {
-                self.warn_outside_range();
-            }
+            self.warn_while_running();
             return Ok(());
         };
         self.now.phase = Phase::StepFailed;
@@ -180,14 +177,12 @@ impl Instance {
         )))
     }
 
-    /// Warns once when a law is used outside its published range.
-    pub fn warn_outside_range(&mut self) {
-        if self.warned || !self.log.is_on(Category::Warning) {
-            return;
-        }
-        if let Some(problem) = self.now.simulation.as_ref().and_then(Simulation::out_of_range) {
-            self.warned = true;
-            self.log.warning(&problem.to_string());
+    /// Logs warnings about the time up to now, each once in a run.
+    pub fn warn_while_running(&mut self) {
+        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning)) {
+            for warning in simulation.unreported(&mut self.reported) {
+                self.log.warning(&warning.to_string());
+            }
         }
     }
 

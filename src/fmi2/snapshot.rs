@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::calls::Phase;
 use super::types::Kind;
-use crate::model::{Accepted, Course, Inputs, Parameters, Simulation, State};
+use crate::model::{Accepted, InputDerivatives, Inputs, Parameters, Simulation, State};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
@@ -27,8 +27,8 @@ pub struct Snapshot {
     pub parameters: Parameters,
     /// Inputs as set so far.
     pub inputs: Inputs,
-    /// Their course, where the host set derivatives.
-    pub course: Option<Course>,
+    /// Their input_derivatives, where the host set derivatives.
+    pub input_derivatives: Option<InputDerivatives>,
     /// Inputs whose derivatives were set since the last step, a bit each.
     pub derivatives_set: u32,
     /// Start time [s].
@@ -49,7 +49,7 @@ impl Snapshot {
             phase: Phase::Instantiated,
             parameters: Parameters::default(),
             inputs: Inputs::default(),
-            course: None,
+            input_derivatives: None,
             derivatives_set: 0,
             start_time: 0.0,
             stop_time: None,
@@ -66,7 +66,7 @@ struct Payload {
     phase: Phase,
     parameters: Parameters,
     inputs: Inputs,
-    course: Option<Course>,
+    input_derivatives: Option<InputDerivatives>,
     derivatives_set: u32,
     start_time: f64,
     stop_time: Option<f64>,
@@ -99,7 +99,7 @@ impl Snapshot {
             phase: self.phase,
             parameters: self.parameters,
             inputs: self.inputs,
-            course: self.course,
+            input_derivatives: self.input_derivatives,
             derivatives_set: self.derivatives_set,
             start_time: self.start_time,
             stop_time: self.stop_time,
@@ -132,7 +132,7 @@ impl Snapshot {
             phase,
             parameters,
             inputs,
-            course,
+            input_derivatives,
             derivatives_set,
             start_time,
             stop_time,
@@ -144,7 +144,7 @@ impl Snapshot {
             phase,
             parameters,
             inputs,
-            course,
+            input_derivatives,
             derivatives_set,
             start_time,
             stop_time,
@@ -169,7 +169,9 @@ impl Payload {
         if !self.start_time.is_finite() || self.state.is_some_and(|s| !s.is_valid()) {
             return Err("the state has values that are not finite".into());
         }
-        if self.accepted.as_ref().is_some_and(|a| !a.is_valid()) || self.course.is_some_and(|c| !c.is_finite()) {
+        if self.accepted.as_ref().is_some_and(|a| !a.is_valid())
+            || self.input_derivatives.is_some_and(|c| !c.is_finite())
+        {
             return Err("the state has values that are not finite".into());
         }
         if self.accepted.is_some() && self.kind != Kind::ModelExchange {

@@ -4,7 +4,7 @@ use super::call_error::{CallError, CallResult};
 use super::calls::Phase;
 use super::host_memory::{InputArray, OutputArray};
 use super::instance::{Instance, is_tolerance};
-use crate::model::{Books, Motion};
+use crate::model::{LedgerReadings, Motion};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 
 /// FMI type of a variable, as FMI's functions name it.
@@ -65,7 +65,7 @@ impl Instance {
     /// fmi2GetReal. Computes only what the requested variables need, and what they share only once.
     pub fn get_real(&mut self, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
         let mut motion: Option<Motion> = None;
-        let mut books: Option<Books> = None;
+        let mut ledger: Option<LedgerReadings> = None;
         let (mut states, mut rates) = (None, None);
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
@@ -80,11 +80,11 @@ impl Instance {
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
                         OutputSource::Reading(place) => simulation.forces().readings[place],
-                        OutputSource::Books(of) => of(books.get_or_insert_with(|| simulation.books())),
+                        OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger())),
                         OutputSource::LedgerReading(place) => {
-                            books.get_or_insert_with(|| simulation.books()).readings[place]
+                            ledger.get_or_insert_with(|| simulation.ledger()).readings[place]
                         }
-                        OutputSource::Heat(place) => books.get_or_insert_with(|| simulation.books()).heat[place],
+                        OutputSource::Heat(place) => ledger.get_or_insert_with(|| simulation.ledger()).heat[place],
                         OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],
                         OutputSource::Rate(k) => rates.get_or_insert_with(|| simulation.state_rates())[k],
                     }
@@ -223,7 +223,7 @@ impl Instance {
                 if parameters {
                     simulation.tune(&tuned(&now.parameters, simulation.parameters()));
                 }
-                if simulation.is_handed_over() {
+                if simulation.is_model_exchange() {
                     simulation.follow_commands();
                 }
             }

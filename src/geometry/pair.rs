@@ -107,6 +107,11 @@ impl Pair {
         self.pitch_arc[0] + self.pitch_arc[1]
     }
 
+    /// Working depth as an arc on the unit sphere [rad].
+    pub fn working_depth(&self) -> f64 {
+        (self.gears[0].addendum + self.gears[1].addendum) / self.outer_cone
+    }
+
     /// Outer pitch diameter of gear `i` [m].
     pub fn outer_pitch_diameter(&self, i: usize) -> f64 {
         self.module * f64::from(self.gears[i].teeth)

@@ -3,7 +3,7 @@
 //! - `scene`: drives, inputs, material, integration, and the plan of bodies,
 //! - `effect_kinds`: what effects are made of: forces on bodies, dry friction, changes to teeth,
 //! - `effects`: the effects, one file each, and their list,
-//! - `setup`: all parameters, and what contradicts itself,
+//! - `setup`: all parameters, and contradictions between them,
 //! - `assembly`: from parameters to constants,
 //! - `dynamics`: the equations of motion and their state,
 //! - `outputs`: what can be read,
@@ -19,16 +19,23 @@ mod scene;
 mod setup;
 
 pub use crate::contact::tooth_load::{ToothLoad, Touch};
-pub use assembly::bodies::Inertias;
-pub use dynamics::state::{Accepted, State};
+pub use assembly::inertias::Inertias;
+pub use dynamics::accepted::Accepted;
+pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::{EFFECTS, EffectParameters, Effects};
-pub use outputs::readings::{Books, Forces, MeshForces, Motion, efficiency};
-pub use run::{Along, BODIES, Body, CostClass, Direction, INDICATORS, PLACES, STATES, Simulation, StepFailure, Update};
+pub use outputs::forces::{Forces, efficiency};
+pub use outputs::ledger_readings::LedgerReadings;
+pub use outputs::mesh_forces::MeshForces;
+pub use outputs::motion::Motion;
+pub use run::{
+    BODIES, Body, CostClass, Direction, DirectionalForces, INDICATORS, Reported, STATES, STENCIL, Simulation,
+    StepFailure, Update,
+};
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
-    CarrierDrive, Course, GearContact, Group, InertiaSpec, Inputs, Material, Method, ORDERS, Plan, PlanetSpin, Scene,
-    SideDrive, SolidTeeth, SolverSpec, Start,
+    CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Material, Method, ORDERS, Plan,
+    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use setup::Parameters;
 pub use setup::effect_outputs::{CONTACT_HEAT, heats, readings};

@@ -1,7 +1,7 @@
 //! The way from a row of the table to the value of its variable.
 
 use crate::declaration::{EnumType, Field, GetChoice, Parameter, Row, SetChoice};
-use crate::model::{Books, Forces, InputField, Motion, Parameters};
+use crate::model::{Forces, InputField, LedgerReadings, Motion, Parameters};
 
 /// Where the value of an output is read.
 #[derive(Clone, Copy)]
@@ -11,7 +11,7 @@ pub enum OutputSource {
     /// From forces, which take one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
     /// From the ledger and the solver's statistics.
-    Books(fn(&Books) -> f64),
+    Ledger(fn(&LedgerReadings) -> f64),
     /// A reading of an effect that changes at any instant, by its place.
     Reading(usize),
     /// A reading of an effect that changes with accepted steps, by its place.

@@ -3,7 +3,7 @@
 use super::access::OutputSource;
 use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
 use crate::declaration::{Row, output};
-use crate::model::{Books, CONTACT_HEAT, Changes, Forces, Motion, efficiency, heats, readings};
+use crate::model::{CONTACT_HEAT, Changes, Forces, LedgerReadings, Motion, efficiency, heats, readings};
 
 type Output = Row<OutputSource>;
 
@@ -21,8 +21,8 @@ fn forces(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static
     output(name, unit, None, OutputSource::Forces(of), text)
 }
 
-fn books(name: &'static str, unit: Unit, of: fn(&Books) -> f64, text: &'static str) -> Output {
-    output(name, unit, None, OutputSource::Books(of), text)
+fn ledger(name: &'static str, unit: Unit, of: fn(&LedgerReadings) -> f64, text: &'static str) -> Output {
+    output(name, unit, None, OutputSource::Ledger(of), text)
 }
 
 /// Rows of one side: 0 left, 1 right.
@@ -187,18 +187,18 @@ pub fn rows() -> Vec<Output> {
             |f| f.locking_value,
             "Difference over sum of the half-shaft torques, over the last whole mesh cycle where shafts twist",
         ),
-        books("heat.contact", units::JOULE, |b| b.heat[CONTACT_HEAT], "Heat of contact damping since the start"),
-        books("held.sides", units::ONE, |b| b.held[0], "Side gears that dry friction holds to the carrier"),
-        books("held.planets", units::ONE, |b| b.held[1], "Groups of planets that dry friction holds on their pins"),
-        books("held.wheels", units::ONE, |b| b.held[2], "Wheels that their brakes hold"),
-        books("solver.steps", units::ONE, |b| b.steps, "Accepted steps"),
-        books("solver.rejected", units::ONE, |b| b.rejected, "Rejected steps"),
-        books("solver.rhs_calls", units::ONE, |b| b.rhs_calls, "Evaluations of the tooth forces"),
-        books("solver.step_size", units::SECOND, |b| b.step_size, "Size of the last accepted step"),
-        books(
+        ledger("heat.contact", units::JOULE, |l| l.heat[CONTACT_HEAT], "Heat of contact damping since the start"),
+        ledger("held.sides", units::ONE, |l| l.held[0], "Side gears that dry friction holds to the carrier"),
+        ledger("held.planets", units::ONE, |l| l.held[1], "Groups of planets that dry friction holds on their pins"),
+        ledger("held.wheels", units::ONE, |l| l.held[2], "Wheels that their brakes hold"),
+        ledger("solver.steps", units::ONE, |l| l.steps, "Accepted steps"),
+        ledger("solver.rejected", units::ONE, |l| l.rejected, "Rejected steps"),
+        ledger("solver.rhs_calls", units::ONE, |l| l.rhs_calls, "Evaluations of the tooth forces"),
+        ledger("solver.step_size", units::SECOND, |l| l.step_size, "Size of the last accepted step"),
+        ledger(
             "solver.energy_residual",
             units::JOULE,
-            |b| b.energy_residual,
+            |l| l.energy_residual,
             "Stored energy less work of the inputs plus heat; 0 for an exact solution",
         ),
     ]);

@@ -103,7 +103,7 @@ fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'st
     Variable { causality: Causality::Local, ..row }
 }
 
-/// Adds the rows that are missing to `rows`, tells the states' magnitudes there, and returns the indices of states and
+/// Adds the rows that are missing to `rows`, sets the states' magnitudes there, and returns the indices of states and
 /// derivatives in the order of the states: positions of `BODIES`, then velocities.
 pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) {
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);

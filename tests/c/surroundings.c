@@ -92,7 +92,7 @@ static double run(void)
     MUST(GetReal(c, &output, 1, &speed) == OK && GetFMUstate(c, &state) == OK);
     MUST(SetReal(c, &input, 1, &none) == DISCARD && DoStep(c, 0.0, -1.0, 1) == ERROR);
     MUST(SetFMUstate(c, state) == OK && FreeFMUstate(c, &state) == OK && Terminate(c) == OK && Reset(c) == OK);
-    /* teeth that would jump */
+    /* teeth bent too far */
     MUST(EnterInitializationMode(c) == OK && ExitInitializationMode(c) == OK && SetReal(c, &input, 1, &load) == OK);
     MUST(DoStep(c, 0.0, 1e-2, 1) == DISCARD && Reset(c) == OK);
     MUST(SetReal(c, &first, 1, &module) == OK && EnterInitializationMode(c) == OK);

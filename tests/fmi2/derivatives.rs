@@ -177,7 +177,7 @@ fn a_course_is_part_of_the_state() {
 /// Outputs with continuous derivatives: neither sums of the ledger nor counts.
 pub fn smooth_outputs() -> Vec<&'static str> {
     let rows = table().outputs.iter().map(|&i| &table().rows[i]);
-    let smooth = rows.filter(|row| !matches!(row.access, Access::Output(OutputSource::Books(_))));
+    let smooth = rows.filter(|row| !matches!(row.access, Access::Output(OutputSource::Ledger(_))));
     smooth.map(|row| row.name).filter(|name| !name.ends_with("_pairs")).collect()
 }
 

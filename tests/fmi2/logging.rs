@@ -106,6 +106,20 @@ fn a_law_outside_its_range_is_reported_once_with_logging_on_and_never_with_loggi
 }
 
 #[test]
+fn stresses_above_the_strength_are_reported_once_with_logging_on_and_never_with_logging_off() {
+    for (on, expected) in [(1, 3), (0, 0)] {
+        let host = Host::with_logging(on);
+        assert_eq!(host.set_boolean("effects.strength", 1), Status::Ok);
+        assert_eq!(host.set("strength.bending_strength", 1e7), Status::Ok);
+        assert_eq!(host.set("strength.contact_strength", 1e8), Status::Ok);
+        host.start();
+        host.steps(0.0, 1e-3, 20);
+        let lines = host.log().into_iter().filter(|line| line.message.contains("exceeds the strength")).count();
+        assert_eq!(lines, expected, "{:?}", host.log());
+    }
+}
+
+#[test]
 fn a_logger_that_calls_back_is_refused_and_does_no_harm() {
     static COMPONENT: AtomicPtr<c_void> = AtomicPtr::new(ptr::null_mut());
     static RESULT: AtomicI32 = AtomicI32::new(-1);

@@ -108,3 +108,10 @@ def test_a_friction_law_outside_its_range_warns_once(drive):
     assert len(warnings) == 1 and "outside" in warnings[0], outside.opened.log
     inside = drive(STEADY_TURN | {"effects.tooth_friction": True}).to(0.02, 1e-3)
     assert not any("tooth_friction" in line for line in inside.opened.log)
+
+
+def test_pins_and_washers_that_do_not_fit_the_gears_warn(drive):
+    small = STEADY_TURN | {"geometry.module": 2.25e-3, "geometry.face_width": 10e-3, "effects.thrust_friction": True}
+    for values, expected in [({}, 3), ({"thrust_friction.radii_from_geometry": True}, 0)]:
+        opened = drive(small | values).opened
+        assert sum("radii_from_geometry" in line for line in opened.log) == expected, opened.log

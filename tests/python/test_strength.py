@@ -38,3 +38,14 @@ def test_damage_counts_relative_revolutions_and_nothing_without_them(run):
     side = turns * theory.RATIO * theory.PLANETS / 3e6 * worst(turn["stress.root_side_max"], 1000e6)
     assert turn["damage.planet"][-1] == pytest.approx(planet, rel=0.02)
     assert turn["damage.side"][-1] == pytest.approx(side, rel=0.02)
+
+
+def test_stresses_above_the_strength_warn_once_each(drive):
+    weak = drive({"effects.strength": True, "strength.bending_strength": 1e7, "strength.contact_strength": 1e8})
+    log = weak.to(0.02, 1e-3).opened.log
+    warnings = [line for line in log if "exceeds the strength" in line]
+    gears = ["root stress of planet[1]", "root stress of the left side gear", "contact stress between planet[1]"]
+    assert len(warnings) == 3 and all(any(gear in line for line in warnings) for gear in gears), log
+    assert all("at t = " in line and "MPa" in line for line in warnings)
+    strong = drive({"effects.strength": True, "strength.bending_strength": 1e11, "strength.contact_strength": 1e11})
+    assert not any("exceeds the strength" in line for line in strong.to(0.02, 1e-3).opened.log)

@@ -261,7 +261,7 @@ fn structure(table: &Table) -> Element {
     let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
     let outputs = table.outputs.iter().map(|&index| {
         let mut known = dependencies(table, index);
-        if !is_of_books(&table.rows[index]) {
+        if !is_of_ledger(&table.rows[index]) {
             known.extend(table.states);
             known.sort_unstable();
         }
@@ -309,9 +309,9 @@ fn is_speed(input: &Variable) -> bool {
     input.unit == Some(units::RAD_PER_S)
 }
 
-fn is_of_books(row: &Variable) -> bool {
+fn is_of_ledger(row: &Variable) -> bool {
     let by_step =
-        |source| matches!(source, OutputSource::Books(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
+        |source| matches!(source, OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
     matches!(row.access, Access::Output(source) if by_step(source))
 }
 
@@ -322,7 +322,7 @@ fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize>
 /// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
 ///
 /// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
-/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the books
+/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the ledger
 /// follow with time alone.
 pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];

@@ -2,62 +2,10 @@
 
 use std::sync::Arc;
 
+use super::body_effects::BodyEffects;
 use crate::contact::any_spring::AnySpring;
 use crate::contact::detailed::Detailed;
 use crate::contact::gaps::FlankGaps;
-use crate::model::effect_kinds::body::BodyEffect;
-use crate::model::effect_kinds::friction::Friction;
-use crate::model::effect_kinds::friction_source::FrictionSource;
-use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::{Course, Inputs, Plan};
-use crate::model::setup::{Parameters, SceneEffects};
-
-/// Effects on bodies, and dry friction.
-#[derive(Clone, Debug)]
-pub struct BodyEffects {
-    /// Forces and torques.
-    pub forces: Arc<Vec<Box<dyn BodyEffect>>>,
-    /// Sources of dry friction.
-    pub friction: Vec<FrictionSource>,
-    /// The half-shafts.
-    pub half_shafts: HalfShafts,
-    /// Whether there are effects; without any, a lock may still be commanded.
-    pub always: bool,
-}
-
-impl BodyEffects {
-    /// Effects of the scene `p` that act on bodies.
-    pub fn new(p: &Parameters, effects: &SceneEffects, plan: &Plan) -> Self {
-        let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
-        Self {
-            always: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
-            forces: Arc::new(forces),
-            friction,
-            half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
-        }
-    }
-
-    /// Takes over tunable parameters.
-    pub fn tune(&mut self, effects: &SceneEffects) {
-        self.friction.clear();
-        self.friction.extend(effects.friction());
-    }
-
-    /// Speed that an imposed carrier has at the positions `q` under its command [rad/s].
-    pub fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
-        self.forces.iter().fold(command, |speed, effect| effect.carrier_speed(q, speed))
-    }
-
-    /// Friction on all bodies with the lock at `lock`.
-    pub fn friction(&self, lock: f64, inputs: &Inputs, course: &Course) -> Friction {
-        Friction::new(&self.friction, lock, inputs, course)
-    }
-
-    /// Whether friction that always acts depends on the loads of the meshes.
-    pub fn needs_loads(&self) -> bool {
-        self.friction.iter().any(|source| !source.by_lock && source.depends_on_load())
-    }
-}
 
 /// What acts in a scene besides plain teeth.
 #[derive(Clone, Debug)]
@@ -66,7 +14,7 @@ pub struct Additions {
     pub detailed: Detailed<AnySpring>,
     /// Whether an effect needs it.
     pub in_detail: bool,
-    /// Where the heat of friction along the flanks is booked.
+    /// Index of the heat of friction along the flanks.
     pub friction_heat: usize,
     /// Gaps of the tooth pairs, while intact and once a tooth is broken.
     pub gaps: [Option<Arc<FlankGaps>>; 2],

@@ -4,7 +4,7 @@
 //! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constant between communication
 //! points, so speeds are linear and angles quadratic in time: the step is exact.
 
-use crate::model::assembly::bodies::Inertias;
+use crate::model::assembly::inertias::Inertias;
 use crate::model::scene::Inputs;
 use crate::model::scene::Plan;
 use crate::model::scene::layout::{CARRIER, PLANET};
@@ -47,7 +47,7 @@ impl Ideal {
         [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
     }
 
-    /// What free speeds take of a jump of imposed ones: the spin by the carrier, and the carrier by the spin. Sides of
+    /// Part that free speeds take of a jump of imposed ones: the spin by the carrier, and the carrier by the spin. Sides of
     /// unequal inertia couple both.
     pub fn impulse(&self) -> [f64; 2] {
         let [m11, m12, m22] = self.mass();

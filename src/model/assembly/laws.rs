@@ -19,7 +19,7 @@ use crate::problem::Problem;
 pub struct Laws {
     /// For a plain mesh.
     pub law: Law,
-    /// For a mesh in detail: the elastic part by itself,
+    /// For a mesh in detail: the elastic part alone,
     pub spring: AnySpring,
     /// and the slices of the face it acts on.
     pub slices: Vec<Slice>,

@@ -1,9 +1,10 @@
 //! From parameters to constants: inertias, contact laws, meshes, effects, gathered in `Model`.
 
 pub mod additions;
-pub mod bodies;
+pub mod body_effects;
 pub mod face;
 pub mod ideal;
+pub mod inertias;
 pub mod laws;
 pub mod model;
 pub mod rigid;

@@ -1,9 +1,10 @@
 //! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
 
-use super::additions::{Additions, BodyEffects};
-use super::bodies::Inertias;
+use super::additions::Additions;
+use super::body_effects::BodyEffects;
 use super::face::{centroid, slice_cones};
 use super::ideal::Ideal;
+use super::inertias::Inertias;
 use super::laws::Laws;
 use super::rigid::Rigid;
 use super::solid;
@@ -15,7 +16,7 @@ use crate::contact::mesh::Mesh;
 use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::effect::BUILT;
 use crate::model::effect_kinds::teeth::ToothEffects;
-use crate::model::effects::strength::Strength;
+use crate::model::effects::strength::GearStrength;
 use crate::model::scene::layout::MAX_DOF;
 use crate::model::scene::{GearContact, Layout, Plan, Requests};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
@@ -43,7 +44,7 @@ pub struct Model {
     /// How the gears are represented.
     pub gears: Gears,
     /// Stress and fatigue, where the scene asks for them.
-    pub strength: Option<Box<Strength>>,
+    pub strength: Option<Box<GearStrength>>,
     /// Where each degree of freedom stands.
     pub layout: Layout,
     /// Periods of the positions: a tooth pitch, for the carrier a turn [rad].
@@ -86,7 +87,7 @@ impl Model {
             }
         };
         let strength = if BUILT && parameters.effects.strength {
-            Some(Box::new(Strength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
+            Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
         } else {
             None
         };
@@ -150,12 +151,11 @@ fn teeth(
     let (pair, plan) = (effects.setting.pair, ideal.plan);
     let friction = effects.on_flanks();
     // a tooth may neither bend by the working depth nor reach the next gap
-    let working_depth = (pair.gears[0].addendum + pair.gears[1].addendum) / pair.outer_cone;
-    let jump = working_depth.min(0.5 * pair.base_pitch);
+    let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[1].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
-    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, jump);
+    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, deflection_limit);
     let additions = Additions {
         detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, friction.map(|f| f.law)),
         in_detail,
@@ -164,5 +164,5 @@ fn teeth(
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
         bodies,
     };
-    Teeth::new(pair, mesh, plan, &ideal.inertia, jump, additions)
+    Teeth::new(pair, mesh, plan, &ideal.inertia, deflection_limit, additions)
 }

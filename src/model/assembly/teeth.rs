@@ -1,7 +1,7 @@
 //! Constants of the equations of motion of a differential with teeth.
 
 use super::additions::Additions;
-use super::bodies::Inertias;
+use super::inertias::Inertias;
 use crate::contact::mesh::Mesh;
 use crate::geometry::Pair;
 use crate::model::scene::layout::{CARRIER, MAX_DOF};
@@ -29,15 +29,22 @@ pub struct Teeth {
     pub sin_base: [f64; 2],
     /// Base pitch on the unit sphere [rad].
     pub base_pitch: f64,
-    /// Approach beyond which a tooth would jump [rad].
-    pub jump: f64,
+    /// Largest approach of flanks: more exceeds the working depth, or half the base pitch [rad].
+    pub deflection_limit: f64,
     /// What acts besides plain teeth; boxed, so that the layout of these constants is the same in every build.
     pub additions: Box<Additions>,
 }
 
 impl Teeth {
     /// Constants of the scene `plan` with the meshes `mesh` of `pair`.
-    pub fn new(pair: &Pair, mesh: Mesh, plan: Plan, inertias: &Inertias, jump: f64, additions: Additions) -> Self {
+    pub fn new(
+        pair: &Pair,
+        mesh: Mesh,
+        plan: Plan,
+        inertias: &Inertias,
+        deflection_limit: f64,
+        additions: Additions,
+    ) -> Self {
         let layout = plan.layout();
         let (inertia, rigid_end) = inertias.by_freedom(&plan);
         let mut inverse_inertia = [0.0; MAX_DOF];
@@ -51,7 +58,7 @@ impl Teeth {
             inverse_inertia[layout.planet(g)] = 0.0;
         }
         for s in (0..2).filter(|_| plan.ends) {
-            // a side without a shaft of its own has no end to move
+            // a side with a rigid half-shaft has no end to move
             if plan.side_imposed[s] || !plan.shafts[s] {
                 inverse_inertia[layout.end(s)] = 0.0;
             }
@@ -65,7 +72,7 @@ impl Teeth {
             rigid_end,
             sin_base: pair.sin_base(),
             base_pitch: pair.base_pitch,
-            jump,
+            deflection_limit,
             additions: Box::new(additions),
         }
     }

@@ -1,8 +1,8 @@
 //! Means of the shaft torques over whole mesh cycles: what the torque bias is read from.
 
-use crate::model::dynamics::state::Bias;
+use crate::model::dynamics::bias::Bias;
 
-/// Watches planets pass from one mesh cycle to the next, and keeps the means of shaft torques over whole ones.
+/// Detects the boundaries of mesh cycles, and keeps the means of shaft torques over whole ones.
 ///
 /// Wrapping takes out whole pitches, so that the boundaries of cycles stay where they are.
 pub struct Cycle {
@@ -10,7 +10,7 @@ pub struct Cycle {
     pub pitch: f64,
 }
 
-/// Tells a cycle gone through, one, from a return to its begin, none.
+/// Cycles that separate a completed one from a return to its beginning.
 const HALF: f64 = 0.5;
 
 impl Cycle {
@@ -25,7 +25,7 @@ impl Cycle {
             let part = ((boundary - place[0]) / (place[1] - place[0])).clamp(0.0, 1.0);
             let time = bias.time + part * h;
             let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
-            // who comes back to where the cycle began has not been through it
+            // a planet that returns to where the cycle began has not completed it
             if bias.whole && (bias.rolled + boundary - place[0]).abs() > HALF {
                 bias.last = Some((sum.map(|x| x / time), time));
             }

@@ -16,44 +16,21 @@ use super::state::State;
 use crate::contact::mesh::{MeshForce, MeshState};
 use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
-use crate::model::effect_kinds::dry_friction::FrictionState;
 use crate::model::effect_kinds::friction::Friction;
-use crate::model::scene::layout::{CARRIER, HOLDS, LEFT, MAX_GROUPS};
-use crate::model::scene::{Course, Inputs};
-
-/// Derivatives of forces and of the carrier's imposed acceleration.
-pub struct Jacobian<const N: usize> {
-    /// ∂force/∂position.
-    pub by_position: Matrix<N>,
-    /// ∂force/∂(rate of position).
-    pub by_rate: Matrix<N>,
-    /// ∂force/∂velocity.
-    pub by_velocity: Matrix<N>,
-    /// ∂(imposed acceleration of the carrier)/∂position and velocity.
-    pub of_imposed: [[f64; N]; 2],
-}
-
-impl<const N: usize> Default for Jacobian<N> {
-    fn default() -> Self {
-        Self {
-            by_position: [[0.0; N]; N],
-            by_rate: [[0.0; N]; N],
-            by_velocity: [[0.0; N]; N],
-            of_imposed: [[0.0; N]; 2],
-        }
-    }
-}
+use crate::model::effect_kinds::friction_state::FrictionState;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS};
+use crate::model::scene::{InputDerivatives, Inputs};
 
 /// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
-/// move, and whether effects act beside the teeth.
+/// move, and whether effects act.
 #[derive(Clone, Copy)]
-pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> {
+pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) inputs: Inputs,
-    pub(in crate::model) course: Course,
+    pub(in crate::model) input_derivatives: InputDerivatives,
     driven: bool,
-    pub(in crate::model) friction_state: [FrictionState; HOLDS],
+    pub(in crate::model) friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
     pub(in crate::model) fault: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
@@ -62,12 +39,14 @@ pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const F
     wrapped: [i64; MAX_GROUPS],
 }
 
-impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'a, N, G, P, FULL> {
+impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>
+    Equations<'a, N, G, P, WITH_EFFECTS>
+{
     /// Index of the first group of planets.
     pub const PLANET: usize = CARRIER + 1 + 2 * P;
     /// Index of the first pin.
     pub const PIN: usize = Self::PLANET + G;
-    /// Whether half-shafts have ends of their own.
+    /// Whether ends of half-shafts move.
     pub const ENDS: bool = N > Self::PLANET + (1 + P) * G;
 
     /// Equations at `state`'s wrapping under `inputs`.
@@ -82,10 +61,11 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
             }
         }
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
-        let friction = FULL.then(|| teeth.additions.bodies.friction(state.lock, &inputs, &course));
+        let (input_derivatives, driven) =
+            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
+        let friction = WITH_EFFECTS.then(|| teeth.additions.bodies.friction(state.lock, &inputs, &input_derivatives));
         let (friction_state, fault) = (state.friction, state.fault);
-        Self { teeth, inputs, course, driven, friction_state, friction, fault, offset, wrapped }
+        Self { teeth, inputs, input_derivatives, driven, friction_state, friction, fault, offset, wrapped }
     }
 
     /// Dry friction on all bodies.
@@ -97,18 +77,18 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     /// Whether inputs change while they act.
     #[inline(always)]
     pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
-        FULL && self.driven
+        WITH_EFFECTS && self.driven
     }
 
-    /// The equations `time` [s] later, as far as inputs go.
+    /// The equations with the inputs of `time` [s] later.
     pub(in crate::model) fn later(&self, time: f64) -> Self {
-        let (inputs, course) = self.course.after(time, &self.inputs);
-        self.under(&inputs, &course)
+        let (inputs, input_derivatives) = self.input_derivatives.after(time, &self.inputs);
+        self.under(&inputs, &input_derivatives)
     }
 
     /// The same equations under other inputs.
-    pub(in crate::model) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
-        Self { inputs: *inputs, course: *course, ..*self }
+    pub(in crate::model) fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
+        Self { inputs: *inputs, input_derivatives: *input_derivatives, ..*self }
     }
 
     /// State of the mesh of group `g` with side `s`.
@@ -176,7 +156,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         })
     }
 
-    /// The same of a mesh whose side gear has no seat of its own.
+    /// The same of a mesh whose side gear cannot move along its axis.
     #[inline(always)]
     pub(in crate::model) fn block(&self, s: usize, by: &[[f64; 2]; 2]) -> [[f64; 3]; 3] {
         let [[qq, qx], [xq, xx]] = *by;
@@ -228,11 +208,11 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
     #[inline(always)]
     pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        let rates = &self.course.rates[0];
+        let rates = &self.input_derivatives.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
-            let wheel = if FULL && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
-            if FULL && plan.side_imposed[s] {
+            let wheel = if WITH_EFFECTS && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
+            if WITH_EFFECTS && plan.side_imposed[s] {
                 input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.inputs.load_torque[s];
@@ -242,18 +222,18 @@ impl<'a, const N: usize, const G: usize, const P: usize, const FULL: bool> Equat
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque + if FULL { power.drive } else { 0.0 }
+            self.inputs.carrier_torque + if WITH_EFFECTS { power.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
         if plan.spin_imposed {
-            let inertial = if FULL { self.teeth.inertia[Self::PLANET] * rates.planet_spin } else { 0.0 };
+            let inertial = if WITH_EFFECTS { self.teeth.inertia[Self::PLANET] * rates.planet_spin } else { 0.0 };
             input -= in_pairs(G, |g| self.members(g) * (sum[Self::PLANET + g] - inertial) * at.v[Self::PLANET + g]);
         }
         for i in 0..N {
             sum[i] *= inverse[i];
         }
-        if FULL && plan.carrier_imposed {
+        if WITH_EFFECTS && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
         }
         if self.is_driven_by_inputs() {

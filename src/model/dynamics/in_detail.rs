@@ -1,11 +1,12 @@
 //! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
 
-use super::equations::{Equations, Jacobian};
+use super::equations::Equations;
+use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
 use crate::contact::gaps::FlankGaps;
 use crate::integrate::{Point, in_pairs};
-use crate::model::effect_kinds::dry_friction::Pressure;
+use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::{Dual, Scalar, sqrt};
@@ -39,7 +40,7 @@ impl Local for Dual<LOCAL> {
     }
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Index of the first axial seat.
     pub(super) const SEAT: usize = CARRIER + 1;
 
@@ -75,12 +76,12 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     }
 
     /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes.
-    pub(in crate::model) fn mesh_pressures<T: Local>(
+    pub(in crate::model) fn mesh_surface_loads<T: Local>(
         &self,
         loads: &[[DetailedLoad<T>; 2]; G],
-    ) -> ([Pressure; 2], [Pressure; G]) {
+    ) -> ([SurfaceLoad; 2], [SurfaceLoad; G]) {
         let side = self.teeth.sin_base[1];
-        let sides = [0, 1].map(|s| Pressure {
+        let sides = [0, 1].map(|s| SurfaceLoad {
             thrust: in_pairs(G, |g| self.members(g) * loads[g][s].side_axial.value()),
             load: in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value()).abs(),
         });
@@ -88,7 +89,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             let [l, r] = &loads[g];
             let across = l.tangential.value() + r.tangential.value();
             let along = l.side_axial.value() - r.side_axial.value();
-            Pressure {
+            SurfaceLoad {
                 thrust: l.planet_axial.value() + r.planet_axial.value(),
                 load: sqrt(across * across + along * along),
             }
@@ -120,8 +121,8 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                 power.heat[place] = in_pairs(G, |g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
         }
-        let (sides, planets) = self.mesh_pressures(&loads);
-        self.add_friction(at, &self.pressures_of(&sides, &planets), sum, power);
+        let (sides, planets) = self.mesh_surface_loads(&loads);
+        self.add_friction(at, &self.surface_loads_of(&sides, &planets), sum, power);
         if let Some(j) = slopes {
             let block = |part: usize| {
                 std::array::from_fn(|g| {
@@ -140,7 +141,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     /// Elastic energy of the mesh of group `g` with side `s` [J].
     pub(in crate::model) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
         let additions = &self.teeth.additions;
-        if !(FULL && additions.in_detail) {
+        if !(WITH_EFFECTS && additions.in_detail) {
             return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
         }
         let state = self.detailed_state(at, g, s);

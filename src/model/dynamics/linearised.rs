@@ -1,13 +1,14 @@
 //! The equations of motion with teeth, linearised: exact derivatives of the accelerations.
 
-use super::equations::{Equations, Jacobian};
+use super::equations::Equations;
+use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::mesh::MeshForce;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     fn divide_by_inertia(&self, m: &mut Matrix<N>) {
         for (row, inverse) in m.iter_mut().zip(&self.teeth.inverse_inertia) {
             row.iter_mut().for_each(|x| *x *= inverse);

@@ -35,8 +35,8 @@ pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     [planet, side, if contact.flank == Flank::Drive { forward } else { -forward }]
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
-    /// Shows every loaded tooth pair of the mesh of group `g` with side `s`.
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+    /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
     pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
@@ -45,7 +45,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
             self.teeth.additions.perfect.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
         };
-        if FULL && self.teeth.additions.in_detail {
+        if WITH_EFFECTS && self.teeth.additions.in_detail {
             self.detail::<f64>(at, g, s, |slice| {
                 visit(&ToothLoad {
                     planet,

@@ -1,17 +1,20 @@
-//! The equations of motion, and the state they move: with teeth (`equations` and its parts), and of ideal gears (`rigid`,
+//! The equations of motion, and the state they move: with teeth (`equations` and its parts), and of ideal gears (`rigid_equations`,
 //! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
 
+pub mod accepted;
+pub mod bias;
 pub mod cycle;
 pub mod equations;
+mod friction;
 mod ideal_step;
 mod in_detail;
+pub mod jacobian;
 mod linearised;
 mod loads;
 mod motion;
 pub mod power;
-pub mod rigid;
-mod rigid_sticking;
+pub mod rigid_equations;
+mod rigid_friction;
 pub mod sizes;
 pub mod state;
-mod sticking;
 mod with_effects;

@@ -4,12 +4,13 @@ use super::equations::Equations;
 use super::power::Power;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{Course, Inputs};
+use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;
-/// Approach of teeth that an iteration may come to from within the lash [rad], and by which factor it may deepen one.
+/// Largest approach of teeth that an iteration may reach from within the lash [rad], and the largest factor by which it
+/// may deepen one.
 const FIRST_APPROACH: f64 = 5e-4;
 const APPROACH_GROWTH: f64 = 4.0;
 /// Speed below which velocities are resolved absolutely rather than relatively [rad/s].
@@ -17,7 +18,9 @@ const SPEED_FLOOR: f64 = 1.0;
 /// Twist below which that of a half-shaft is resolved absolutely [rad].
 const TWIST_FLOOR: f64 = 1e-3;
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrder<N> for Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> SecondOrder<N>
+    for Equations<'_, N, G, P, WITH_EFFECTS>
+{
     type Power = Power;
     const ALIKE: (usize, usize) = (Self::PLANET, (1 + P) * G);
 
@@ -59,7 +62,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
     #[inline(always)]
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
         let mut power = Power::default();
-        if FULL {
+        if WITH_EFFECTS {
             let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
             self.act(at, &mut sum, &mut imposed, &mut power, None);
             self.finish(at, &mut sum, &imposed, &mut power);
@@ -73,7 +76,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
-        if FULL { self.linearise_all(at) } else { self.linearise_teeth(at) }
+        if WITH_EFFECTS { self.linearise_all(at) } else { self.linearise_teeth(at) }
     }
 
     #[inline(always)]
@@ -92,8 +95,8 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let [first, second] = self.later(time).course.rates;
-        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
+        let [first, second] = self.later(time).input_derivatives.rates;
+        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     #[inline(always)]
@@ -132,7 +135,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
 
     #[inline(always)]
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
-        [self.kinetic_energy(at), if FULL { self.stored(at, true) } else { self.elastic_energy(at) }]
+        [self.kinetic_energy(at), if WITH_EFFECTS { self.stored(at, true) } else { self.elastic_energy(at) }]
     }
 
     #[inline(always)]
@@ -141,7 +144,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
         if !self.teeth.mesh.engagement.corner_contact() {
             return 0.0;
         }
-        Power::imbalance::<FULL>(energies, h, power)
+        Power::imbalance::<WITH_EFFECTS>(energies, h, power)
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
@@ -176,6 +179,6 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> SecondOrd
 
     #[inline(always)]
     fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if FULL { self.friction_crossing(start, end) } else { None }
+        if WITH_EFFECTS { self.friction_crossing(start, end) } else { None }
     }
 }

@@ -31,7 +31,7 @@ impl Power {
         }
     }
 
-    /// By how much the ledger of a step of size `h` does not close, over the energy that the step dealt with: stored,
+    /// Residual of the energy balance of a step of size `h`, over the energy exchanged in the step: stored,
     /// worked and turned into heat. Kinetic energy, most of which nothing ever touches, counts by its rounding alone.
     #[inline(always)]
     pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> f64 {
@@ -39,9 +39,9 @@ impl Power {
         let work = simpson(&|p| p.input);
         let heat = simpson(&|p| if ALL { p.heat.iter().sum() } else { p.heat[CONTACT_HEAT] });
         let gained = (after[0] - before[0]) + (after[1] - before[1]);
-        let dealt = before[1].max(after[1]) + work.abs() + heat.abs();
+        let exchanged = before[1].max(after[1]) + work.abs() + heat.abs();
         let off = (gained - work + heat).abs() - ENERGY_ROUNDING * (before[0] + after[0]);
-        if off > 0.0 { off / dealt.max(f64::MIN_POSITIVE) } else { 0.0 }
+        if off > 0.0 { off / exchanged.max(f64::MIN_POSITIVE) } else { 0.0 }
     }
 }
 
@@ -52,9 +52,9 @@ pub fn simpson<const N: usize>(step: &Step<N, Power>, of: impl Fn(&Power) -> f64
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 
-/// Books work and heat of a step; the causes of heat beside contact only where there can be any.
+/// Adds work and heat of a step to the ledger; heat other than that of contact only where effects act.
 #[inline(always)]
-pub fn book<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
+pub fn add_to_ledger<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
     *work += simpson(step, |p| p.input);
     for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {
         heat[i] += simpson(step, |p| p.heat[i]);

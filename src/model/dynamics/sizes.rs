@@ -35,10 +35,10 @@ macro_rules! by_size {
 macro_rules! by_rigid_size {
     ($model:expr, $body:expr) => {
         if $model.ideal.plan.ends {
-            type E<'a> = $crate::model::dynamics::rigid::RigidEquations<'a, 6>;
+            type E<'a> = $crate::model::dynamics::rigid_equations::RigidEquations<'a, 6>;
             $body
         } else {
-            type E<'a> = $crate::model::dynamics::rigid::RigidEquations<'a, 4>;
+            type E<'a> = $crate::model::dynamics::rigid_equations::RigidEquations<'a, 4>;
             $body
         }
     };
@@ -50,12 +50,14 @@ macro_rules! with_equations {
         match &$model.gears {
             $crate::model::assembly::model::Gears::Rigid(rigid) if $model.ideal.plan.ends => {
                 const N: usize = 6;
-                let $equations = $crate::model::dynamics::rigid::RigidEquations::<N>::new(rigid, $inputs, $state);
+                let $equations =
+                    $crate::model::dynamics::rigid_equations::RigidEquations::<N>::new(rigid, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Rigid(rigid) => {
                 const N: usize = 4;
-                let $equations = $crate::model::dynamics::rigid::RigidEquations::<N>::new(rigid, $inputs, $state);
+                let $equations =
+                    $crate::model::dynamics::rigid_equations::RigidEquations::<N>::new(rigid, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {

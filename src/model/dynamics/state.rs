@@ -2,15 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::bias::Bias;
 use crate::integrate::{Control, Point, Statistics};
-use crate::model::assembly::additions::BodyEffects;
-use crate::model::effect_kinds::dry_friction::FrictionState;
+use crate::model::assembly::body_effects::BodyEffects;
+use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::effects::strength::Fatigue;
-use crate::model::scene::layout::{CARRIER, HELD_PLANETS, HOLDS, MAX_DOF, PLANET, WHEELS};
-use crate::model::scene::{Course, Inputs, Layout};
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, PLANET};
+use crate::model::scene::{InputDerivatives, Layout};
 use crate::model::setup::effect_outputs::HEATS;
 
-/// Turns beyond which whole ones are no longer told apart.
+/// Turns beyond which doubles no longer resolve single ones.
 const MOST_TURNS: u64 = 1 << 53;
 
 /// State of a simulation.
@@ -33,70 +34,21 @@ pub struct State {
     /// Heat since the start by cause [J].
     pub heat: [f64; HEATS],
     /// State of the dry friction: side gears, groups of planets, wheels.
-    pub friction: [FrictionState; HOLDS],
+    pub friction: [FrictionState; FRICTION_BODIES],
     /// Shaft torques over whole mesh cycles.
     pub bias: Bias,
-    /// Whether the tooth fault has come about.
+    /// Whether the tooth of the tooth fault is broken.
     pub fault: bool,
     /// Command of the lock that acts since the last step.
     pub lock: f64,
     /// Command of the carrier's speed that acts since the last step [rad/s].
     pub carrier_command: f64,
-    /// How inputs go on, where the host told it.
-    pub course: Option<Course>,
+    /// Derivatives of the inputs, where the host set them.
+    pub input_derivatives: Option<InputDerivatives>,
     /// Damage of the teeth.
     pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-}
-
-/// The end of the last step that a solver of the host's completed.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Accepted {
-    /// Time [s].
-    pub time: f64,
-    /// Positions.
-    pub q: [f64; MAX_DOF],
-    /// Velocities.
-    pub v: [f64; MAX_DOF],
-    /// Inputs.
-    pub inputs: Inputs,
-    /// Commands whose jumps free speeds have followed.
-    pub followed: Inputs,
-}
-
-impl Accepted {
-    /// `state` as it was there.
-    pub fn of(&self, state: &State) -> State {
-        State { time: self.time, q: self.q, v: self.v, ..*state }
-    }
-
-    /// Whether all numbers are finite.
-    pub fn is_valid(&self) -> bool {
-        self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
-    }
-}
-
-impl Bias {
-    /// Means over the last whole mesh cycle [N·m], unless rolling has all but stopped since.
-    pub fn mean(&self) -> Option<[f64; 2]> {
-        self.last.filter(|(_, took)| self.time <= 2.0 * took).map(|(mean, _)| mean)
-    }
-}
-
-/// Time integrals of the shaft torques, kept mesh cycle by mesh cycle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Bias {
-    /// ∫T dt of left and right since the mesh cycle began [N·m·s].
-    pub sum: [f64; 2],
-    /// How long that is [s].
-    pub time: f64,
-    /// Whether it was seen to begin.
-    pub whole: bool,
-    /// Cycles rolled since it began, backward negative.
-    pub rolled: f64,
-    /// Means over the last whole mesh cycle [N·m], and how long it took [s].
-    pub last: Option<([f64; 2], f64)>,
 }
 
 impl State {
@@ -111,12 +63,12 @@ impl State {
             statistics: Statistics::default(),
             work: 0.0,
             heat: [0.0; HEATS],
-            friction: [FrictionState::default(); HOLDS],
+            friction: [FrictionState::default(); FRICTION_BODIES],
             bias: Bias::default(),
             fault: false,
             lock: 0.0,
             carrier_command: 0.0,
-            course: None,
+            input_derivatives: None,
             fatigue: Fatigue::default(),
             energy_at_start: 0.0,
         }
@@ -156,12 +108,12 @@ impl State {
         let planet = i.wrapping_sub(layout.planet(0));
         if i < CARRIER {
             self.friction[i].anchor -= by;
-            self.friction[WHEELS + i].anchor -= by;
+            self.friction[FRICTION_WHEELS + i].anchor -= by;
         } else if i == CARRIER {
-            self.friction[WHEELS].anchor -= by;
-            self.friction[WHEELS + 1].anchor -= by;
+            self.friction[FRICTION_WHEELS].anchor -= by;
+            self.friction[FRICTION_WHEELS + 1].anchor -= by;
         } else if planet < layout.groups {
-            self.friction[HELD_PLANETS + planet].anchor -= by;
+            self.friction[FRICTION_PLANETS + planet].anchor -= by;
         }
     }
 
@@ -172,20 +124,20 @@ impl State {
     }
 
     /// Whether positions, speeds and work are finite numbers.
-    pub fn moves(&self) -> bool {
+    pub fn is_motion_finite(&self) -> bool {
         // a sum is not finite if a term is not
         let sum = |x: &[f64]| x.iter().sum::<f64>();
         (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.work).is_finite()
     }
 
-    /// Whether all numbers are what a simulation can go on with.
+    /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
         let numbers =
             [self.time, self.work, self.energy_at_start, self.control.last_error, self.bias.time, self.carrier_command];
         let anchors = self.friction.map(|f| f.anchor);
-        let course = self.course.is_none_or(|course| course.is_finite());
+        let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
         self.q.iter().chain(&self.v).chain(&numbers).chain(&self.heat).chain(&anchors).all(|x| x.is_finite())
-            && course
+            && input_derivatives
             && self.turns.iter().all(|turns| turns.unsigned_abs() < MOST_TURNS)
             && (0.0..=1.0).contains(&self.lock)
             && self.control.next > 0.0
@@ -200,7 +152,7 @@ impl BodyEffects {
     /// change.
     pub fn act_in(&self, state: &State) -> bool {
         self.always
-            || state.course.is_some()
+            || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }

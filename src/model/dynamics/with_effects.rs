@@ -1,21 +1,22 @@
 //! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
 
-use super::equations::{Equations, Jacobian};
+use super::equations::Equations;
 use super::in_detail::LOCAL;
+use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::mesh::MeshForce;
 use crate::integrate::{Matrix, Point, in_pairs};
-use crate::model::effect_kinds::body::{Action, Bodies, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{Course, Inputs};
+use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::Dual;
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// All positions and velocities as effects see them.
     pub(in crate::model) fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
-        let Self { inputs, course, .. } = self;
-        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs, input_rates: &course.rates[0] }
+        let Self { inputs, input_derivatives, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs, input_rates: &input_derivatives.rates[0] }
     }
 
     /// Forces of everything but commanded torques; derivatives where they are asked for.
@@ -36,7 +37,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     let (forces, heat) = self.tooth_torques(at);
                     *sum = forces;
                     power.heat[CONTACT_HEAT] = heat;
-                    self.add_friction(at, &self.pressures_of(&[], &[]), sum, power);
+                    self.add_friction(at, &self.surface_loads_of(&[], &[]), sum, power);
                 }
                 self.act_on_bodies(at, sum, imposed, power);
             }
@@ -58,7 +59,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
                     self.add_blocks(&position, &mut j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
                     power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
-                    self.add_friction(at, &self.pressures_of(&[], &[]), sum, power);
+                    self.add_friction(at, &self.surface_loads_of(&[], &[]), sum, power);
                 }
                 self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, power);
@@ -77,17 +78,22 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         }
     }
 
-    /// The part of the accelerations that follows from `inputs` on the course `course`: accelerations are linear in both.
-    pub(in crate::model) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
-        let part = |inputs: &Inputs, course: &Course| {
-            let these = self.under(inputs, course);
+    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
+    pub(in crate::model) fn forced(
+        &self,
+        at: &Point<N>,
+        inputs: &Inputs,
+        input_derivatives: &InputDerivatives,
+    ) -> [f64; N] {
+        let part = |inputs: &Inputs, input_derivatives: &InputDerivatives| {
+            let these = self.under(inputs, input_derivatives);
             let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
             these.add_brakes(&mut sum);
             these.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
             these.finish(at, &mut sum, &imposed, &mut power);
             sum
         };
-        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        let (with, without) = (part(inputs, input_derivatives), part(&Inputs::ZERO, &InputDerivatives::ZERO));
         std::array::from_fn(|i| with[i] - without[i])
     }
 

@@ -4,43 +4,12 @@
 //! Jenkins' element: a spring in series with a Coulomb slider). The rotation z is a position of the model less an anchor,
 //! so that sticking adds no state and a constant load is held without creep. While sliding the spring drags the anchor
 //! along, step by step, so that a body stops with the torque that the spring has then, never with more. The integrator
-//! ends a step at each transition; the energy that the spring loses there is booked as heat.
+//! ends a step at each transition; the energy that the spring loses there is heat.
 
-use serde::{Deserialize, Serialize};
-
-/// Whether a body sticks, or in which direction it slides.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Mode {
-    /// Held by the spring from its anchor.
-    #[default]
-    Stuck,
-    /// Slides forward.
-    Forward,
-    /// Slides backward.
-    Backward,
-}
-
-impl Mode {
-    /// +1 or −1 while sliding, 0 while stuck.
-    pub fn direction(self) -> f64 {
-        match self {
-            Mode::Stuck => 0.0,
-            Mode::Forward => 1.0,
-            Mode::Backward => -1.0,
-        }
-    }
-}
-
-/// State of the friction on a body.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct FrictionState {
-    /// Stuck or sliding.
-    pub mode: Mode,
-    /// Position at which the spring is relaxed [rad]; while sliding, where it would be.
-    pub anchor: f64,
-    /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
-    pub stiffness: f64,
-}
+use super::friction_part::FrictionPart;
+use super::friction_state::{FrictionState, Mode};
+use super::slip::Slip;
+use super::surface_load::SurfaceLoad;
 
 /// Damping of the spring over its stiffness τ, where the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
@@ -55,64 +24,30 @@ const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 /// Most sources of friction on one body.
 pub const SOURCES: usize = 3;
 
-/// Loads that press the surfaces together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressure {
-    /// Thrust on a side gear, or on a planet [N].
-    pub thrust: f64,
-    /// Magnitude of the torque of the meshes on a side gear [N·m], of the force across a planet's pin [N], or limit
-    /// torque of a wheel [N·m].
-    pub load: f64,
-}
-
-/// Motion of a body against the surface it rubs on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slip {
-    /// Position [rad].
-    pub position: f64,
-    /// Speed [rad/s].
-    pub speed: f64,
-}
-
 /// Friction on one kind of body from all its sources.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction {
-    parts: [Part; SOURCES],
+    parts: [FrictionPart; SOURCES],
     count: usize,
     /// Stiffness of all sources together [N·m/rad].
     pub stiffness: f64,
     damping_time: f64,
-    /// Where the energy is booked that the spring loses when the last source goes off.
+    /// Index of the heat that the spring becomes when the last source is switched off.
     released: usize,
-}
-
-/// Limit torque of one source, and where its heat is booked.
-#[derive(Clone, Copy, Debug)]
-pub struct Part {
-    /// Constant part [N·m].
-    pub constant: f64,
-    /// Per thrust [m].
-    pub per_thrust: f64,
-    /// Per load.
-    pub per_load: f64,
-    /// Limit while stuck over limit while sliding.
-    pub static_ratio: f64,
-    /// Index of its heat.
-    pub heat: usize,
 }
 
 impl DryFriction {
     /// No source.
     pub const NONE: Self =
-        Self { parts: [Part::NONE; SOURCES], count: 0, stiffness: 0.0, damping_time: 0.0, released: 0 };
+        Self { parts: [FrictionPart::NONE; SOURCES], count: 0, stiffness: 0.0, damping_time: 0.0, released: 0 };
 
-    /// No source yet; what the spring loses when the last goes off is booked at `released`.
+    /// No source yet; the energy that the spring loses when the last is switched off is heat `released`.
     pub fn new(damping_time: f64, released: usize) -> Self {
         Self { damping_time, released, ..Self::NONE }
     }
 
     /// Adds a source.
-    pub fn push(&mut self, part: Part, stiffness: f64) {
+    pub fn push(&mut self, part: FrictionPart, stiffness: f64) {
         if stiffness > 0.0 && self.count < SOURCES {
             self.parts[self.count] = part;
             self.count += 1;
@@ -120,7 +55,7 @@ impl DryFriction {
         }
     }
 
-    fn parts(&self) -> &[Part] {
+    fn parts(&self) -> &[FrictionPart] {
         &self.parts[..self.count]
     }
 
@@ -135,7 +70,7 @@ impl DryFriction {
     }
 
     /// Limit torque while sliding [N·m].
-    pub fn limit(&self, by: &Pressure) -> f64 {
+    pub fn limit(&self, by: &SurfaceLoad) -> f64 {
         self.parts().iter().map(|p| p.at(by)).sum()
     }
 
@@ -144,12 +79,12 @@ impl DryFriction {
         self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load])
     }
 
-    fn breakaway(&self, by: &Pressure) -> f64 {
+    fn breakaway(&self, by: &SurfaceLoad) -> f64 {
         self.parts().iter().map(|p| p.static_ratio * p.at(by)).sum()
     }
 
     /// Torque against the motion.
-    pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+    pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => self.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
             Mode::Forward => self.limit(by),
@@ -166,16 +101,16 @@ impl DryFriction {
     }
 
     /// Adds the heat to its causes, `count` bodies alike.
-    pub fn heat(&self, state: &FrictionState, slip: &Slip, by: &Pressure, count: f64, heat: &mut [f64]) {
+    pub fn heat(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) {
         let power = match state.mode {
             Mode::Stuck => self.stiffness * self.damping_time * slip.speed * slip.speed,
             _ => self.torque(state, slip, by) * slip.speed,
         };
-        self.book(count * power, by, heat);
+        self.add_heat(count * power, by, heat);
     }
 
     /// Shares `amount` out to the causes in proportion to their limit torques.
-    fn book(&self, amount: f64, by: &Pressure, heat: &mut [f64]) {
+    fn add_heat(&self, amount: f64, by: &SurfaceLoad, heat: &mut [f64]) {
         let whole = self.limit(by);
         for part in self.parts() {
             let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.count as f64 };
@@ -190,7 +125,7 @@ impl DryFriction {
     }
 
     /// Distance past the switch, as a fraction of the tolerance: negative before it, above 1 too far.
-    fn overshoot(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+    fn overshoot(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => {
                 // a spring past its limit that is being unwound is cut back, it does not slide
@@ -206,7 +141,12 @@ impl DryFriction {
     }
 
     /// The fraction of a step after which it ends on a switch; `None` if there is no switch or it is near enough.
-    pub fn crossing(&self, state: &FrictionState, start: (&Slip, &Pressure), end: (&Slip, &Pressure)) -> Option<f64> {
+    pub fn crossing(
+        &self,
+        state: &FrictionState,
+        start: (&Slip, &SurfaceLoad),
+        end: (&Slip, &SurfaceLoad),
+    ) -> Option<f64> {
         let after = self.overshoot(state, end.0, end.1);
         if after <= 1.0 || self.limit(end.1) <= NOTHING {
             return None;
@@ -217,7 +157,7 @@ impl DryFriction {
     }
 
     /// The state after the switch that is due, if any.
-    fn switched(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> FrictionState {
+    fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
         let due = self.overshoot(state, slip, by) > 0.0;
@@ -237,36 +177,36 @@ impl DryFriction {
     }
 
     /// Whether a switch is due.
-    pub fn is_due(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> bool {
+    pub fn is_due(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> bool {
         self.switched(state, slip, by) != *state
     }
 
     /// Switches where it is due; what the spring loses is heat of `count` bodies.
-    pub fn settle(&self, state: &mut FrictionState, slip: &Slip, by: &Pressure, count: f64, heat: &mut [f64]) {
+    pub fn settle(&self, state: &mut FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) {
         let before = std::mem::replace(state, self.switched(state, slip, by));
         if *state != before {
             let lost = self.energy(&before, slip.position) - self.energy(state, slip.position);
-            self.book(count * lost, by, heat);
+            self.add_heat(count * lost, by, heat);
         }
     }
 
     /// Anchor of a body that has slid to `slip`: the spring, wound to the limit torque, drags it along. Where the limit
     /// rises faster than the motion winds the spring, the torque of the spring stays below it.
-    pub fn drag(&self, anchor: f64, slip: &Slip, by: &Pressure) -> f64 {
+    pub fn drag(&self, anchor: f64, slip: &Slip, by: &SurfaceLoad) -> f64 {
         let most = self.limit(by) / self.stiffness;
         slip.position - (slip.position - anchor).max(-most).min(most)
     }
 
     /// Distance from the switch, positive before it: torque left while stuck [N·m], speed while sliding [rad/s].
-    pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &Pressure) -> f64 {
+    pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => self.breakaway(by) - self.torque(state, slip, by).abs(),
             mode => mode.direction() * slip.speed,
         }
     }
 
-    /// Takes the state over from friction of another stiffness; on a body without friction before, it starts here.
-    pub fn take_over(&self, state: &mut FrictionState, slip: &Slip, heat: &mut [f64], count: f64) {
+    /// Adapts the state to this stiffness; on a body without friction before, it starts here.
+    pub fn adapt(&self, state: &mut FrictionState, slip: &Slip, heat: &mut [f64], count: f64) {
         if state.stiffness == self.stiffness {
             return;
         }
@@ -288,14 +228,5 @@ impl DryFriction {
         state.stiffness = self.stiffness;
         let cause = self.parts().first().map_or(self.released, |p| p.heat);
         heat[cause] += count * (before - self.energy(state, slip.position));
-    }
-}
-
-impl Part {
-    /// No friction.
-    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, static_ratio: 1.0, heat: 0 };
-
-    fn at(&self, by: &Pressure) -> f64 {
-        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 }

@@ -1,18 +1,22 @@
 //! Tests of the stick element.
 
 use super::dry_friction::*;
+use super::friction_part::FrictionPart;
+use super::friction_state::{FrictionState, Mode};
+use super::slip::Slip;
+use super::surface_load::SurfaceLoad;
 
 const STIFFNESS: f64 = 1e3;
 
 /// A clutch whose limit torque is its load.
 fn clutch() -> DryFriction {
     let mut clutch = DryFriction::new(DAMPING_TIME, 0);
-    clutch.push(Part { per_load: 1.0, static_ratio: 1.0, ..Part::NONE }, STIFFNESS);
+    clutch.push(FrictionPart { per_load: 1.0, static_ratio: 1.0, ..FrictionPart::NONE }, STIFFNESS);
     clutch
 }
 
-fn pressed(load: f64) -> Pressure {
-    Pressure { thrust: 0.0, load }
+fn pressed(load: f64) -> SurfaceLoad {
+    SurfaceLoad { thrust: 0.0, load }
 }
 
 #[test]
@@ -52,7 +56,7 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
         let before = 0.5 * stiffness * 1e-4;
         let mut heat = [0.0];
         let clutch = clutch();
-        clutch.take_over(&mut hold, &turn, &mut heat, 1.0);
+        clutch.adapt(&mut hold, &turn, &mut heat, 1.0);
         let after = clutch.energy(&hold, turn.position);
         assert!(after <= before * (1.0 + 1e-12), "{stiffness}: {before} J became {after} J");
         assert!((heat.iter().sum::<f64>() - (before - after)).abs() < 1e-12);

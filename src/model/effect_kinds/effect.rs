@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use serde::{Serialize, de::DeserializeOwned};
 
-use super::body::{Bodies, BodyEffect};
+use super::body_effect::{Bodies, BodyEffect};
 use super::friction_source::FrictionSource;
 use super::teeth::{FlankFriction, ToothEffects};
 use crate::contact::ContactSpec;
@@ -47,7 +47,7 @@ pub struct Reading {
     pub name: &'static str,
     /// Unit.
     pub unit: Unit,
-    /// Unit to show it in.
+    /// Unit in which it is displayed.
     pub display: Option<DisplayUnit>,
     /// When it changes.
     pub changes: Changes,
@@ -81,7 +81,7 @@ pub struct Setting<'a> {
     pub contact: &'a ContactSpec,
     /// Whether the effect is switched on.
     pub on: bool,
-    /// Where the effect books its heat.
+    /// Index of the effect's heat in the ledger.
     pub heat: usize,
 }
 

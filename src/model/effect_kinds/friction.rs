@@ -1,9 +1,11 @@
 //! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels on the ground.
 
-use super::dry_friction::{DAMPING_TIME, DryFriction, Part, Pressure};
+use super::dry_friction::{DAMPING_TIME, DryFriction};
+use super::friction_part::FrictionPart;
 use super::friction_source::{FrictionSource, PlanetFriction, SideFriction, WheelFriction};
-use crate::model::scene::layout::{HELD_PLANETS, WHEELS};
-use crate::model::scene::{Course, Inputs};
+use super::surface_load::SurfaceLoad;
+use crate::model::scene::layout::{FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::scene::{InputDerivatives, Inputs};
 
 /// Friction on each kind of body.
 #[derive(Clone, Copy, Debug)]
@@ -22,8 +24,8 @@ impl Friction {
     pub const NONE: Self =
         Self { side: DryFriction::NONE, planet: DryFriction::NONE, wheel: [DryFriction::NONE; 2], wheel_limit: None };
 
-    /// Friction of `sources` with the lock at `lock`, under `inputs` on their `course`. Brakes that are off are none.
-    pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, course: &Course) -> Self {
+    /// Friction of `sources` with the lock at `lock`, under `inputs` and their derivatives. Brakes that are off add none.
+    pub fn new(sources: &[FrictionSource], lock: f64, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
         let mut all = Self::NONE;
         let released = |of: fn(&FrictionSource) -> bool| sources.iter().find(|s| of(s)).map_or(0, |s| s.heat);
         all.side = DryFriction::new(DAMPING_TIME, released(|s| s.by_lock));
@@ -37,7 +39,7 @@ impl Friction {
                 all.add(source);
             }
             if let Some(wheel) = &source.wheel {
-                all.brake(wheel, source, inputs, course);
+                all.brake(wheel, source, inputs, input_derivatives);
             }
         }
         all
@@ -46,19 +48,27 @@ impl Friction {
     fn add(&mut self, source: &FrictionSource) {
         let &FrictionSource { heat, static_ratio, .. } = source;
         let SideFriction { constant, per_thrust, per_torque, stiffness } = source.side;
-        self.side.push(Part { constant, per_thrust, per_load: per_torque, static_ratio, heat }, stiffness);
+        self.side.push(FrictionPart { constant, per_thrust, per_load: per_torque, static_ratio, heat }, stiffness);
         let PlanetFriction { per_pin_force, per_thrust, stiffness } = source.planet;
-        self.planet.push(Part { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat }, stiffness);
+        self.planet
+            .push(FrictionPart { constant: 0.0, per_thrust, per_load: per_pin_force, static_ratio, heat }, stiffness);
     }
 
-    fn brake(&mut self, wheel: &WheelFriction, source: &FrictionSource, inputs: &Inputs, course: &Course) {
-        let [first, second] = &course.rates;
+    fn brake(
+        &mut self,
+        wheel: &WheelFriction,
+        source: &FrictionSource,
+        inputs: &Inputs,
+        input_derivatives: &InputDerivatives,
+    ) {
+        let [first, second] = &input_derivatives.rates;
         let limits = [inputs, first, second].map(wheel.limit);
         for s in 0..2 {
             self.wheel[s] = DryFriction::new(wheel.damping_time[s], source.heat);
             if limits.iter().any(|limit| limit[s] != 0.0) {
                 let (static_ratio, heat) = (source.static_ratio, source.heat);
-                self.wheel[s].push(Part { per_load: 1.0, static_ratio, heat, ..Part::NONE }, wheel.stiffness);
+                self.wheel[s]
+                    .push(FrictionPart { per_load: 1.0, static_ratio, heat, ..FrictionPart::NONE }, wheel.stiffness);
             }
         }
         self.wheel_limit = Some(wheel.limit);
@@ -68,9 +78,9 @@ impl Friction {
     #[inline(always)]
     pub fn on(&self, i: usize) -> &DryFriction {
         match i {
-            0..HELD_PLANETS => &self.side,
-            HELD_PLANETS..WHEELS => &self.planet,
-            _ => &self.wheel[i - WHEELS],
+            0..FRICTION_PLANETS => &self.side,
+            FRICTION_PLANETS..FRICTION_WHEELS => &self.planet,
+            _ => &self.wheel[i - FRICTION_WHEELS],
         }
     }
 
@@ -86,10 +96,10 @@ impl Friction {
 
     /// Limit torques of the wheels under `inputs`, as loads.
     #[inline(always)]
-    pub fn wheel_pressures(&self, inputs: &Inputs) -> [Pressure; 2] {
+    pub fn wheel_loads(&self, inputs: &Inputs) -> [SurfaceLoad; 2] {
         match self.wheel_limit {
-            Some(limit) => limit(inputs).map(|load| Pressure { thrust: 0.0, load }),
-            None => [Pressure::default(); 2],
+            Some(limit) => limit(inputs).map(|load| SurfaceLoad { thrust: 0.0, load }),
+            None => [SurfaceLoad::default(); 2],
         }
     }
 }

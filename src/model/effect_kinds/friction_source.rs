@@ -40,7 +40,7 @@ pub struct WheelFriction {
 /// What one effect contributes to the dry friction of bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct FrictionSource {
-    /// Where its heat is booked.
+    /// Index of its heat in the ledger.
     pub heat: usize,
     /// On each side gear.
     pub side: SideFriction,
@@ -55,7 +55,7 @@ pub struct FrictionSource {
 }
 
 impl FrictionSource {
-    /// No friction, with its heat booked at `heat`.
+    /// No friction; its heat has the index `heat`.
     pub fn new(heat: usize) -> Self {
         let (side, planet) = (SideFriction::default(), PlanetFriction::default());
         Self { heat, side, planet, wheel: None, static_ratio: 1.0, by_lock: false }

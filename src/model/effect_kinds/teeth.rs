@@ -24,7 +24,7 @@ pub struct ToothEffects {
 pub struct FlankFriction {
     /// The law with its parameters.
     pub law: ToothFriction,
-    /// Where its heat is booked.
+    /// Index of its heat in the ledger.
     pub heat: usize,
 }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Parameter, Row, real};
-use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::scene::Plan;
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::units;
 use crate::declaration::{Parameter, Row, integer, real};
-use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
 use crate::model::scene::Plan;
 use crate::model::scene::layout::CARRIER;

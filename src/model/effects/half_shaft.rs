@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, real};
-use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
@@ -91,7 +91,7 @@ impl Effect for HalfShaftSpec {
     }
 
     fn requests(&self, setting: &Setting) -> Requests {
-        // an end without inertia passes its load on at once: its shaft twists but has no motion of its own
+        // an end without inertia passes its load on at once: its shaft twists, but it is no degree of freedom
         let end = [setting.inertia.left_end, setting.inertia.right_end];
         Requests { shafts: end.map(|inertia| setting.on && inertia > 0.0), ..Requests::default() }
     }
@@ -106,7 +106,7 @@ impl Effect for HalfShaftSpec {
             if at.plan.shafts[s] {
                 out[s] = at.bodies.q[at.bodies.layout.end(s)];
             } else if at.on && self.stiffness[s] > 0.0 {
-                // the static twist, as the end has no motion of its own
+                // the static twist, as the end is no degree of freedom
                 out[s] = at.shaft_torque[s] / self.stiffness[s];
             }
         }
@@ -123,7 +123,7 @@ const fn twist(name: &'static str) -> Reading {
     }
 }
 
-/// The half-shafts that have an end of their own.
+/// The half-shafts whose ends move.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfShafts {
     stiffness: [f64; 2],

@@ -1,5 +1,5 @@
 //! The effects, one file and one line in the list each. Parameters, switches, rows, heat, readings and what acts in a scene
-//! follow from the list. What an effect may declare and do stands in `effect_kinds`; `docs/architecture.md` tells how to
+//! follow from the list. `effect_kinds` defines what an effect may declare and do; `docs/architecture.md` shows how to
 //! add one.
 
 mod bearing_drag;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, real};
 use crate::integrate::in_pairs;
-use crate::model::effect_kinds::body::{Action, Bodies, BodyEffect, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::{GearContact, Plan, Requests};

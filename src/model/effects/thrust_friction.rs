@@ -3,14 +3,32 @@
 //! Dry friction T = μ F r on each surface, with the thrust of all meshes on the side gear, both meshes' thrust on the
 //! planet and the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer
 //! 2011, section 10.2 on locking values).
+//!
+//! The radii are given, or follow from the gears (`radii_from_geometry`). A pin fills its bore; without a bore it has
+//! four fifths of the radius of the root circle at the toe, where a gear is thinnest. A washer spans the back face of its
+//! gear, from pin or shaft to the root circle at the heel, and acts at the mean of both radii: that of uniform wear, p r =
+//! constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). Of the study's gears the rule gives 8.0,
+//! 13.5 and 22.8 mm, where the start values are 8, 14 and 22 mm.
 
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, real, tunable};
+use crate::declaration::{Parameter, Row, real, switch, tunable};
+use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
 use crate::model::scene::GearContact;
+use crate::numeric::sin;
+use crate::problem::Problem;
+
+/// Radius of a pin or shaft over that of the root circle at the toe, where the gear has no bore.
+const PIN_IN_ROOT: f64 = 0.8;
+/// A pin this much narrower than its bore, relative to it, does not belong to it: clearances are a tenth of that.
+const CLEARANCE: f64 = 0.05;
+/// Radii that differ by less, relative to them, are equal.
+const ROUNDING: f64 = 1e-9;
+/// Millimetres per metre.
+const PER_MM: f64 = 1e3;
 
 /// Friction of thrust washers and pins.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,11 +37,13 @@ pub struct ThrustFrictionSpec {
     pub coefficient: f64,
     /// Coefficient of the pins μ_p.
     pub pin_coefficient: f64,
-    /// Radius of the pins [m].
+    /// Radii from the gears; otherwise as given below.
+    pub radii_from_geometry: bool,
+    /// Radius of the pins [m], if not from the gears.
     pub pin_radius: f64,
-    /// Mean radius of the planets' washers [m].
+    /// Mean radius of the planets' washers [m], if not from the gears.
     pub planet_washer_radius: f64,
-    /// Mean radius of the side gears' washers [m].
+    /// Mean radius of the side gears' washers [m], if not from the gears.
     pub side_washer_radius: f64,
     /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
     pub stiffness: f64,
@@ -34,6 +54,7 @@ impl Default for ThrustFrictionSpec {
         Self {
             coefficient: 0.05,
             pin_coefficient: 0.05,
+            radii_from_geometry: false,
             pin_radius: 8e-3,
             planet_washer_radius: 14e-3,
             side_washer_radius: 22e-3,
@@ -73,13 +94,19 @@ impl Declare for ThrustFrictionSpec {
                 |p| &mut p.pin_coefficient,
                 "Coefficient of friction of the pins",
             )),
+            switch(
+                "thrust_friction.radii_from_geometry",
+                |p| &mut p.radii_from_geometry,
+                "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
+                 heel; false: as given",
+            ),
             real(
                 "thrust_friction.pin_radius",
                 units::METRE,
                 Some(MM),
                 (0.0, 1.0),
                 |p| &mut p.pin_radius,
-                "Radius of the pins",
+                "Radius of the pins, if not from geometry",
             ),
             real(
                 "thrust_friction.planet_washer_radius",
@@ -87,7 +114,7 @@ impl Declare for ThrustFrictionSpec {
                 Some(MM),
                 (0.0, 1.0),
                 |p| &mut p.planet_washer_radius,
-                "Mean radius of the planets' thrust washers",
+                "Mean radius of the planets' thrust washers, if not from geometry",
             ),
             real(
                 "thrust_friction.side_washer_radius",
@@ -95,7 +122,7 @@ impl Declare for ThrustFrictionSpec {
                 Some(MM),
                 (0.0, 1.0),
                 |p| &mut p.side_washer_radius,
-                "Mean radius of the side gears' thrust washers",
+                "Mean radius of the side gears' thrust washers, if not from geometry",
             ),
             real(
                 "thrust_friction.stiffness",
@@ -109,22 +136,184 @@ impl Declare for ThrustFrictionSpec {
     }
 }
 
+/// Radii at which thrust friction acts [m].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Radii {
+    pin: f64,
+    /// Mean radii of the washers of planet and side gear.
+    washer: [f64; 2],
+}
+
+impl Radii {
+    /// Radii that fit the gears.
+    fn of_gears(spec: &GearSpec, pair: &Pair) -> Self {
+        let bore = [spec.planet_bore, spec.side_bore];
+        let hub = |i: usize| if bore[i] > 0.0 { 0.5 * bore[i] } else { PIN_IN_ROOT * toe_root(pair, i) };
+        Self { pin: hub(0), washer: [0, 1].map(|i| 0.5 * (hub(i) + back_face(pair, i))) }
+    }
+}
+
+/// Radius of the root circle of gear `i` at the toe [m].
+fn toe_root(pair: &Pair, i: usize) -> f64 {
+    pair.inner_cone * sin(pair.gears[i].root)
+}
+
+/// Radius of the back face of gear `i` [m]: that of the root circle at the heel.
+fn back_face(pair: &Pair, i: usize) -> f64 {
+    pair.outer_cone * sin(pair.gears[i].root)
+}
+
+impl ThrustFrictionSpec {
+    fn radii(&self, setting: &Setting) -> Radii {
+        if self.radii_from_geometry {
+            return Radii::of_gears(setting.geometry, setting.pair);
+        }
+        Radii { pin: self.pin_radius, washer: [self.planet_washer_radius, self.side_washer_radius] }
+    }
+
+    /// Warning about a pin that does not fit the planet.
+    fn misfit_of_pin(&self, setting: &Setting) -> Option<Problem> {
+        let (pin, bore) = (self.pin_radius, 0.5 * setting.geometry.planet_bore);
+        // a radius of 0 takes the friction of a surface out
+        if pin == 0.0 {
+            return None;
+        }
+        let limit = toe_root(setting.pair, 0);
+        let what = if bore > 0.0 {
+            let fits = (1.0 - CLEARANCE) * bore..=(1.0 + ROUNDING) * bore;
+            (!fits.contains(&pin))
+                .then(|| format!("does not match the planet's bore of radius {:.3} mm", bore * PER_MM))
+        } else {
+            (pin >= limit)
+                .then(|| format!("is not less than the planet's root circle at the toe, {:.3} mm", limit * PER_MM))
+        };
+        what.map(|what| Problem::new("thrust_friction.pin_radius", format!("{:.3} mm {what}; {HINT}", pin * PER_MM)))
+    }
+
+    /// Warning about a washer of gear `i` that does not fit it.
+    fn misfit_of_washer(&self, setting: &Setting, i: usize) -> Option<Problem> {
+        let names = ["thrust_friction.planet_washer_radius", "thrust_friction.side_washer_radius"];
+        let gear = ["planet", "side gear"][i];
+        let radius = [self.planet_washer_radius, self.side_washer_radius][i];
+        let (face, bore) = (back_face(setting.pair, i), [setting.geometry.planet_bore, setting.geometry.side_bore][i]);
+        let what = if radius == 0.0 {
+            return None;
+        } else if radius >= face {
+            format!("is not less than the {gear}'s back face, {:.3} mm", face * PER_MM)
+        } else if radius <= 0.5 * bore {
+            format!("lies within the {gear}'s bore of radius {:.3} mm", 0.5 * bore * PER_MM)
+        } else {
+            return None;
+        };
+        Some(Problem::new(names[i], format!("{:.3} mm {what}; {HINT}", radius * PER_MM)))
+    }
+}
+
+/// What to do about radii that do not fit.
+const HINT: &str = "set it to the gears, or thrust_friction.radii_from_geometry = true";
+
 impl Effect for ThrustFrictionSpec {
+    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+        if self.radii_from_geometry {
+            return Vec::new();
+        }
+        let washers = [0, 1].map(|i| self.misfit_of_washer(setting, i));
+        self.misfit_of_pin(setting).into_iter().chain(washers.into_iter().flatten()).collect()
+    }
+
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
         let [planet, side] = setting.pair.gears.map(|gear| f64::from(gear.teeth));
         let ratio = planet / side;
+        let Radii { pin, washer } = self.radii(setting);
         Some(FrictionSource {
             side: SideFriction {
-                per_thrust: self.coefficient * self.side_washer_radius,
+                per_thrust: self.coefficient * washer[1],
                 stiffness: self.stiffness,
                 ..SideFriction::default()
             },
             planet: PlanetFriction {
-                per_pin_force: self.pin_coefficient * self.pin_radius,
-                per_thrust: self.coefficient * self.planet_washer_radius,
+                per_pin_force: self.pin_coefficient * pin,
+                per_thrust: self.coefficient * washer[0],
                 stiffness: self.stiffness * ratio * ratio,
             },
             ..FrictionSource::new(setting.heat)
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::setup::Parameters;
+
+    /// The study's gears, scaled.
+    fn scaled(by: f64) -> Parameters {
+        let mut p = Parameters::default();
+        p.effects.thrust_friction = true;
+        let g = &mut p.geometry;
+        (g.module, g.face_width, g.backlash) = (by * g.module, by * g.face_width, by * g.backlash);
+        p
+    }
+
+    fn radii(p: &Parameters) -> Radii {
+        let pair = Pair::new(&p.gears());
+        p.specs.thrust_friction.radii(&p.scene_effects(&pair).setting)
+    }
+
+    fn warned(p: &Parameters) -> Vec<&'static str> {
+        let pair = Pair::new(&p.gears());
+        p.scene_effects(&pair).warnings().iter().map(|problem| problem.variable).collect()
+    }
+
+    #[test]
+    fn radii_grow_with_the_gears_from_the_start_values_of_the_study() {
+        let start = radii(&scaled(1.0));
+        let mut p = scaled(1.0);
+        p.specs.thrust_friction.radii_from_geometry = true;
+        let study = radii(&p);
+        let all = |radii: Radii| [radii.pin, radii.washer[0], radii.washer[1]];
+        for (given, found) in all(start).into_iter().zip(all(study)) {
+            assert!((found / given - 1.0).abs() < 0.05, "{found} for {given}");
+        }
+        let mut p = scaled(2.0);
+        p.specs.thrust_friction.radii_from_geometry = true;
+        // Gleason's clearance of 0.05 mm does not grow
+        assert!((radii(&p).pin / (2.0 * study.pin) - 1.0).abs() < 2e-3);
+        assert!((radii(&p).washer[1] / (2.0 * study.washer[1]) - 1.0).abs() < 2e-3);
+    }
+
+    #[test]
+    fn a_pin_fills_its_bore_and_washers_lie_around_the_bores() {
+        let mut p = scaled(1.0);
+        p.specs.thrust_friction.radii_from_geometry = true;
+        (p.geometry.planet_bore, p.geometry.side_bore) = (14e-3, 30e-3);
+        let pair = Pair::new(&p.gears());
+        let found = radii(&p);
+        assert_eq!(found.pin, 7e-3);
+        assert_eq!(found.washer, [0.5 * (7e-3 + back_face(&pair, 0)), 0.5 * (15e-3 + back_face(&pair, 1))]);
+        assert!(warned(&p).is_empty());
+    }
+
+    #[test]
+    fn radii_that_do_not_fit_are_named() {
+        assert!(warned(&scaled(1.0)).is_empty());
+        let [pin, planet, side] = ["pin", "planet_washer", "side_washer"].map(|part| {
+            let rows = ThrustFrictionSpec::parameters();
+            rows.iter().map(|row| row.name).find(|name| name.contains(&format!("{part}_radius"))).unwrap()
+        });
+        // the same pins and washers on gears of half the size
+        assert_eq!(warned(&scaled(0.5)), [pin, planet, side]);
+        let mut p = scaled(0.5);
+        p.specs.thrust_friction.radii_from_geometry = true;
+        assert!(warned(&p).is_empty());
+        // bores wider and narrower than the pins of 8 mm
+        for (bore, named) in [(16e-3, vec![]), (16.3e-3, vec![]), (17e-3, vec![pin]), (15.9e-3, vec![pin])] {
+            let mut p = scaled(1.0);
+            p.geometry.planet_bore = bore;
+            assert_eq!(warned(&p), named, "bore {bore}");
+        }
+        let mut p = scaled(1.0);
+        p.geometry.side_bore = 45e-3;
+        assert_eq!(warned(&p), [side]);
     }
 }

@@ -1,4 +1,7 @@
 //! What can be read from a simulation: motion from the state, forces by one evaluation of the teeth, the ledger.
 
-pub mod readings;
+pub mod forces;
+pub mod ledger_readings;
+pub mod mesh_forces;
+pub mod motion;
 pub mod resultants;

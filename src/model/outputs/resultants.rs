@@ -1,6 +1,7 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
-use super::readings::{Forces, MeshForces, bias};
+use super::forces::{Forces, bias};
+use super::mesh_forces::MeshForces;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder, in_pairs};
@@ -9,9 +10,9 @@ use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::rigid::RigidEquations;
+use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body::Bodies;
+use crate::model::effect_kinds::body_effect::Bodies;
 use crate::model::effect_kinds::effect::Instant;
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
@@ -77,9 +78,9 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
 }
 
 /// Forces of the differential with teeth.
-pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     model: &Model,
-    equations: &Equations<N, G, P, FULL>,
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     inputs: &Inputs,
     state: &State,
 ) -> Forces {
@@ -88,7 +89,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const FULL: 
     let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
-    let brakes = if FULL { equations.brake_torques(point) } else { [0.0; 2] };
+    let brakes = if WITH_EFFECTS { equations.brake_torques(point) } else { [0.0; 2] };
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
             equations.shaft_torque(point, s)
@@ -137,12 +138,12 @@ struct ForcesAtInstant<const N: usize> {
     power: Power,
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     fn instant(&self, at: &Point<N>) -> ForcesAtInstant<N> {
         let plan = &self.teeth.plan;
         let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
         let gears;
-        if FULL {
+        if WITH_EFFECTS {
             self.act(at, &mut sum, &mut imposed, &mut power, None);
             gears = self.gear_torques(at);
         } else {
@@ -154,7 +155,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         } else {
             self.inputs.carrier_torque + power.drive
         };
-        let inertial = self.teeth.inertia[Self::PLANET] * self.course.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[Self::PLANET] * self.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);

@@ -6,7 +6,7 @@ use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::sizes::{by_rigid_size, by_size, with_equations};
 use crate::model::dynamics::state::State;
 use crate::model::scene::Inputs;
-use crate::model::scene::layout::{HOLDS, WHEELS};
+use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Longest stretch integrated before positions are wrapped [s].
@@ -43,7 +43,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// Lets the lock and the brakes follow their commands: friction starts on bodies it takes hold of, and ends on others.
+/// Applies the commands of lock and brakes: friction starts on the bodies they act on, and ends on others.
 pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
@@ -53,14 +53,14 @@ pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     match &model.gears {
         Gears::Rigid(rigid) => by_rigid_size!(model, {
             let mut equations = E::new(rigid, inputs, state);
-            equations.take_friction_over(&state.point(), &mut state.heat);
-            equations.settle_friction(&state.point(), 0.0, WHEELS..HOLDS, &mut state.heat);
+            equations.adapt_friction(&state.point(), &mut state.heat);
+            equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
             state.friction = equations.friction_state;
         }),
         Gears::Teeth(teeth) => by_size!(teeth, true, {
             let mut equations = E::new(teeth, inputs, state);
-            equations.take_friction_over(&state.point(), &mut state.heat);
-            equations.settle_friction(&state.point(), 0.0, WHEELS..HOLDS, &mut state.heat);
+            equations.adapt_friction(&state.point(), &mut state.heat);
+            equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
             state.friction = equations.friction_state;
         }),
     }

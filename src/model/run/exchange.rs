@@ -1,8 +1,8 @@
-//! The model under a solver of the host's, which moves the state itself: as many states in every scene, each of one body.
+//! Model exchange: the host's solver integrates the states, which are the same in every scene, one pair for each body.
 //!
-//! Positions that grow with time are handed out unwrapped. Motions that are imposed follow their commands at once; their
-//! states take no part. Whatever the host's solver tries leaves no trace: ledger, friction and teeth take note of steps
-//! that are completed, and change at events.
+//! The host sees positions unwrapped. Motions that are imposed follow their commands at once; their
+//! states have no effect. Trial steps of the host's solver leave no trace: ledger, friction and teeth record completed
+//! steps, and change at events.
 
 use super::events::{break_tooth, breaks_tooth, energy, update_friction};
 use super::failure::StepFailure;
@@ -11,12 +11,13 @@ use super::ledger::{Recorded, Records};
 use super::simulation::Simulation;
 use crate::integrate::{DynSystem, Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
+use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::{by_size, with_equations};
-use crate::model::dynamics::state::{Accepted, State};
-use crate::model::scene::layout::{CARRIER, HELD_PLANETS, MAX_DOF, MAX_PLANETS, WHEELS};
-use crate::model::scene::{Course, Inputs, Plan};
+use crate::model::dynamics::state::State;
+use crate::model::scene::layout::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
+use crate::model::scene::{InputDerivatives, Inputs, Plan};
 
-/// A body with a state of its own.
+/// A body with a position and a velocity among the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Body {
     /// Side gear; its angle is counted from the carrier.
@@ -58,12 +59,12 @@ pub const BODIES: [Body; MAX_DOF] = {
 /// States: positions of all bodies, then their velocities.
 pub const STATES: usize = 2 * MAX_DOF;
 /// Event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets and wheels.
-pub const INDICATORS: usize = 4 * MAX_PLANETS + HELD_PLANETS + MAX_PLANETS + 2;
+pub const INDICATORS: usize = 4 * MAX_PLANETS + FRICTION_PLANETS + MAX_PLANETS + 2;
 /// Indicator of an event that cannot come.
 const NEVER: f64 = 1.0;
 
 impl Body {
-    /// Its degree of freedom in a scene; none where it does not move by itself.
+    /// Its degree of freedom in a scene; none where it does not move independently.
     fn freedom(self, plan: &Plan) -> Option<usize> {
         let layout = plan.layout();
         match self {
@@ -77,38 +78,38 @@ impl Body {
     }
 }
 
-/// What an event came to.
+/// Result of an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Update {
-    /// States are not what they were.
+    /// Whether states have changed.
     pub states_changed: bool,
     /// Time of the next event that is known already [s].
     pub next: Option<f64>,
 }
 
 impl Simulation {
-    /// From now on the host moves the state.
-    pub fn hand_over(&mut self) {
+    /// From now on the host's solver integrates the states.
+    pub fn start_model_exchange(&mut self) {
         self.accept(self.inputs);
     }
 
-    /// Whether the host moves the state.
-    pub fn is_handed_over(&self) -> bool {
+    /// Whether the host's solver integrates the states.
+    pub fn is_model_exchange(&self) -> bool {
         self.accepted.is_some()
     }
 
-    /// Takes note of where the state is; free speeds have followed the jumps of imposed ones up to `followed`.
+    /// Records the present state as accepted; free speeds have followed the jumps of imposed ones up to `followed`.
     fn accept(&mut self, followed: Inputs) {
         let State { time, q, v, .. } = self.state;
         self.accepted = Some(Accepted { time, q, v, inputs: self.inputs, followed });
         self.forces = None;
     }
 
-    /// All states; 0 of bodies that do not move by themselves.
+    /// All states; 0 of bodies that do not move independently.
     pub fn states(&self) -> [f64; STATES] {
         let present = self.present();
         let state = &present.as_ref().unwrap_or(self).state;
-        self.gather(|i| state.position(i, &self.model.periods), &state.v)
+        self.states_of(|i| state.position(i, &self.model.periods), &state.v)
     }
 
     /// Their rates.
@@ -117,11 +118,11 @@ impl Simulation {
         let present = self.present();
         let simulation = present.as_ref().unwrap_or(self);
         simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
-        self.gather(|i| dq[i], &dv)
+        self.states_of(|i| dq[i], &dv)
     }
 
-    /// By state from what is given by degree of freedom.
-    pub fn gather(&self, position: impl Fn(usize) -> f64, v: &[f64; MAX_DOF]) -> [f64; STATES] {
+    /// States of positions and velocities by degree of freedom.
+    pub fn states_of(&self, position: impl Fn(usize) -> f64, v: &[f64; MAX_DOF]) -> [f64; STATES] {
         let mut states = [0.0; STATES];
         for (k, body) in BODIES.iter().enumerate() {
             if let Some(i) = body.freedom(&self.model.ideal.plan) {
@@ -131,8 +132,8 @@ impl Simulation {
         states
     }
 
-    /// By degree of freedom from what is given by state. Where planets move as one, the first of them counts.
-    pub(super) fn scatter(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
+    /// Sets positions and velocities by degree of freedom from states. Where planets move as one, the first of them counts.
+    pub(super) fn set_from_states(&self, states: &[f64; STATES], q: &mut [f64; MAX_DOF], v: &mut [f64; MAX_DOF]) {
         let plan = &self.model.ideal.plan;
         for (k, body) in BODIES.iter().enumerate().rev() {
             if let Some(i) = body.freedom(plan) {
@@ -157,7 +158,7 @@ impl Simulation {
     /// Moves to `states`; imposed motions follow their commands.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
         let (mut q, mut v) = (self.state.q, self.state.v);
-        self.scatter(states, &mut q, &mut v);
+        self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
             // periods without end are never counted
             let turns = self.state.turns[i];
@@ -167,13 +168,13 @@ impl Simulation {
         self.follow_commands();
     }
 
-    /// Lets imposed motions follow their commands.
+    /// Sets imposed motions to their commands.
     pub fn follow_commands(&mut self) {
         imposed::set(&self.model, &self.inputs, &mut self.state);
         self.forces = None;
     }
 
-    /// Takes note of the step from the last completed one to here. Whether an event is due.
+    /// Records the step from the last completed one to here. Returns whether an event is due.
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
@@ -189,13 +190,14 @@ impl Simulation {
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let mut equations = equations;
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = DynSystem(&equations.under(&from.inputs, &Course::STILL)).evaluate(&start);
+                let (_, first) = DynSystem(&equations.under(&from.inputs, &InputDerivatives::ZERO)).evaluate(&start);
                 let (_, last) = DynSystem(&equations).evaluate(&end);
-                // what lies between is the host's: for stiff teeth no curve through both ends would tell it
+                // the motion in between is the host's: for stiff teeth no curve through both ends describes it
                 let power = [first, first.mean(&last), last];
-                let step = Step { h, time: state.time, start: &start, end: &end, power };
+                let step = Step { h, time: h, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;
-                let outcome = equations.record(model, &step, &mut Records { work, heat, bias, fatigue });
+                let outcome =
+                    equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, 0.0, &mut anchors);
                 equations.anchor(&anchors);
@@ -203,7 +205,7 @@ impl Simulation {
                 state.friction = *equations.friction_state();
                 outcome
             });
-            outcome.map_err(|jump| StepFailure { time: state.time, message: jump.to_string() })?;
+            outcome.map_err(|tooth| StepFailure { time: state.time, message: tooth.message(model) })?;
             state.statistics.accepted += 1;
             state.statistics.evaluations += 2;
             state.control.last = h;
@@ -271,10 +273,10 @@ impl Simulation {
             let friction = &mut indicators[4 * MAX_PLANETS..];
             for s in 0..2 {
                 friction[s] = margins[s].unwrap_or(NEVER);
-                friction[HELD_PLANETS + MAX_PLANETS + s] = margins[WHEELS + s].unwrap_or(NEVER);
+                friction[FRICTION_PLANETS + MAX_PLANETS + s] = margins[FRICTION_WHEELS + s].unwrap_or(NEVER);
             }
             for i in 0..plan.planets {
-                friction[HELD_PLANETS + i] = margins[HELD_PLANETS + plan.group_of[i]].unwrap_or(NEVER);
+                friction[FRICTION_PLANETS + i] = margins[FRICTION_PLANETS + plan.group_of[i]].unwrap_or(NEVER);
             }
         });
         indicators

@@ -1,6 +1,6 @@
 //! Imposed speeds: which there are, and how they jump to their commands.
 
-use crate::model::assembly::additions::BodyEffects;
+use crate::model::assembly::body_effects::BodyEffects;
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::state::State;
 use crate::model::scene::Inputs;
@@ -81,7 +81,7 @@ pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
             || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
 }
 
-/// Lets free speeds of gears without teeth follow such a jump.
+/// Adds such a jump to free speeds of gears without teeth.
 pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
     if is_impulse(model, before, inputs) {
         let carrier = |command: f64| body_effects(model).carrier_speed(&state.q, command);
@@ -99,7 +99,7 @@ pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_D
     v[CARRIER] += by_spin * spin;
 }
 
-/// Lets imposed speeds jump to their commands; the energy of the jump is impulsive work of the input.
+/// Sets imposed speeds to their commands at once; the energy of the jump is impulsive work of the input.
 pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {

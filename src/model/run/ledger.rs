@@ -1,43 +1,22 @@
-//! The ledger of accepted steps: work, heat, mesh cycles, fatigue; and the error where teeth would jump.
+//! The ledger of accepted steps: work, heat, mesh cycles, fatigue.
 
-use std::fmt;
-
+use super::excessive_deflection::ExcessiveDeflection;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
+use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::equations::Equations;
-use crate::model::dynamics::power::{Power, book, simpson};
-use crate::model::dynamics::rigid::RigidEquations;
-use crate::model::dynamics::state::Bias;
-use crate::model::effect_kinds::dry_friction::FrictionState;
-use crate::model::effects::strength::{Fatigue, MeshLoad, Strength};
-use crate::model::scene::layout::HOLDS;
+use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
+use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::effect_kinds::friction_state::FrictionState;
+use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledStep};
+use crate::model::scene::layout::FRICTION_BODIES;
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
-/// Why an accepted step is refused: a tooth bent beyond what teeth can bend.
-pub struct Jump {
-    deflection: f64,
-    limit: f64,
-    planet: usize,
-    side: usize,
-}
-
-impl fmt::Display for Jump {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        write!(
-            out,
-            "a tooth would jump between planet[{}] and the {} side gear: deflection {:.3} mm along the line of action \
-             exceeds the limit {:.3} mm; reduce the load or raise contact.stiffness",
-            self.planet + 1,
-            ["left", "right"][self.side],
-            self.deflection * 1e3,
-            self.limit * 1e3
-        )
-    }
-}
-
-/// What is kept beside the motion.
+/// Sums that accepted steps add to.
 pub struct Records<'a> {
+    /// Time from which steps are counted [s].
+    pub begin: f64,
     /// Work of all inputs [J].
     pub work: &'a mut f64,
     /// Heat by cause [J].
@@ -51,72 +30,72 @@ pub struct Records<'a> {
 /// Equations whose accepted steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     /// State of the dry friction.
-    fn friction_state(&self) -> &[FrictionState; HOLDS];
+    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES];
     /// Whether friction is due to switch, `time` [s] after the inputs were set.
     fn is_due(&self, at: &Point<N>, time: f64) -> bool;
     /// Drags the anchors of bodies that slide.
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]);
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]);
     /// Takes dragged anchors over.
-    fn anchor(&mut self, anchors: &[f64; HOLDS]);
-    /// Switches friction where it is due and books what its springs lose.
+    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]);
+    /// Switches friction where it is due; the energy that its springs lose is heat.
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
-    /// Refuses an accepted step that teeth cannot follow, and records it otherwise.
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump>;
+    /// Records an accepted step, or returns the tooth that it bends too far.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection>;
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Recorded<N> for Equations<'_, N, G, P, FULL> {
-    fn friction_state(&self) -> &[FrictionState; HOLDS] {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Recorded<N>
+    for Equations<'_, N, G, P, WITH_EFFECTS>
+{
+    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
         &self.friction_state
     }
 
     #[inline(always)]
     fn is_due(&self, at: &Point<N>, time: f64) -> bool {
-        FULL && self.is_friction_due(at, time)
+        WITH_EFFECTS && self.is_friction_due(at, time)
     }
 
     #[inline(always)]
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
-        if FULL {
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
+        if WITH_EFFECTS {
             self.drag_anchors(at, time, anchors);
         }
     }
 
-    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
         self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
     }
 
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
-        self.settle_friction(at, time, 0..HOLDS, heat);
+        self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
     }
 
     #[inline(always)]
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
         let teeth = self.teeth;
         let (approach, g, side) = self.deepest(step.end);
-        if approach > teeth.jump {
-            let planet = teeth.plan.group(g).planet;
-            let [deflection, limit] = [approach, teeth.jump].map(|arc| arc * teeth.mesh.cone);
-            return Err(Jump { deflection, limit, planet, side });
+        if approach > teeth.deflection_limit {
+            return Err(ExcessiveDeflection { deflection: approach, planet: teeth.plan.group(g).planet, side });
         }
-        book(step, records.work, records.heat, FULL);
+        add_to_ledger(step, records.work, records.heat, WITH_EFFECTS);
         if !teeth.mesh.engagement.corner_contact() {
             records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
-        if FULL && Self::ENDS {
+        if WITH_EFFECTS && Self::ENDS {
             let i = Self::PLANET;
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
             cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
         }
-        if let (true, Some(strength)) = (FULL, &model.strength) {
-            count_fatigue(self, model, strength, step, records.fatigue);
+        if let (true, Some(strength)) = (WITH_EFFECTS, &model.strength) {
+            count_fatigue(self, model, strength, step, records);
         }
         Ok(())
     }
 }
 
 impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
-    fn friction_state(&self) -> &[FrictionState; HOLDS] {
+    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
         &self.friction_state
     }
 
@@ -124,25 +103,25 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         self.is_friction_due(at, time)
     }
 
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
         self.drag_anchors(at, time, anchors);
     }
 
-    fn anchor(&mut self, anchors: &[f64; HOLDS]) {
+    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
         self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
     }
 
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
-        self.settle_friction(at, time, 0..HOLDS, heat);
+        self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
     }
 
-    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), Jump> {
-        book(step, records.work, records.heat, true);
+    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
+        add_to_ledger(step, records.work, records.heat, true);
         Ok(())
     }
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
     #[inline(never)]
     fn energy_of_jumps(&self, step: &Step<N, Power>) -> f64 {
@@ -174,15 +153,15 @@ const RESOLVED: f64 = 1e-13;
 
 /// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
 #[inline(never)]
-fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    equations: &Equations<N, G, P, FULL>,
+fn count_fatigue<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     model: &Model,
-    strength: &Strength,
+    strength: &GearStrength,
     step: &Step<N, Power>,
-    fatigue: &mut Fatigue,
+    records: &mut Records,
 ) {
     let mut loads = [[MeshLoad::default(); 2]; G];
-    let first = Equations::<N, G, P, FULL>::PLANET;
+    let first = Equations::<N, G, P, WITH_EFFECTS>::PLANET;
     let spin: [f64; G] = std::array::from_fn(|g| step.end.q[first + g] - step.start.q[first + g]);
     let roll = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
     let members: [f64; G] = std::array::from_fn(|g| equations.teeth.layout.members[g]);
@@ -191,5 +170,7 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const FULL: boo
             equations.tooth_loads(&model.pair, step.end, g, s, |load| loads[g][s].add(strength, load));
         }
     }
-    strength.count(fatigue, &spin, roll, &loads, &members);
+    let time = records.begin + step.time;
+    let rolled = RolledStep { time, spin: &spin, roll, mesh: &loads, members: &members };
+    strength.count(records.fatigue, &rolled);
 }

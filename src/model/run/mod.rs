@@ -1,16 +1,23 @@
 //! A running simulation: its start, its steps, events, the ledger, and model exchange.
 
+mod cost_class;
 mod events;
+mod excessive_deflection;
 mod exchange;
 mod failure;
+mod hints;
 mod imposed;
 mod ledger;
+mod readings;
+mod reports;
 mod sensitivity;
 mod simulation;
 mod start;
 mod stretch;
 
+pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
-pub use sensitivity::{Along, Direction, PLACES};
-pub use simulation::{CostClass, Simulation};
+pub use reports::Reported;
+pub use sensitivity::{Direction, DirectionalForces, STENCIL};
+pub use simulation::Simulation;

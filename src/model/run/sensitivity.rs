@@ -1,8 +1,8 @@
-//! How the model answers to small changes: rates of the state by the exact Jacobian, and what is read along a direction.
+//! Sensitivity of the model: rates of the state by the exact Jacobian, and directional derivatives of what is read.
 //!
 //! Rates are linear in a direction (δq, δv, δu): δq̇ = B δv, δv̇ = ∂v̇/∂q δq + ∂v̇/∂v δv + ∂v̇/∂u δu. Angles and speeds follow
-//! the direction themselves. Forces are read at four places along it, from which central differences of order 4 follow:
-//! with places 3e-4 of the natural magnitudes apart, what they neglect is of the size of rounding.
+//! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
+//! with points 3e-4 of the natural magnitudes apart, the error is of the size of rounding.
 
 use super::exchange::STATES;
 use super::imposed::{add_impulse, body_effects, imposed_speeds};
@@ -10,14 +10,16 @@ use super::simulation::Simulation;
 use crate::integrate::{DynSystem, Point, SecondOrder};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::with_equations;
-use crate::model::outputs::readings::{Books, Forces, Motion};
+use crate::model::outputs::forces::Forces;
+use crate::model::outputs::ledger_readings::LedgerReadings;
+use crate::model::outputs::motion::Motion;
 use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
-use crate::model::scene::{Course, Inputs};
+use crate::model::scene::{InputDerivatives, Inputs};
 
-/// Distance of neighbouring places along a direction, in natural magnitudes.
+/// Distance of neighbouring points along a direction, in natural magnitudes.
 const APART: f64 = 3e-4;
-/// Central differences of order 4: places, in the distance of neighbours, and the weights of what is read there.
-pub const PLACES: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// Central differences of order 4: points, in the distance of neighbours, and their weights.
+pub const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
 
 /// A change of everything that motion and forces depend on.
 #[derive(Clone, Copy, Debug)]
@@ -40,18 +42,19 @@ impl Direction {
         Self { q: [0.0; MAX_DOF], v: [0.0; MAX_DOF], inputs: Inputs::ZERO, rates: Inputs::ZERO, carrier_command: 0.0 };
 }
 
-/// Forces at the places along a direction.
-pub struct Along {
-    forces: [Forces; PLACES.len()],
+/// Forces at the points of the central difference along a direction.
+pub struct DirectionalForces {
+    forces: [Forces; STENCIL.len()],
     apart: f64,
 }
 
-impl Along {
+impl DirectionalForces {
     /// Derivative of what `of` reads.
     pub fn slope(&self, of: impl Fn(&Forces) -> f64) -> f64 {
         // what does not change has no slope, to the last bit
         let first = of(&self.forces[0]);
-        let sum: f64 = PLACES.iter().zip(&self.forces).map(|((_, weight), forces)| weight * (of(forces) - first)).sum();
+        let sum: f64 =
+            STENCIL.iter().zip(&self.forces).map(|((_, weight), forces)| weight * (of(forces) - first)).sum();
         sum / self.apart
     }
 }
@@ -62,7 +65,7 @@ impl Simulation {
         self.model.ideal.plan.layout().count()
     }
 
-    /// The equations of motion by themselves, for solvers of others: rates of positions and accelerations [rad/s,
+    /// The equations of motion, for other solvers: rates of positions and accelerations [rad/s,
     /// rad/s², m/s²] at the first n of positions `q` and velocities `v`, under the present inputs.
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
@@ -127,10 +130,10 @@ impl Simulation {
     fn forced(&self, direction: &Direction) -> [f64; MAX_DOF] {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut forced = [0.0; MAX_DOF];
-        let course = Course { rates: [direction.rates, Inputs::ZERO] };
+        let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
         let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
         with_equations!(self.model, state, inputs, |equations| {
-            forced[..N].copy_from_slice(&equations.forced(&state.point::<N>(), &change, &course));
+            forced[..N].copy_from_slice(&equations.forced(&state.point::<N>(), &change, &input_derivatives));
         });
         forced
     }
@@ -140,8 +143,8 @@ impl Simulation {
         let mut direction = Direction::NONE;
         let Direction { q, v, .. } = &mut direction;
         self.rates(&self.state.q, &self.state.v, [q, v]);
-        if let Some(course) = self.course() {
-            [direction.inputs, direction.rates] = course.rates;
+        if let Some(input_derivatives) = self.input_derivatives() {
+            [direction.inputs, direction.rates] = input_derivatives.rates;
             direction.carrier_command = direction.inputs.carrier_speed;
         }
         direction
@@ -158,21 +161,21 @@ impl Simulation {
     }
 
     /// Forces along `direction`.
-    pub fn forces_along(&self, direction: &Direction) -> Along {
+    pub fn forces_along(&self, direction: &Direction) -> DirectionalForces {
         let size = self.size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
-        let forces = PLACES.map(|(place, _)| self.displaced(direction, place * apart).forces_of_state());
-        Along { forces, apart }
+        let forces = STENCIL.map(|(place, _)| self.displaced(direction, place * apart).forces_of_state());
+        DirectionalForces { forces, apart }
     }
 
     /// Rates of the ledger.
-    pub fn book_rates(&self) -> Books {
+    pub fn ledger_rates(&self) -> LedgerReadings {
         let (inputs, state) = (&self.inputs, &self.state);
         let heat = with_equations!(self.model, state, inputs, |equations| DynSystem(&equations)
             .evaluate(&state.point::<N>())
             .1
             .heat);
-        Books { heat, ..Books::default() }
+        LedgerReadings { heat, ..LedgerReadings::default() }
     }
 
     fn displaced(&self, direction: &Direction, factor: f64) -> Self {
@@ -183,8 +186,8 @@ impl Simulation {
             state.v[i] += factor * direction.v[i];
         }
         state.carrier_command += factor * direction.carrier_command;
-        if let Some(course) = &mut state.course {
-            course.rates[0] = course.rates[0].plus(factor, &direction.rates);
+        if let Some(input_derivatives) = &mut state.input_derivatives {
+            input_derivatives.rates[0] = input_derivatives.rates[0].plus(factor, &direction.rates);
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
         displaced.forces = None;
@@ -209,7 +212,7 @@ impl Simulation {
     /// The direction in which states and inputs change by `states` and `inputs`; imposed motions follow their commands.
     pub fn direction(&self, states: &[f64; STATES], inputs: &Inputs) -> Direction {
         let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
-        self.scatter(states, &mut direction.q, &mut direction.v);
+        self.set_from_states(states, &mut direction.q, &mut direction.v);
         direction.carrier_command = inputs.carrier_speed;
         let Direction { q, v, .. } = &mut direction;
         for speed in imposed_speeds(&self.model, inputs, q) {
@@ -219,7 +222,7 @@ impl Simulation {
             };
         }
         if let Gears::Rigid(_) = &self.model.gears {
-            if !self.is_handed_over() {
+            if !self.is_model_exchange() {
                 add_impulse(&self.model, [v[CARRIER], v[PLANET]], v);
             }
             self.model.ideal.constrain(v);
@@ -236,6 +239,6 @@ impl Simulation {
             body_effects(&self.model).carrier_speed(&state.q, command)
         };
         let here = at(0.0);
-        PLACES.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
+        STENCIL.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
     }
 }

@@ -1,5 +1,7 @@
 //! The state at the start time.
 
+use super::excessive_deflection::limit_name;
+use super::hints;
 use crate::integrate::{Matrix, Point};
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
@@ -95,8 +97,8 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
 /// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
 /// differential and ψ = 0.
-pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    equations: &Equations<N, G, P, FULL>,
+pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     model: &Model,
     inputs: &Inputs,
     state: &mut State,
@@ -106,16 +108,16 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const FULL: bool>
     let held = Ideal { plan: plan.with_spin_held(), ..*ideal };
     let still = loads(model, &held, inputs);
     let mut point = Point::ZERO;
-    press_sides(teeth, equations, still, &mut point)?;
+    press_sides(model, teeth, equations, still, &mut point)?;
     let mut carried = still;
-    let in_detail = FULL && (teeth.additions.in_detail || P > 0);
+    let in_detail = WITH_EFFECTS && (teeth.additions.in_detail || P > 0);
     if !plan.spin_imposed || in_detail {
         let mut settled = point;
         if minimise(equations, still, &mut settled) && within_a_tooth(teeth, &settled) {
             point = settled;
         } else if !plan.spin_imposed {
             carried = loads(model, ideal, inputs);
-            press_sides(teeth, equations, carried, &mut point)?;
+            press_sides(model, teeth, equations, carried, &mut point)?;
         }
     }
     let (_, stiffness) = equations.statics(&point);
@@ -143,10 +145,10 @@ fn within_a_tooth<const N: usize>(teeth: &Teeth, point: &Point<N>) -> bool {
     (0..teeth.layout.groups).all(|g| point.q[teeth.layout.planet(g)].abs() < pitch)
 }
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
     fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
-        if FULL && (self.teeth.additions.in_detail || P > 0) {
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
             return self.structure(at);
         }
         let still = Point { q: at.q, v: [0.0; N] };
@@ -155,14 +157,19 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<N>) -> f64 {
-        if FULL && (self.teeth.additions.in_detail || P > 0) { self.stored(at, false) } else { self.elastic_energy(at) }
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
+            self.stored(at, false)
+        } else {
+            self.elastic_energy(at)
+        }
     }
 }
 
 /// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
-fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>(
+fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    model: &Model,
     teeth: &Teeth,
-    equations: &Equations<N, G, P, FULL>,
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> Result<(), Problem> {
@@ -171,9 +178,10 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
         if torque[s] == 0.0 {
             continue;
         }
-        // Q_α falls steadily with α: bracket between mid-gap and the angle at which a tooth would jump
+        // Q_α falls steadily with α: bracket between mid-gap and the angle of the largest deflection
         let mut free = 0.0;
-        let mut pressed = -torque[s].signum() * (teeth.jump + teeth.mesh.half_backlash()) / teeth.sin_base[1];
+        let mut pressed =
+            -torque[s].signum() * (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
         let excess = |alpha: f64, point: &mut Point<N>| {
             point.q[s] = alpha;
             (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()
@@ -183,9 +191,10 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
             return Err(Problem::new(
                 name,
                 format!(
-                    "{:.6} N.m cannot be carried at the start: a tooth would be bent beyond the working depth; \
-                     reduce the load or raise contact.stiffness",
-                    torque[s]
+                    "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+                    torque[s],
+                    limit_name(model),
+                    hints::stiffer_teeth(&model.parameters)
                 ),
             ));
         }
@@ -202,8 +211,8 @@ fn press_sides<const N: usize, const G: usize, const P: usize, const FULL: bool>
 }
 
 /// Damped Newton descent of V + Σ T_s α_s over all that is free but the carrier; whether it reached a balance.
-fn minimise<const N: usize, const G: usize, const P: usize, const FULL: bool>(
-    equations: &Equations<N, G, P, FULL>,
+fn minimise<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> bool {

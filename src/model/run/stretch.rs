@@ -1,7 +1,9 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
+use super::excessive_deflection::ExcessiveDeflection;
 use super::failure::StepFailure;
-use super::ledger::{Jump, Recorded, Records};
+use super::hints;
+use super::ledger::{Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
     self, AfterStep, DormandPrince, DynSecondOrder, DynSystem, Failure, Point, Radau, Rodas4, Rodas5P, SolverContext,
@@ -14,7 +16,7 @@ use crate::model::scene::{Method, SolverSpec};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
-/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and at the least.
+/// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and the least.
 const SOLID_PER_FACET: usize = 6;
 const LEAST_SOLID: usize = 128;
 /// Entries of the matrices of plain teeth with planets that are alike.
@@ -57,8 +59,8 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
     let mut anchors = equations.friction_state().map(|state| state.anchor);
     while switched && time < end && outcome.is_ok() {
         switched = false;
-        let State { control, statistics, work, heat, bias, fatigue, .. } = state;
-        let mut records = Records { work, heat, bias, fatigue };
+        let State { time: begin, control, statistics, work, heat, bias, fatigue, .. } = state;
+        let mut records = Records { begin: *begin, work, heat, bias, fatigue };
         let mut observe = |step: Step<N, Power>| {
             equations.record(model, &step, &mut records)?;
             equations.drag(step.end, step.time, &mut anchors);
@@ -96,8 +98,8 @@ fn otherwise<const N: usize>(
     time: &mut f64,
     until: f64,
     context: SolverContext,
-    observe: &mut dyn FnMut(Step<N, Power>) -> Result<AfterStep, Jump>,
-) -> Result<(), Failure<Jump>> {
+    observe: &mut dyn FnMut(Step<N, Power>) -> Result<AfterStep, ExcessiveDeflection>,
+) -> Result<(), Failure<ExcessiveDeflection>> {
     let system = &DynSystem(system);
     match solver.method {
         Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, context, observe),
@@ -111,11 +113,11 @@ fn otherwise<const N: usize>(
     }
 }
 
-fn explain(failure: Failure<Jump>, time: f64, model: &Model) -> StepFailure {
+fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> StepFailure {
     let solver = &model.parameters.solver;
     let tolerance = solver.relative_tolerance;
     let message = match failure {
-        Failure::Refused(jump) => jump.to_string(),
+        Failure::Refused(tooth) => tooth.message(model),
         Failure::StepTooSmall { size } => format!(
             "the step size fell to {size:.3e} s, below what time can resolve; look at the inputs, \
              or loosen solver.relative_tolerance = {tolerance:e}"
@@ -126,8 +128,9 @@ fn explain(failure: Failure<Jump>, time: f64, model: &Model) -> StepFailure {
         ),
         Failure::TooManySteps => format!(
             "{} attempts at steps were not enough for one communication step; shorten it, \
-             loosen solver.relative_tolerance = {tolerance:e}, or add contact.damping",
-            budget(model)
+             loosen solver.relative_tolerance = {tolerance:e}, or {}",
+            budget(model),
+            hints::more_damping(&model.parameters)
         ),
     };
     StepFailure { time, message }

@@ -1,17 +1,17 @@
-//! Degrees of freedom: how many there can be, and where each stands.
+//! Degrees of freedom: how many there can be, and the index of each.
 
 /// Largest number of planets.
 pub const MAX_PLANETS: usize = 4;
-/// Largest number of groups of planets: every planet on its own.
+/// Largest number of groups of planets: each planet a group.
 pub const MAX_GROUPS: usize = MAX_PLANETS;
 /// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, ends.
 pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + 2;
-/// Bodies that dry friction can hold: side gears, groups of planets, wheels.
-pub const HOLDS: usize = WHEELS + 2;
-/// The first of them that is a group of planets.
-pub const HELD_PLANETS: usize = 2;
-/// The first of them that is a wheel.
-pub const WHEELS: usize = HELD_PLANETS + MAX_GROUPS;
+/// Number of bodies with dry friction: side gears, groups of planets, wheels.
+pub const FRICTION_BODIES: usize = FRICTION_WHEELS + 2;
+/// Index of the first group of planets among them.
+pub const FRICTION_PLANETS: usize = 2;
+/// Index of the left wheel among them.
+pub const FRICTION_WHEELS: usize = FRICTION_PLANETS + MAX_GROUPS;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;
@@ -20,7 +20,7 @@ pub const CARRIER: usize = 2;
 /// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
-/// Where each degree of freedom stands: side gears, carrier, [axial seats of the side gears], planets, [their pins],
+/// Index of each degree of freedom: side gears, carrier, [axial seats of the side gears], planets, [their pins],
 /// [ends of the half-shafts].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {

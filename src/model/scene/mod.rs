@@ -1,15 +1,15 @@
 //! What a scene is made of before any effect: drives, inputs, material, integration, and the plan of its bodies.
 
-mod course;
 mod drives;
+mod input_derivatives;
 mod inputs;
 pub mod layout;
 mod material;
 mod plan;
 mod solver;
 
-pub use course::{Course, ORDERS};
 pub use drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
+pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
 pub use layout::Layout;
 pub use material::{InertiaSpec, Material};

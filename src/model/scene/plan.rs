@@ -36,7 +36,7 @@ pub struct Plan {
     pub side_imposed: [bool; 2],
     /// Half-shafts that twist, left and right.
     pub shafts: [bool; 2],
-    /// Whether half-shafts have ends of their own.
+    /// Whether ends of half-shafts move.
     pub ends: bool,
     /// Pins and seats give way.
     pub pins: bool,

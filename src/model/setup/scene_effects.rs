@@ -1,7 +1,7 @@
 //! The effects of a scene: what they check, require and bring, gathered from all that are on.
 
 use super::effect_outputs::{heat_index, places_of};
-use crate::model::effect_kinds::body::BodyEffect;
+use crate::model::effect_kinds::body_effect::BodyEffect;
 use crate::model::effect_kinds::effect::{BUILT, Effect, Instant, Setting};
 use crate::model::effect_kinds::friction_source::FrictionSource;
 use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};

@@ -64,8 +64,8 @@ impl Record {
                 series.push(value);
             }
         }
-        let books = run.simulation.books();
-        (self.evaluations, self.steps) = (books.rhs_calls, books.steps);
+        let ledger = run.simulation.ledger();
+        (self.evaluations, self.steps) = (ledger.rhs_calls, ledger.steps);
         self.class = self.class.max(run.simulation.cost());
     }
 }

@@ -107,7 +107,7 @@ impl<'a> SceneRun<'a> {
         match row.access {
             Access::Output(OutputSource::Motion(of)) => of(&self.simulation.motion()),
             Access::Output(OutputSource::Forces(of)) => of(self.simulation.forces()),
-            Access::Output(OutputSource::Books(of)) => of(&self.simulation.books()),
+            Access::Output(OutputSource::Ledger(of)) => of(&self.simulation.ledger()),
             Access::Output(OutputSource::State(k)) => self.simulation.states()[k],
             Access::Output(OutputSource::Rate(k)) => self.simulation.state_rates()[k],
             _ => f64::NAN,
@@ -198,7 +198,7 @@ pub fn run(scene: &Scene, steps: Option<u64>, csv: Option<&mut dyn Write>) -> Re
     Ok(SceneResult {
         outputs,
         account: run.simulation.account(),
-        residual: run.simulation.books().energy_residual,
+        residual: run.simulation.ledger().energy_residual,
         throughput: f64::max(exchanged, seen),
         took: begun.elapsed(),
     })

@@ -156,7 +156,7 @@ fn record(scene: &LadderScene, mut simulation: Simulation) -> Result<Vec<LadderP
         if time < scene.settled - 0.5 * scene.every {
             continue;
         }
-        let (motion, heat) = (simulation.motion(), simulation.books().heat.iter().sum());
+        let (motion, heat) = (simulation.motion(), simulation.ledger().heat.iter().sum());
         let forces = simulation.forces();
         points.push(LadderPoint {
             time,

@@ -12,21 +12,21 @@ pub const ORDERS: usize = 2;
 
 /// Derivatives of the inputs: u̇ and ü [unit of the input per s and per s²].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Course {
+pub struct InputDerivatives {
     /// By order, the first first.
     pub rates: [Inputs; ORDERS],
 }
 
-impl Course {
+impl InputDerivatives {
     /// Inputs that stay constant.
-    pub const STILL: Self = Self { rates: [Inputs::ZERO; ORDERS] };
+    pub const ZERO: Self = Self { rates: [Inputs::ZERO; ORDERS] };
 
     /// Whether all derivatives are finite numbers.
     pub fn is_finite(&self) -> bool {
         self.rates.iter().all(Inputs::is_finite)
     }
 
-    /// Inputs and their course `time` [s] after they were `inputs`.
+    /// Inputs and their derivatives `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
         let [first, second] = &self.rates;
         let later = inputs.plus(time, first).plus(0.5 * time * time, second).limited();
@@ -39,22 +39,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_course_is_a_parabola_from_any_point_on_it() {
+    fn inputs_follow_a_parabola_from_any_point_on_it() {
         let rate = Inputs { carrier_torque: 3.0, ..Inputs::ZERO };
         let second = Inputs { carrier_torque: -4.0, planet_spin: 2.0, ..Inputs::ZERO };
-        let course = Course { rates: [rate, second] };
+        let input_derivatives = InputDerivatives { rates: [rate, second] };
         let start = Inputs { carrier_torque: 5.0, ..Inputs::ZERO };
-        let (half, rest) = course.after(0.25, &start);
+        let (half, rest) = input_derivatives.after(0.25, &start);
         let (end, _) = rest.after(0.5, &half);
-        let (t, whole) = (0.75, course.after(0.75, &start).0);
+        let (t, whole) = (0.75, input_derivatives.after(0.75, &start).0);
         assert_eq!(whole.carrier_torque, 5.0 + 3.0 * t - 2.0 * t * t);
         assert_eq!((end.carrier_torque, end.planet_spin), (whole.carrier_torque, t * t));
     }
 
     #[test]
     fn commands_stay_within_their_limits() {
-        let course = Course { rates: [Inputs { lock: 1.0, fault: -1.0, ..Inputs::ZERO }, Inputs::ZERO] };
-        let (later, _) = course.after(3.0, &Inputs { lock: 0.5, fault: 0.5, ..Inputs::ZERO });
+        let input_derivatives =
+            InputDerivatives { rates: [Inputs { lock: 1.0, fault: -1.0, ..Inputs::ZERO }, Inputs::ZERO] };
+        let (later, _) = input_derivatives.after(3.0, &Inputs { lock: 0.5, fault: 0.5, ..Inputs::ZERO });
         assert_eq!((later.lock, later.fault), (1.0, 0.0));
     }
 }

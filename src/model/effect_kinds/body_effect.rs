@@ -26,7 +26,7 @@ pub struct Action<'a> {
     pub imposed: &'a mut f64,
     /// Torque of the carrier's drive beyond its command [N·m].
     pub drive: &'a mut f64,
-    /// Heat by its place in the ledger [W].
+    /// Heat by its index in the ledger [W].
     pub heat: &'a mut [f64],
 }
 
@@ -56,7 +56,7 @@ impl Slopes<'_> {
     }
 }
 
-/// An effect that acts on bodies beside the teeth.
+/// An effect that acts on bodies, apart from the teeth.
 pub trait BodyEffect: Debug + Send + Sync {
     /// Adds forces and heat.
     fn act(&self, at: &Bodies, out: &mut Action);

@@ -1,18 +1,22 @@
 //! Dry friction in the equations of motion: torques, derivatives, energy, and where it sticks or slides.
 
-use super::equations::{Equations, Jacobian};
+use super::equations::Equations;
 use super::in_detail::{LOCAL, Local};
+use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::DetailedLoad;
 use crate::integrate::{Point, in_pairs};
 use crate::model::assembly::teeth::SIGMA;
-use crate::model::effect_kinds::dry_friction::{DryFriction, Mode, Pressure, Slip};
-use crate::model::scene::layout::{CARRIER, HELD_PLANETS, HOLDS, WHEELS};
+use crate::model::effect_kinds::dry_friction::DryFriction;
+use crate::model::effect_kinds::friction_state::Mode;
+use crate::model::effect_kinds::slip::Slip;
+use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 
-impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations<'_, N, G, P, FULL> {
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
     fn bodies_that_stick() -> impl Iterator<Item = usize> {
-        (0..HELD_PLANETS + G).chain(WHEELS..WHEELS + 2)
+        (0..FRICTION_PLANETS + G).chain(FRICTION_WHEELS..FRICTION_WHEELS + 2)
     }
 
     /// Those on which friction acts.
@@ -23,9 +27,9 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     /// Degree of freedom on which the friction of body `i` acts.
     fn freedom_of(&self, i: usize) -> usize {
         match i {
-            0..HELD_PLANETS => i,
-            HELD_PLANETS..WHEELS => Self::PLANET + i - HELD_PLANETS,
-            _ => self.wheel(i - WHEELS),
+            0..FRICTION_PLANETS => i,
+            FRICTION_PLANETS..FRICTION_WHEELS => Self::PLANET + i - FRICTION_PLANETS,
+            _ => self.wheel(i - FRICTION_WHEELS),
         }
     }
 
@@ -38,10 +42,10 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     fn slip(&self, at: &Point<N>, i: usize) -> Slip {
         let body = self.freedom_of(i);
         match i {
-            0..HELD_PLANETS => Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] },
-            HELD_PLANETS..WHEELS => Slip { position: at.q[body], speed: at.v[body] },
+            0..FRICTION_PLANETS => Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] },
+            FRICTION_PLANETS..FRICTION_WHEELS => Slip { position: at.q[body], speed: at.v[body] },
             _ => {
-                let s = i - WHEELS;
+                let s = i - FRICTION_WHEELS;
                 let twist = if body == s { 0.0 } else { at.q[body] };
                 Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
             }
@@ -50,30 +54,35 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
 
     /// Friction on body `i`, and how many bodies it stands for.
     fn friction_on(&self, i: usize) -> (&DryFriction, f64) {
-        let count = if (HELD_PLANETS..WHEELS).contains(&i) { self.members(i - HELD_PLANETS) } else { 1.0 };
+        let count =
+            if (FRICTION_PLANETS..FRICTION_WHEELS).contains(&i) { self.members(i - FRICTION_PLANETS) } else { 1.0 };
         (self.friction().on(i), count)
     }
 
     /// Loads on all rubbing surfaces under the present inputs, given those of side gears and planets.
-    pub(in crate::model) fn pressures_of(&self, sides: &[Pressure], planets: &[Pressure]) -> [Pressure; HOLDS] {
-        let mut all = [Pressure::default(); HOLDS];
+    pub(in crate::model) fn surface_loads_of(
+        &self,
+        sides: &[SurfaceLoad],
+        planets: &[SurfaceLoad],
+    ) -> [SurfaceLoad; FRICTION_BODIES] {
+        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
         all[..sides.len()].copy_from_slice(sides);
-        all[HELD_PLANETS..HELD_PLANETS + planets.len()].copy_from_slice(planets);
-        all[WHEELS..].copy_from_slice(&self.friction().wheel_pressures(&self.inputs));
+        all[FRICTION_PLANETS..FRICTION_PLANETS + planets.len()].copy_from_slice(planets);
+        all[FRICTION_WHEELS..].copy_from_slice(&self.friction().wheel_loads(&self.inputs));
         all
     }
 
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
-    fn pressures(&self, at: &Point<N>, time: f64) -> [Pressure; HOLDS] {
+    fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = if self.friction().depends_on_load() {
-            let (sides, planets) = self.mesh_pressures(&self.all_loads::<f64>(at));
-            self.pressures_of(&sides, &planets)
+            let (sides, planets) = self.mesh_surface_loads(&self.all_loads::<f64>(at));
+            self.surface_loads_of(&sides, &planets)
         } else {
-            self.pressures_of(&[], &[])
+            self.surface_loads_of(&[], &[])
         };
         if self.is_driven_by_inputs() {
-            let (inputs, _) = self.course.after(time, &self.inputs);
-            all[WHEELS..].copy_from_slice(&self.friction().wheel_pressures(&inputs));
+            let (inputs, _) = self.input_derivatives.after(time, &self.inputs);
+            all[FRICTION_WHEELS..].copy_from_slice(&self.friction().wheel_loads(&inputs));
         }
         all
     }
@@ -82,38 +91,38 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     pub(in crate::model) fn add_friction(
         &self,
         at: &Point<N>,
-        pressures: &[Pressure; HOLDS],
+        surface_loads: &[SurfaceLoad; FRICTION_BODIES],
         sum: &mut [f64; N],
         power: &mut Power,
     ) {
         for i in self.bodies_with_friction() {
             let (friction, count) = self.friction_on(i);
             let (state, slip) = (&self.friction_state[i], self.slip(at, i));
-            let torque = friction.torque(state, &slip, &pressures[i]);
+            let torque = friction.torque(state, &slip, &surface_loads[i]);
             sum[self.freedom_of(i)] -= torque;
-            if i < HELD_PLANETS {
+            if i < FRICTION_PLANETS {
                 sum[CARRIER] += torque;
             }
-            friction.heat(state, &slip, &pressures[i], count, &mut power.heat);
+            friction.heat(state, &slip, &surface_loads[i], count, &mut power.heat);
         }
     }
 
     /// Adds the torques of brakes that slide, which follow from the inputs alone.
     pub(in crate::model) fn add_brakes(&self, sum: &mut [f64; N]) {
-        let pressures = self.friction().wheel_pressures(&self.inputs);
+        let surface_loads = self.friction().wheel_loads(&self.inputs);
         for s in (0..2).filter(|&s| self.friction().wheel[s].is_on()) {
-            let direction = self.friction_state[WHEELS + s].mode.direction();
-            sum[self.wheel(s)] -= direction * self.friction().wheel[s].limit(&pressures[s]);
+            let direction = self.friction_state[FRICTION_WHEELS + s].mode.direction();
+            sum[self.wheel(s)] -= direction * self.friction().wheel[s].limit(&surface_loads[s]);
         }
     }
 
     /// Torques of the friction on the wheels [N·m].
     pub(in crate::model) fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let pressures = self.friction().wheel_pressures(&self.inputs);
+        let surface_loads = self.friction().wheel_loads(&self.inputs);
         [0, 1].map(|s| {
-            let (friction, i) = (&self.friction().wheel[s], WHEELS + s);
+            let (friction, i) = (&self.friction().wheel[s], FRICTION_WHEELS + s);
             if friction.is_on() {
-                friction.torque(&self.friction_state[i], &self.slip(at, i), &pressures[s])
+                friction.torque(&self.friction_state[i], &self.slip(at, i), &surface_loads[s])
             } else {
                 0.0
             }
@@ -125,9 +134,9 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         for i in self.bodies_with_friction() {
             let [k, c] = self.friction().on(i).torque_slopes(&self.friction_state[i]);
             let body = self.freedom_of(i);
-            if i >= WHEELS {
+            if i >= FRICTION_WHEELS {
                 // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
-                let s = i - WHEELS;
+                let s = i - FRICTION_WHEELS;
                 j.by_position[body][CARRIER] -= k;
                 j.by_position[body][s] -= k;
                 if body != s {
@@ -138,7 +147,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
             }
             j.by_position[body][body] -= k;
             j.by_rate[body][body] -= c;
-            if i < HELD_PLANETS {
+            if i < FRICTION_PLANETS {
                 j.by_position[CARRIER][i] += k;
                 j.by_rate[CARRIER][i] += c;
             }
@@ -149,7 +158,7 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
     pub(in crate::model) fn friction_slopes_by_loads<T: Local>(
         &self,
         loads: &[[DetailedLoad<T>; 2]; G],
-        planets: &[Pressure; G],
+        planets: &[SurfaceLoad; G],
         j: &mut Jacobian<N>,
     ) {
         let side = self.teeth.sin_base[1];
@@ -223,23 +232,24 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         if !self.friction().is_any() {
             return None;
         }
-        let pressures = [start, end].map(|(at, time)| self.pressures(at, time));
+        let surface_loads = [start, end].map(|(at, time)| self.surface_loads(at, time));
         self.bodies_with_friction()
             .filter_map(|i| {
                 let slips = [self.slip(start.0, i), self.slip(end.0, i)];
-                let ends = [(&slips[0], &pressures[0][i]), (&slips[1], &pressures[1][i])];
+                let ends = [(&slips[0], &surface_loads[0][i]), (&slips[1], &surface_loads[1][i])];
                 self.friction().on(i).crossing(&self.friction_state[i], ends[0], ends[1])
             })
             .reduce(f64::min)
     }
 
     /// Distance of each friction from its switch, where it acts.
-    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; HOLDS] {
-        let mut margins = [None; HOLDS];
-        if FULL && self.friction().is_any() {
-            let pressures = self.pressures(at, 0.0);
+    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES] {
+        let mut margins = [None; FRICTION_BODIES];
+        if WITH_EFFECTS && self.friction().is_any() {
+            let surface_loads = self.surface_loads(at, 0.0);
             for i in self.bodies_with_friction() {
-                let margin = self.friction().on(i).margin(&self.friction_state[i], &self.slip(at, i), &pressures[i]);
+                let margin =
+                    self.friction().on(i).margin(&self.friction_state[i], &self.slip(at, i), &surface_loads[i]);
                 margins[i] = Some(margin);
             }
         }
@@ -251,20 +261,20 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         if !self.friction().is_any() {
             return false;
         }
-        let pressures = self.pressures(at, time);
+        let surface_loads = self.surface_loads(at, time);
         self.bodies_with_friction()
-            .any(|i| self.friction().on(i).is_due(&self.friction_state[i], &self.slip(at, i), &pressures[i]))
+            .any(|i| self.friction().on(i).is_due(&self.friction_state[i], &self.slip(at, i), &surface_loads[i]))
     }
 
     /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
     #[inline(always)]
-    pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; HOLDS]) {
+    pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
         if self.friction_state.iter().all(|state| state.mode == Mode::Stuck) {
             return;
         }
-        let pressures = self.pressures(at, time);
+        let surface_loads = self.surface_loads(at, time);
         for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction().on(i).drag(anchors[i], &self.slip(at, i), &pressures[i]);
+            anchors[i] = self.friction().on(i).drag(anchors[i], &self.slip(at, i), &surface_loads[i]);
         }
     }
 
@@ -277,22 +287,22 @@ impl<const N: usize, const G: usize, const P: usize, const FULL: bool> Equations
         bodies: std::ops::Range<usize>,
         heat: &mut [f64],
     ) {
-        let pressures = self.pressures(at, time);
+        let surface_loads = self.surface_loads(at, time);
         for i in Self::bodies_that_stick().filter(|i| bodies.contains(i)) {
             let (friction, count) = self.friction_on(i);
             let (friction, slip) = (*friction, self.slip(at, i));
             if friction.is_on() {
-                friction.settle(&mut self.friction_state[i], &slip, &pressures[i], count, heat);
+                friction.settle(&mut self.friction_state[i], &slip, &surface_loads[i], count, heat);
             }
         }
     }
 
-    /// Takes friction over from other stiffnesses: it starts on bodies that were free, and ends on others.
-    pub(in crate::model) fn take_friction_over(&mut self, at: &Point<N>, heat: &mut [f64]) {
+    /// Adapts friction to changed stiffnesses: it starts on bodies that were free, and ends on others.
+    pub(in crate::model) fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64]) {
         for i in Self::bodies_that_stick() {
             let (friction, count) = self.friction_on(i);
             let (friction, slip) = (*friction, self.slip(at, i));
-            friction.take_over(&mut self.friction_state[i], &slip, heat, count);
+            friction.adapt(&mut self.friction_state[i], &slip, heat, count);
         }
     }
 }

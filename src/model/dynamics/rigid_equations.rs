@@ -7,11 +7,11 @@ use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::rigid::{IMPOSED, Rigid};
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body::{Action, Bodies, Slopes};
-use crate::model::effect_kinds::dry_friction::FrictionState;
+use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
 use crate::model::effect_kinds::friction::Friction;
-use crate::model::scene::layout::{CARRIER, HOLDS, PLANET, WHEELS};
-use crate::model::scene::{Course, Inputs};
+use crate::model::effect_kinds::friction_state::FrictionState;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS, PLANET};
+use crate::model::scene::{InputDerivatives, Inputs};
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,10 +30,10 @@ pub struct RigidEquations<'a, const N: usize> {
     /// Constants.
     pub rigid: &'a Rigid,
     pub(super) inputs: Inputs,
-    pub(super) course: Course,
+    pub(super) input_derivatives: InputDerivatives,
     pub(super) driven: bool,
     /// State of the dry friction.
-    pub friction_state: [FrictionState; HOLDS],
+    pub friction_state: [FrictionState; FRICTION_BODIES],
     pub(super) friction: Friction,
 }
 
@@ -44,14 +44,15 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// Equations under `inputs` at `state`.
     pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        let (course, driven) = (state.course.unwrap_or(Course::STILL), state.course.is_some());
-        let friction = rigid.bodies.friction(state.lock, &inputs, &course);
-        Self { rigid, inputs, course, driven, friction_state: state.friction, friction }
+        let (input_derivatives, driven) =
+            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
+        let friction = rigid.bodies.friction(state.lock, &inputs, &input_derivatives);
+        Self { rigid, inputs, input_derivatives, driven, friction_state: state.friction, friction }
     }
 
     fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
-        let Self { inputs, course, .. } = self;
-        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &course.rates[0] }
+        let Self { inputs, input_derivatives, .. } = self;
+        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &input_derivatives.rates[0] }
     }
 
     pub(super) fn wheel(&self, s: usize) -> usize {
@@ -60,33 +61,33 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
 
     /// The equations `time` [s] later, as far as inputs go.
     fn later(&self, time: f64) -> Self {
-        let (inputs, course) = self.course.after(time, &self.inputs);
-        self.under(&inputs, &course)
+        let (inputs, input_derivatives) = self.input_derivatives.after(time, &self.inputs);
+        self.under(&inputs, &input_derivatives)
     }
 
     /// The same equations under other inputs.
-    pub(in crate::model) fn under(&self, inputs: &Inputs, course: &Course) -> Self {
-        Self { inputs: *inputs, course: *course, ..*self }
+    pub(in crate::model) fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
+        Self { inputs: *inputs, input_derivatives: *input_derivatives, ..*self }
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
     fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], [f64; IMPOSED]) {
-        let rates = &self.course.rates[0];
+        let rates = &self.input_derivatives.rates[0];
         let (mut sum, mut imposed) = ([0.0; N], rates.carrier_speed);
         let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.rigid.bodies.forces.iter() {
             effect.act(&self.bodies(at), &mut out);
         }
         let plan = &self.rigid.plan;
-        let pressures = self.pressures(0.0);
+        let surface_loads = self.surface_loads(0.0);
         for i in self.bodies_with_friction() {
             let (friction, state, slip) = (self.friction.on(i), &self.friction_state[i], self.slip(at, i));
-            let torque = friction.torque(state, &slip, &pressures[i]);
+            let torque = friction.torque(state, &slip, &surface_loads[i]);
             sum[self.freedom_of(i)] -= torque;
-            if i < WHEELS {
+            if i < FRICTION_WHEELS {
                 sum[CARRIER] += torque;
             }
-            friction.heat(state, &slip, &pressures[i], 1.0, &mut power.heat);
+            friction.heat(state, &slip, &surface_loads[i], 1.0, &mut power.heat);
         }
         for s in 0..2 {
             power.shaft[s] = self.inputs.load_torque[s];
@@ -119,14 +120,19 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         })
     }
 
-    /// The part of the accelerations that inputs `inputs` on the course `course` have, for accelerations are linear in both.
-    pub(in crate::model) fn forced(&self, at: &Point<N>, inputs: &Inputs, course: &Course) -> [f64; N] {
-        let part = |inputs: &Inputs, course: &Course| {
-            let these = self.under(inputs, course);
+    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
+    pub(in crate::model) fn forced(
+        &self,
+        at: &Point<N>,
+        inputs: &Inputs,
+        input_derivatives: &InputDerivatives,
+    ) -> [f64; N] {
+        let part = |inputs: &Inputs, input_derivatives: &InputDerivatives| {
+            let these = self.under(inputs, input_derivatives);
             let (sum, imposed) = these.forces(at, &mut Power::default());
             these.accelerations(&sum, &imposed)
         };
-        let (with, without) = (part(inputs, course), part(&Inputs::ZERO, &Course::STILL));
+        let (with, without) = (part(inputs, input_derivatives), part(&Inputs::ZERO, &InputDerivatives::ZERO));
         std::array::from_fn(|i| with[i] - without[i])
     }
 
@@ -223,7 +229,7 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         for i in self.bodies_with_friction() {
             let [k, c] = self.friction.on(i).torque_slopes(&self.friction_state[i]);
             let body = self.freedom_of(i);
-            if i < WHEELS {
+            if i < FRICTION_WHEELS {
                 for (row, sign) in [(i, -1.0), (CARRIER, 1.0)] {
                     by_position[row][i] += sign * k;
                     by_rate[row][i] += sign * c;
@@ -231,7 +237,7 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
                 continue;
             }
             // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
-            let s = i - WHEELS;
+            let s = i - FRICTION_WHEELS;
             by_position[body][CARRIER] -= k;
             by_position[body][s] -= k;
             if body != s {
@@ -275,8 +281,8 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let [first, second] = self.later(time).course.rates;
-        self.forced(at, &first, &Course { rates: [second, Inputs::ZERO] })
+        let [first, second] = self.later(time).input_derivatives.rates;
+        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     fn weights(&self, at: &Point<N>) -> Point<N> {
@@ -295,11 +301,11 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
     }
 
     fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        let pressures = [start, end].map(|(_, time)| self.pressures(time));
+        let surface_loads = [start, end].map(|(_, time)| self.surface_loads(time));
         self.bodies_with_friction()
             .filter_map(|i| {
                 let slips = [self.slip(start.0, i), self.slip(end.0, i)];
-                let ends = [(&slips[0], &pressures[0][i]), (&slips[1], &pressures[1][i])];
+                let ends = [(&slips[0], &surface_loads[0][i]), (&slips[1], &surface_loads[1][i])];
                 self.friction.on(i).crossing(&self.friction_state[i], ends[0], ends[1])
             })
             .reduce(f64::min)

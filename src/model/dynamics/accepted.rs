@@ -1,0 +1,34 @@
+//! Where the host's solver stands between its steps.
+
+use serde::{Deserialize, Serialize};
+
+use super::state::State;
+use crate::model::scene::Inputs;
+use crate::model::scene::layout::MAX_DOF;
+
+/// End of the last step that the host's solver completed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Accepted {
+    /// Time [s].
+    pub time: f64,
+    /// Positions.
+    pub q: [f64; MAX_DOF],
+    /// Velocities.
+    pub v: [f64; MAX_DOF],
+    /// Inputs.
+    pub inputs: Inputs,
+    /// Commands whose jumps free speeds have followed.
+    pub followed: Inputs,
+}
+
+impl Accepted {
+    /// `state` as it was there.
+    pub fn of(&self, state: &State) -> State {
+        State { time: self.time, q: self.q, v: self.v, ..*state }
+    }
+
+    /// Whether all numbers are finite.
+    pub fn is_valid(&self) -> bool {
+        self.q.iter().chain(&self.v).chain([&self.time]).all(|x| x.is_finite()) && self.inputs.is_finite()
+    }
+}

@@ -1,0 +1,27 @@
+//! Part of the dry friction on a body that one source contributes.
+
+use super::surface_load::SurfaceLoad;
+
+/// Limit torque of one source, and its heat.
+#[derive(Clone, Copy, Debug)]
+pub struct FrictionPart {
+    /// Constant part [N·m].
+    pub constant: f64,
+    /// Per thrust [m].
+    pub per_thrust: f64,
+    /// Per load.
+    pub per_load: f64,
+    /// Limit while stuck over limit while sliding.
+    pub static_ratio: f64,
+    /// Index of its heat.
+    pub heat: usize,
+}
+
+impl FrictionPart {
+    /// No friction.
+    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0, static_ratio: 1.0, heat: 0 };
+
+    pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
+        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+}

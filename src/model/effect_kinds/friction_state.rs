@@ -1,0 +1,37 @@
+//! State of the dry friction on a body: stuck or sliding, and where its spring is anchored.
+
+use serde::{Deserialize, Serialize};
+
+/// Whether a body sticks, or in which direction it slides.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Held by the spring from its anchor.
+    #[default]
+    Stuck,
+    /// Slides forward.
+    Forward,
+    /// Slides backward.
+    Backward,
+}
+
+impl Mode {
+    /// +1 or −1 while sliding, 0 while stuck.
+    pub fn direction(self) -> f64 {
+        match self {
+            Mode::Stuck => 0.0,
+            Mode::Forward => 1.0,
+            Mode::Backward => -1.0,
+        }
+    }
+}
+
+/// State of the friction on a body.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrictionState {
+    /// Stuck or sliding.
+    pub mode: Mode,
+    /// Position at which the spring is relaxed [rad]; while sliding, where it would be.
+    pub anchor: f64,
+    /// Stiffness that the anchor belongs to [N·m/rad]; 0 = no friction acts.
+    pub stiffness: f64,
+}

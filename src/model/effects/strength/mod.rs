@@ -1,0 +1,16 @@
+//! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the strength.
+//!
+//! Damage of rolling teeth is counted by relative revolutions (`strength::counting`). Teeth that stay in mesh are loaded by
+//! the torque alone: their root stress is counted by rainflow until they roll on.
+
+mod fatigue;
+mod gear_strength;
+mod mesh_load;
+mod overload;
+mod spec;
+
+pub use fatigue::Fatigue;
+pub use gear_strength::{GearStrength, RolledStep};
+pub use mesh_load::MeshLoad;
+pub use overload::Stressed;
+pub use spec::StrengthSpec;

@@ -1,0 +1,86 @@
+//! Stresses that exceed the strength: each is recorded when it first does so in a run.
+
+use serde::{Deserialize, Serialize};
+
+use crate::model::scene::Plan;
+use crate::problem::Problem;
+
+/// What is stressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stressed {
+    /// Root of a planet's tooth.
+    PlanetRoot,
+    /// Root of a side gear's tooth.
+    SideRoot,
+    /// Flanks of both.
+    Flanks,
+}
+
+impl Stressed {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::PlanetRoot, Self::SideRoot, Self::Flanks];
+}
+
+/// A stress that exceeds its strength.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Overload {
+    /// Time [s].
+    pub time: f64,
+    /// Stress [Pa].
+    pub stress: f64,
+    /// Strength [Pa].
+    pub strength: f64,
+    /// Group of planets.
+    pub group: usize,
+    /// Side gear in mesh.
+    pub side: usize,
+}
+
+/// The first overload of each kind in a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Overloads {
+    first: [Option<Overload>; Stressed::ALL.len()],
+}
+
+impl Overloads {
+    /// Records `load` if it is the first above its strength.
+    pub fn watch(&mut self, what: Stressed, load: Overload) {
+        let first = &mut self.first[what as usize];
+        if first.is_none() && load.stress > load.strength {
+            *first = Some(load);
+        }
+    }
+
+    /// The first overload of `what`.
+    pub fn of(&self, what: Stressed) -> Option<&Overload> {
+        self.first[what as usize].as_ref()
+    }
+}
+
+impl Overload {
+    /// Warning that names gear, stress, strength and time.
+    pub fn warning(&self, what: Stressed, plan: &Plan) -> Problem {
+        let side = ["left", "right"][self.side];
+        let planet = format!("planet[{}]", plan.group(self.group).planet + 1);
+        let (variable, stress) = match what {
+            Stressed::PlanetRoot => {
+                ("strength.bending_strength", format!("root stress of {planet} in mesh with the {side} side gear"))
+            }
+            Stressed::SideRoot => {
+                ("strength.bending_strength", format!("root stress of the {side} side gear in mesh with {planet}"))
+            }
+            Stressed::Flanks => {
+                ("strength.contact_strength", format!("contact stress between {planet} and the {side} side gear"))
+            }
+        };
+        Problem::new(
+            variable,
+            format!(
+                "{stress} of {:.1} MPa exceeds the strength of {:.1} MPa at t = {} s; reported once",
+                self.stress * 1e-6,
+                self.strength * 1e-6,
+                self.time
+            ),
+        )
+    }
+}

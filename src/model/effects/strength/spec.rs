@@ -1,0 +1,156 @@
+//! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
+
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units::{self, MPA};
+use crate::declaration::{Parameter, Row, real};
+use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
+use crate::model::scene::GearContact;
+use crate::strength::{Material, SnCurve};
+
+/// Strength of the gears.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StrengthSpec {
+    /// Tip radius of the tool that cuts the roots, in modules.
+    pub tool_radius: f64,
+    /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
+    pub bending_strength: f64,
+    /// Cycles at the knee of bending.
+    pub bending_cycles: f64,
+    /// Life factor of bending at 10³ cycles Y_NT.
+    pub bending_life_factor: f64,
+    /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
+    pub idler_factor: f64,
+    /// Contact strength of the flanks at the knee σ_Hlim [Pa].
+    pub contact_strength: f64,
+    /// Cycles at the knee of pitting.
+    pub contact_cycles: f64,
+    /// Life factor of pitting at 10⁵ cycles Z_NT.
+    pub contact_life_factor: f64,
+}
+
+impl Default for StrengthSpec {
+    fn default() -> Self {
+        Self {
+            tool_radius: 0.25,
+            bending_strength: 1e9,
+            bending_cycles: 3e6,
+            bending_life_factor: 2.5,
+            idler_factor: 0.7,
+            contact_strength: 1.5e9,
+            contact_cycles: 5e7,
+            contact_life_factor: 1.6,
+        }
+    }
+}
+
+impl StrengthSpec {
+    /// S–N curves of the material.
+    pub fn material(&self) -> Material {
+        Material {
+            bending: SnCurve::through(self.bending_strength, self.bending_cycles, self.bending_life_factor, 1e3),
+            pitting: SnCurve::through(self.contact_strength, self.contact_cycles, self.contact_life_factor, 1e5),
+            idler_factor: self.idler_factor,
+        }
+    }
+}
+
+impl Declare for StrengthSpec {
+    const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, and Miner damage";
+    const NEEDS: Option<Needs> = Some(Needs {
+        contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
+        why: "it follows from the forces of the meshes",
+    });
+    const READINGS: &'static [Reading] = &[
+        stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs where they touch"),
+        stress(
+            "stress.contact_pitch",
+            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; largest of all meshes",
+        ),
+        stress("stress.root_planet_max", "Largest root stress of the planets by ISO 10300 method B1"),
+        stress("stress.root_side_max", "Largest root stress of the side gears by ISO 10300 method B1"),
+        damage("damage.planet", "Miner sum of the roots of the worst planet"),
+        damage("damage.side", "Miner sum of the roots of the worse side gear"),
+        damage("damage.planet_flank", "Miner sum of pitting of the worst planet"),
+        damage("damage.side_flank", "Miner sum of pitting of the worse side gear"),
+    ];
+
+    fn parameters() -> Vec<Row<Parameter<Self>>> {
+        vec![
+            real(
+                "strength.tool_radius",
+                units::ONE,
+                None,
+                (0.0, 0.6),
+                |p| &mut p.tool_radius,
+                "Tip radius of the tool that cuts the roots, per module",
+            ),
+            real(
+                "strength.bending_strength",
+                units::PASCAL,
+                Some(MPA),
+                (1e6, 1e11),
+                |p| &mut p.bending_strength,
+                "Bending strength of the roots at the knee under pulsating load (carburised MQ, ISO 6336-5: 2 x 500 MPa)",
+            ),
+            real(
+                "strength.bending_cycles",
+                units::ONE,
+                None,
+                (1e4, 1e12),
+                |p| &mut p.bending_cycles,
+                "Cycles at the knee of bending",
+            ),
+            real(
+                "strength.bending_life_factor",
+                units::ONE,
+                None,
+                (1.05, 10.0),
+                |p| &mut p.bending_life_factor,
+                "Life factor of bending at 1e3 cycles (ISO 6336-3)",
+            ),
+            real(
+                "strength.idler_factor",
+                units::ONE,
+                None,
+                (0.5, 1.0),
+                |p| &mut p.idler_factor,
+                "Part of the bending strength that teeth loaded on alternate flanks keep",
+            ),
+            real(
+                "strength.contact_strength",
+                units::PASCAL,
+                Some(MPA),
+                (1e6, 1e11),
+                |p| &mut p.contact_strength,
+                "Contact strength of the flanks at the knee (carburised MQ, ISO 6336-5: 1500 MPa)",
+            ),
+            real(
+                "strength.contact_cycles",
+                units::ONE,
+                None,
+                (1e6, 1e12),
+                |p| &mut p.contact_cycles,
+                "Cycles at the knee of pitting",
+            ),
+            real(
+                "strength.contact_life_factor",
+                units::ONE,
+                None,
+                (1.05, 10.0),
+                |p| &mut p.contact_life_factor,
+                "Life factor of pitting at 1e5 cycles (ISO 6336-2)",
+            ),
+        ]
+    }
+}
+
+impl Effect for StrengthSpec {}
+
+const fn stress(name: &'static str, description: &'static str) -> Reading {
+    Reading { name, unit: units::PASCAL, display: Some(MPA), changes: Changes::Always, description }
+}
+
+const fn damage(name: &'static str, description: &'static str) -> Reading {
+    Reading { name, unit: units::ONE, display: None, changes: Changes::ByStep, description }
+}

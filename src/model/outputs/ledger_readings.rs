@@ -1,0 +1,24 @@
+//! The ledger as it is read.
+
+use crate::model::setup::effect_outputs::{HEATS, READINGS};
+
+/// Ledger and solver statistics.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LedgerReadings {
+    /// Heat since the start by cause [J].
+    pub heat: [f64; HEATS],
+    /// Readings of the effects that change with accepted steps.
+    pub readings: [f64; READINGS],
+    /// Side gears, groups of planets, and wheels that dry friction holds: their numbers.
+    pub held: [f64; 3],
+    /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
+    pub energy_residual: f64,
+    /// Accepted steps.
+    pub steps: f64,
+    /// Rejected steps.
+    pub rejected: f64,
+    /// Evaluations of the tooth forces.
+    pub rhs_calls: f64,
+    /// Size of the last accepted step [s].
+    pub step_size: f64,
+}

@@ -1,0 +1,22 @@
+//! Motion of a differential.
+
+use crate::model::scene::layout::MAX_PLANETS;
+
+/// Angles and speeds: read straight from the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Carrier angle since the start [rad].
+    pub carrier_angle: f64,
+    /// Carrier speed [rad/s].
+    pub carrier_speed: f64,
+    /// Side gear angles, left and right [rad]; 0 as assembled, teeth in mid-gap: lash and deflection are in it.
+    pub side_angle: [f64; 2],
+    /// Side gear speeds, left and right [rad/s].
+    pub side_speed: [f64; 2],
+    /// Spin angles of the planets relative to the carrier since the start [rad].
+    pub spin_angle: [f64; MAX_PLANETS],
+    /// Spin speeds of the planets relative to the carrier [rad/s].
+    pub spin_speed: [f64; MAX_PLANETS],
+    /// Tooth engagements per second of one mesh [Hz].
+    pub mesh_frequency: f64,
+}

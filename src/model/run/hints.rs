@@ -1,0 +1,41 @@
+//! What helps against messages of a run, by what the scene uses.
+
+use crate::contact::{ContactLaw, DampingModel};
+use crate::model::scene::GearContact;
+use crate::model::setup::Parameters;
+
+/// How to stiffen the teeth: the parameter of the law in use.
+pub fn stiffer_teeth(p: &Parameters) -> &'static str {
+    let contact = &p.contact;
+    let from_gears = "use a larger geometry.module or geometry.face_width, from which the stiffness follows";
+    match (p.scene.gear_contact, contact.law) {
+        (GearContact::Lumped, _) if contact.mesh_stiffness_from_geometry => from_gears,
+        (GearContact::Lumped, _) => "raise contact.mesh_stiffness",
+        (_, ContactLaw::Impact) if contact.stiffness_from_hertz => {
+            "use a larger geometry.module, or contact.stiffness_from_hertz = false with a larger contact.stiffness"
+        }
+        (_, ContactLaw::Impact) => "raise contact.stiffness",
+        (_, ContactLaw::Line | ContactLaw::LineWeber) => from_gears,
+    }
+}
+
+/// How to damp the teeth more.
+pub fn more_damping(p: &Parameters) -> &'static str {
+    match p.contact.damping_model {
+        DampingModel::Step => "raise contact.damping",
+        DampingModel::Restitution => "lower contact.restitution",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn damping_is_raised_by_the_parameter_in_use() {
+        let mut p = Parameters::default();
+        assert!(more_damping(&p).contains("contact.damping"));
+        p.contact.damping_model = DampingModel::Restitution;
+        assert!(more_damping(&p).contains("contact.restitution"));
+    }
+}

@@ -1,0 +1,206 @@
+//! What can be read from a simulation: motion, forces, the ledger, and what is simulated.
+
+use super::cost_class::CostClass;
+use super::events::energy;
+use super::imposed;
+use super::simulation::Simulation;
+use crate::contact::tooth_load::ToothLoad;
+use crate::geometry::Pair;
+use crate::model::assembly::inertias::Inertias;
+use crate::model::assembly::model::Gears;
+use crate::model::dynamics::sizes::{by_rigid_size, by_size};
+use crate::model::effect_kinds::friction_state::Mode;
+use crate::model::outputs::forces::Forces;
+use crate::model::outputs::ledger_readings::LedgerReadings;
+use crate::model::outputs::motion::Motion;
+use crate::model::outputs::resultants;
+use crate::model::scene::Plan;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS};
+use crate::model::setup::Parameters;
+use crate::model::setup::effect_outputs::{READINGS, places_of};
+use crate::numeric::TAU;
+use crate::problem::Problem;
+
+impl Simulation {
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
+    }
+
+    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, where there are
+    /// any. The step itself begins with the jump, and records its work.
+    pub fn present(&self) -> Option<Self> {
+        if imposed::are_met(&self.model, &self.inputs, &self.state) {
+            return None;
+        }
+        let mut present = self.clone();
+        imposed::jump(&present.model, &present.inputs, &mut present.state);
+        present.forces = None;
+        Some(present)
+    }
+
+    /// Angles and speeds.
+    pub fn motion(&self) -> Motion {
+        if let Some(present) = self.present() { present.motion_of_state() } else { self.motion_of_state() }
+    }
+
+    pub(super) fn motion_of_state(&self) -> Motion {
+        let (model, state) = (&self.model, &self.state);
+        let plan = &model.ideal.plan;
+        let layout = plan.layout();
+        let position = |i: usize| state.position(i, &model.periods);
+        let v = &state.v;
+        let mut motion = Motion {
+            carrier_angle: position(CARRIER),
+            carrier_speed: v[CARRIER],
+            side_angle: [position(CARRIER) + position(0), position(CARRIER) + position(1)],
+            side_speed: [v[0], v[1]],
+            spin_angle: [0.0; MAX_PLANETS],
+            spin_speed: [0.0; MAX_PLANETS],
+            mesh_frequency: f64::from(model.parameters.geometry.planet_teeth) * v[layout.planet(0)].abs() / TAU,
+        };
+        for i in 0..plan.planets {
+            let g = layout.planet(plan.group_of[i]);
+            motion.spin_angle[i] = position(g);
+            motion.spin_speed[i] = v[g];
+        }
+        motion
+    }
+
+    /// Forces under the present inputs, computed at the first call after a change.
+    pub fn forces(&mut self) -> &Forces {
+        if self.forces.is_none() {
+            let present = self.present();
+            self.forces = Some(present.as_ref().unwrap_or(self).forces_of_state());
+        }
+        self.forces.get_or_insert_default()
+    }
+
+    pub(super) fn forces_of_state(&self) -> Forces {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        match &model.gears {
+            Gears::Rigid(rigid) if !rigid.bodies.act_in(state) => resultants::ideal_forces(model, inputs, state),
+            Gears::Rigid(rigid) => {
+                by_rigid_size!(model, resultants::rigid_forces(model, &E::new(rigid, inputs, state), inputs, state))
+            }
+            Gears::Teeth(teeth) => {
+                let full = teeth.additions.bodies.act_in(state);
+                by_size!(teeth, full, resultants::teeth_forces(model, &E::new(teeth, inputs, state), inputs, state))
+            }
+        }
+    }
+
+    /// Visits the load of every tooth pair, of one planet of each group; none where there are no teeth.
+    pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let Gears::Teeth(teeth) = &model.gears else { return };
+        let full = teeth.additions.bodies.act_in(state);
+        by_size!(teeth, full, {
+            let (equations, point) = (E::new(teeth, inputs, state), state.point());
+            for g in 0..model.ideal.plan.groups().len() {
+                for s in 0..2 {
+                    equations.tooth_loads(&model.pair, &point, g, s, &mut visit);
+                }
+            }
+        });
+    }
+
+    /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
+    pub(super) fn energy(&self) -> f64 {
+        let known = self.accepted.as_ref().map(|accepted| accepted.of(&self.state));
+        energy(&self.model, &self.inputs, known.as_ref().unwrap_or(&self.state))
+    }
+
+    /// Ledger and solver statistics.
+    pub fn ledger(&self) -> LedgerReadings {
+        let s = &self.state.statistics;
+        let mut readings = [0.0; READINGS];
+        if self.model.strength.is_some() {
+            self.state.fatigue.read(&mut readings[places_of("strength")]);
+        }
+        let held = |range: std::ops::Range<usize>| {
+            let friction = self.state.friction[range].iter();
+            friction.filter(|f| f.stiffness > 0.0 && f.mode == Mode::Stuck).count() as f64
+        };
+        LedgerReadings {
+            heat: self.state.heat,
+            readings,
+            held: [
+                held(0..FRICTION_PLANETS),
+                held(FRICTION_PLANETS..FRICTION_WHEELS),
+                held(FRICTION_WHEELS..FRICTION_BODIES),
+            ],
+            energy_residual: self.energy() - self.state.energy_at_start - self.state.work
+                + self.state.heat.iter().sum::<f64>(),
+            steps: s.accepted as f64,
+            rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,
+            rhs_calls: s.evaluations as f64,
+            step_size: self.state.control.last,
+        }
+    }
+
+    /// What is unusual about the gears.
+    pub fn warnings(&self) -> &[Problem] {
+        &self.model.warnings
+    }
+
+    /// Geometry of the pair.
+    pub fn pair(&self) -> &Pair {
+        &self.model.pair
+    }
+
+    /// Inertias in use.
+    pub fn inertias(&self) -> &Inertias {
+        &self.model.ideal.inertia
+    }
+
+    /// One line on the solver's steps and rejections, by cause.
+    pub fn account(&self) -> String {
+        let s = &self.state.statistics;
+        format!(
+            "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not finite, {} cut at a switch; \
+             {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+            s.accepted,
+            s.rejected_error,
+            s.rejected_ledger,
+            s.rejected_invalid,
+            s.rejected_switch,
+            s.evaluations,
+            s.jacobians,
+            self.ledger().energy_residual
+        )
+    }
+
+    /// What is simulated.
+    pub fn plan(&self) -> &Plan {
+        &self.model.ideal.plan
+    }
+
+    /// What a step costs at present; a lock or a broken tooth may change it.
+    pub fn cost(&self) -> CostClass {
+        match &self.model.gears {
+            Gears::Rigid(rigid) if !rigid.bodies.act_in(&self.state) => CostClass::ClosedForm,
+            Gears::Rigid(_) => CostClass::Rigid,
+            Gears::Teeth(teeth) if teeth.additions.in_detail => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.additions.bodies.act_in(&self.state) => CostClass::TeethAndBodies,
+            Gears::Teeth(_) => CostClass::Teeth,
+        }
+    }
+
+    /// Names of the switches that are on.
+    pub fn active_effects(&self) -> impl Iterator<Item = &'static str> {
+        self.model.parameters.effects.active()
+    }
+
+    /// Parameters in use.
+    pub fn parameters(&self) -> &Parameters {
+        &self.model.parameters
+    }
+
+    /// One line that says what is simulated.
+    pub fn describe(&self) -> String {
+        let effects: Vec<&str> = self.active_effects().collect();
+        let effects = if effects.is_empty() { "none".into() } else { effects.join(", ") };
+        format!("{}; effects on: {effects}", self.model.ideal.plan.describe())
+    }
+}

@@ -1,0 +1,62 @@
+//! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength.
+
+use super::simulation::Simulation;
+use crate::friction::FrictionLaw;
+use crate::model::assembly::model::Gears;
+use crate::model::dynamics::sizes::by_size;
+use crate::model::effects::strength::Stressed;
+use crate::problem::Problem;
+
+/// What has been reported in a run.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Reported {
+    friction_law: bool,
+    stress: [bool; Stressed::ALL.len()],
+}
+
+impl Simulation {
+    /// Warnings about the time up to now that are not in `reported` yet; they are from now on.
+    pub fn unreported(&self, reported: &mut Reported) -> Vec<Problem> {
+        let mut found = Vec::new();
+        if !reported.friction_law
+            && let Some(problem) = self.outside_friction_law()
+        {
+            reported.friction_law = true;
+            found.push(problem);
+        }
+        if self.model.strength.is_some() {
+            for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
+                if let Some(overload) = self.state.fatigue.overloads.of(what) {
+                    *reported = true;
+                    found.push(overload.warning(what, &self.model.ideal.plan));
+                }
+            }
+        }
+        found
+    }
+
+    /// What lies outside the range of the friction law at this instant; Coulomb's law has none.
+    fn outside_friction_law(&self) -> Option<Problem> {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let p = &model.parameters;
+        if !p.effects.tooth_friction || p.specs.tooth_friction.law == FrictionLaw::CoulombStribeck {
+            return None;
+        }
+        let Gears::Teeth(teeth) = &model.gears else { return None };
+        let friction = teeth.additions.detailed.friction.as_ref()?;
+        let mut found = None;
+        by_size!(teeth, true, {
+            let (equations, point) = (E::new(teeth, inputs, state), state.point());
+            for g in 0..model.ideal.plan.groups().len() {
+                for s in 0..2 {
+                    equations.detail::<f64>(&point, g, s, |slice| {
+                        if found.is_none() {
+                            found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
+                        }
+                    });
+                }
+            }
+        });
+        found.map(|what| Problem::new("tooth_friction.law", format!("{what} at t = {} s; reported once", state.time)))
+    }
+}

@@ -1,0 +1,45 @@
+//! Rows of the parameters, one file for each group of them; those of effects come from the effects. All are fixed but
+//! those that say tunable. Their order gives the value references.
+
+mod bodies;
+mod contact;
+mod gears;
+mod scene;
+mod solver;
+
+use crate::declaration::{Parameter, Row, switch};
+use crate::model::Parameters;
+use crate::model::effects;
+
+/// Rows of all parameters.
+pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
+    let mut rows = gears::rows();
+    rows.extend(bodies::rows());
+    rows.extend(contact::rows());
+    rows.extend(scene::rows());
+    rows.extend(teeth());
+    rows.extend(
+        effects::switches().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.effects))),
+    );
+    rows.extend(solver::rows());
+    rows.extend(
+        effects::parameters().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.specs))),
+    );
+    rows
+}
+
+/// Switches of two properties of plain teeth.
+fn teeth() -> [Row<Parameter<Parameters>>; 2] {
+    [
+        switch(
+            "effects.backlash",
+            |p| &mut p.effects.backlash,
+            "Backlash geometry.backlash; false: teeth without play",
+        ),
+        switch(
+            "effects.corner_contact",
+            |p| &mut p.effects.corner_contact,
+            "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
+        ),
+    ]
+}
