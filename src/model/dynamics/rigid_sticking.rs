@@ -8,8 +8,13 @@ use crate::model::setup::effect_outputs::HEATS;
 
 impl<const N: usize> RigidEquations<'_, N> {
     /// Bodies that may stick, by their number: side gears, wheels. Planets stick with the side gears here.
+    pub(super) fn bodies_that_stick() -> impl Iterator<Item = usize> {
+        [0, 1, WHEELS, WHEELS + 1].into_iter()
+    }
+
+    /// Those on which friction acts.
     pub(super) fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
-        [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|&i| self.friction.on(i).is_on())
+        Self::bodies_that_stick().filter(|&i| self.friction.on(i).is_on())
     }
 
     /// Degree of freedom on which the friction of body `i` acts.
@@ -31,7 +36,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     /// Loads on all rubbing surfaces `time` [s] after the inputs were set.
     pub(super) fn pressures(&self, time: f64) -> [Pressure; HOLDS] {
         let mut all = [Pressure::default(); HOLDS];
-        let wheels = if self.driven {
+        let wheels = if self.driven && time > 0.0 {
             self.friction.wheel_pressures(&self.course.after(time, &self.inputs).0)
         } else {
             self.friction.wheel_pressures(&self.inputs)
@@ -86,7 +91,7 @@ impl<const N: usize> RigidEquations<'_, N> {
         heat: &mut [f64; HEATS],
     ) {
         let pressures = self.pressures(time);
-        for i in [0, 1, WHEELS, WHEELS + 1].into_iter().filter(|i| bodies.contains(i)) {
+        for i in Self::bodies_that_stick().filter(|i| bodies.contains(i)) {
             let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
             if friction.is_on() {
                 friction.settle(&mut self.friction_state[i], &slip, &pressures[i], 1.0, heat);
@@ -96,7 +101,7 @@ impl<const N: usize> RigidEquations<'_, N> {
 
     /// Takes friction over from another stiffness.
     pub fn take_friction_over(&mut self, at: &Point<N>, heat: &mut [f64; HEATS]) {
-        for i in [0, 1, WHEELS, WHEELS + 1] {
+        for i in Self::bodies_that_stick() {
             let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
             friction.take_over(&mut self.friction_state[i], &slip, heat, 1.0);
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::events::{break_tooth, end_of_stretch, energy, update_friction};
+use super::events::{break_tooth, end_of_stretch, energy, update_friction, with_brakes};
 use super::failure::StepFailure;
 use super::{imposed, start, stretch};
 use crate::contact::tooth_load::ToothLoad;
@@ -150,16 +150,20 @@ impl Simulation {
         self.state.time
     }
 
-    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, where there are
-    /// any. The step itself begins with the jump, and books it.
+    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
+    /// torques, where there are any. The step itself begins with the change, and books it.
     pub fn present(&self) -> Option<Self> {
-        if imposed::are_met(&self.model, &self.inputs, &self.state) {
+        let mut state = self.state;
+        let is_met = imposed::are_met(&self.model, &self.inputs, &state);
+        if !is_met {
+            imposed::jump(&self.model, &self.inputs, &mut state);
+        }
+        // under a solver of the host's friction changes at events
+        let braked = if self.is_handed_over() { None } else { with_brakes(&self.model, &self.inputs, &state) };
+        if is_met && braked.is_none() {
             return None;
         }
-        let mut present = self.clone();
-        imposed::jump(&present.model, &present.inputs, &mut present.state);
-        present.forces = None;
-        Some(present)
+        Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
     }
 
     /// Angles and speeds.
