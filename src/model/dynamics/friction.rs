@@ -80,7 +80,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         } else {
             self.surface_loads_of(&[], &[])
         };
-        if self.is_driven_by_inputs() {
+        if self.is_driven_by_inputs() && time > 0.0 {
             let (inputs, _) = self.input_derivatives.after(time, &self.inputs);
             all[FRICTION_WHEELS..].copy_from_slice(&self.friction().wheel_loads(&inputs));
         }
@@ -224,7 +224,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             let (friction, count) = self.friction_on(i);
             count * friction.energy(&self.friction_state[i], self.slip(at, i).position)
         };
-        self.bodies_with_friction().map(energy).sum()
+        Self::bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0).map(energy).sum()
     }
 
     /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].

@@ -162,7 +162,8 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     fn stored(&self, at: &Point<N>) -> f64 {
         let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
         let energy = |i: usize| self.friction.on(i).energy(&self.friction_state[i], self.slip(at, i).position);
-        bodies + self.bodies_with_friction().map(energy).sum::<f64>()
+        let held = Self::bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0);
+        bodies + held.map(energy).sum::<f64>()
     }
 }
 

@@ -10,8 +10,13 @@ use crate::model::setup::effect_outputs::HEATS;
 
 impl<const N: usize> RigidEquations<'_, N> {
     /// Bodies that may stick, by their number: side gears, wheels. Planets stick with the side gears here.
+    pub(super) fn bodies_that_stick() -> impl Iterator<Item = usize> {
+        [0, 1, FRICTION_WHEELS, FRICTION_WHEELS + 1].into_iter()
+    }
+
+    /// Those on which friction acts.
     pub(super) fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
-        [0, 1, FRICTION_WHEELS, FRICTION_WHEELS + 1].into_iter().filter(|&i| self.friction.on(i).is_on())
+        Self::bodies_that_stick().filter(|&i| self.friction.on(i).is_on())
     }
 
     /// Degree of freedom on which the friction of body `i` acts.
@@ -33,7 +38,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     /// Loads on all rubbing surfaces `time` [s] after the inputs were set.
     pub(super) fn surface_loads(&self, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-        let wheels = if self.driven {
+        let wheels = if self.driven && time > 0.0 {
             self.friction.wheel_loads(&self.input_derivatives.after(time, &self.inputs).0)
         } else {
             self.friction.wheel_loads(&self.inputs)
@@ -88,7 +93,7 @@ impl<const N: usize> RigidEquations<'_, N> {
         heat: &mut [f64; HEATS],
     ) {
         let surface_loads = self.surface_loads(time);
-        for i in [0, 1, FRICTION_WHEELS, FRICTION_WHEELS + 1].into_iter().filter(|i| bodies.contains(i)) {
+        for i in Self::bodies_that_stick().filter(|i| bodies.contains(i)) {
             let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
             if friction.is_on() {
                 friction.settle(&mut self.friction_state[i], &slip, &surface_loads[i], 1.0, heat);
@@ -96,9 +101,9 @@ impl<const N: usize> RigidEquations<'_, N> {
         }
     }
 
-    /// Adapts friction to a changed stiffness.
+    /// Takes friction over from another stiffness.
     pub fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64; HEATS]) {
-        for i in [0, 1, FRICTION_WHEELS, FRICTION_WHEELS + 1] {
+        for i in Self::bodies_that_stick() {
             let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
             friction.adapt(&mut self.friction_state[i], &slip, heat, 1.0);
         }

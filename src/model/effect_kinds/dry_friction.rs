@@ -32,18 +32,31 @@ pub struct DryFriction {
     /// Stiffness of all sources together [N·m/rad].
     pub stiffness: f64,
     damping_time: f64,
+    /// Whether the limit torque is a command, which may fall while a body is held.
+    commanded: bool,
     /// Index of the heat that the spring becomes when the last source is switched off.
     released: usize,
 }
 
 impl DryFriction {
     /// No source.
-    pub const NONE: Self =
-        Self { parts: [FrictionPart::NONE; SOURCES], count: 0, stiffness: 0.0, damping_time: 0.0, released: 0 };
+    pub const NONE: Self = Self {
+        parts: [FrictionPart::NONE; SOURCES],
+        count: 0,
+        stiffness: 0.0,
+        damping_time: 0.0,
+        commanded: false,
+        released: 0,
+    };
 
     /// No source yet; the energy that the spring loses when the last is switched off is heat `released`.
     pub fn new(damping_time: f64, released: usize) -> Self {
         Self { damping_time, released, ..Self::NONE }
+    }
+
+    /// The same with a limit torque that is a command.
+    pub fn commanded(damping_time: f64, released: usize) -> Self {
+        Self { commanded: true, ..Self::new(damping_time, released) }
     }
 
     /// Adds a source.
@@ -86,7 +99,7 @@ impl DryFriction {
     /// Torque against the motion.
     pub fn torque(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
-            Mode::Stuck => self.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
+            Mode::Stuck => state.stiffness * (slip.position - state.anchor + self.damping_time * slip.speed),
             Mode::Forward => self.limit(by),
             Mode::Backward => -self.limit(by),
         }
@@ -95,7 +108,7 @@ impl DryFriction {
     /// Slopes of the torque by position and speed; those by loads are [`Self::limit_slopes`].
     pub fn torque_slopes(&self, state: &FrictionState) -> [f64; 2] {
         match state.mode {
-            Mode::Stuck => [self.stiffness, self.damping_time * self.stiffness],
+            Mode::Stuck => [state.stiffness, self.damping_time * state.stiffness],
             _ => [0.0; 2],
         }
     }
@@ -103,7 +116,7 @@ impl DryFriction {
     /// Adds the heat to its causes, `count` bodies alike.
     pub fn heat(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) {
         let power = match state.mode {
-            Mode::Stuck => self.stiffness * self.damping_time * slip.speed * slip.speed,
+            Mode::Stuck => state.stiffness * self.damping_time * slip.speed * slip.speed,
             _ => self.torque(state, slip, by) * slip.speed,
         };
         self.add_heat(count * power, by, heat);
@@ -121,17 +134,25 @@ impl DryFriction {
     /// Energy in the spring [J].
     pub fn energy(&self, state: &FrictionState, position: f64) -> f64 {
         let z = position - state.anchor;
-        if state.mode == Mode::Stuck { 0.5 * self.stiffness * z * z } else { 0.0 }
+        if state.mode == Mode::Stuck { 0.5 * state.stiffness * z * z } else { 0.0 }
+    }
+
+    /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m].
+    fn excess(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
+        let torque = self.torque(state, slip, by);
+        // a spring past its limit that is being unwound is cut back, it does not slide; a body that stands still when
+        // its limit is lowered slides to where it is driven
+        let stands = self.commanded && slip.speed.abs() < SPEED_TOLERANCE;
+        let sense = if stands { torque } else { slip.speed };
+        torque * sense.signum() - self.breakaway(by)
     }
 
     /// Distance past the switch, as a fraction of the tolerance: negative before it, above 1 too far.
     fn overshoot(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
         match state.mode {
             Mode::Stuck => {
-                // a spring past its limit that is being unwound is cut back, it does not slide
-                let torque = self.torque(state, slip, by) * slip.speed.signum();
                 let limit = self.breakaway(by);
-                (torque - limit) / (LIMIT_TOLERANCE * limit + NOTHING)
+                self.excess(state, slip, by) / (LIMIT_TOLERANCE * limit + NOTHING)
             }
             mode => {
                 let direction = if mode == Mode::Forward { 1.0 } else { -1.0 };
@@ -147,6 +168,9 @@ impl DryFriction {
         start: (&Slip, &SurfaceLoad),
         end: (&Slip, &SurfaceLoad),
     ) -> Option<f64> {
+        if self.commanded && state.mode == Mode::Stuck {
+            return self.crossing_of_command(state, start, end);
+        }
         let after = self.overshoot(state, end.0, end.1);
         if after <= 1.0 || self.limit(end.1) <= NOTHING {
             return None;
@@ -154,6 +178,19 @@ impl DryFriction {
         // aim at the middle of the tolerance
         let before = self.overshoot(state, start.0, start.1).min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
+    }
+
+    /// The same of a held body whose limit is a command: it may fall within the step, even to nothing.
+    fn crossing_of_command(
+        &self,
+        state: &FrictionState,
+        start: (&Slip, &SurfaceLoad),
+        end: (&Slip, &SurfaceLoad),
+    ) -> Option<f64> {
+        let tolerance = LIMIT_TOLERANCE * self.breakaway(start.1).max(self.breakaway(end.1)) + NOTHING;
+        let [before, after] = [start, end].map(|(slip, by)| self.excess(state, slip, by) / tolerance);
+        let before = before.min(0.0);
+        (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
     /// The state after the switch that is due, if any.
@@ -170,6 +207,8 @@ impl DryFriction {
                     after.anchor = slip.position - most * z.signum();
                 }
             }
+            // a command of no torque holds nothing
+            mode if due && self.commanded && self.breakaway(by) <= NOTHING => after.mode = mode.reversed(),
             _ if due => after.mode = Mode::Stuck,
             _ => {}
         }

@@ -64,7 +64,7 @@ impl Friction {
         let [first, second] = &input_derivatives.rates;
         let limits = [inputs, first, second].map(wheel.limit);
         for s in 0..2 {
-            self.wheel[s] = DryFriction::new(wheel.damping_time[s], source.heat);
+            self.wheel[s] = DryFriction::commanded(wheel.damping_time[s], source.heat);
             if limits.iter().any(|limit| limit[s] != 0.0) {
                 let (static_ratio, heat) = (source.static_ratio, source.heat);
                 self.wheel[s]

@@ -23,6 +23,15 @@ impl Mode {
             Mode::Backward => -1.0,
         }
     }
+
+    /// The other direction of sliding.
+    pub fn reversed(self) -> Self {
+        match self {
+            Mode::Stuck => Mode::Stuck,
+            Mode::Forward => Mode::Backward,
+            Mode::Backward => Mode::Forward,
+        }
+    }
 }
 
 /// State of the friction on a body.

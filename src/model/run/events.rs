@@ -5,8 +5,8 @@ use crate::integrate::SecondOrder;
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::sizes::{by_rigid_size, by_size, with_equations};
 use crate::model::dynamics::state::State;
-use crate::model::scene::Inputs;
 use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
+use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Longest stretch integrated before positions are wrapped [s].
@@ -50,6 +50,11 @@ pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     if !imposed::body_effects(model).act_in(state) {
         return;
     }
+    switch_friction(model, inputs, state);
+}
+
+/// Lets friction start and end on bodies, and the wheels slide that are held by more than their brakes hold.
+fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     match &model.gears {
         Gears::Rigid(rigid) => by_rigid_size!(model, {
             let mut equations = E::new(rigid, inputs, state);
@@ -64,4 +69,20 @@ pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
             state.friction = equations.friction_state;
         }),
     }
+}
+
+/// Whether brakes were put on or released since friction was last updated.
+pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let friction = imposed::body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
+    (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
+}
+
+/// `state` with the brakes as `inputs` have them; `None` if nothing changes.
+pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
+    if imposed::body_effects(model).friction.iter().all(|source| source.wheel.is_none()) {
+        return None;
+    }
+    let mut braked = *state;
+    switch_friction(model, inputs, &mut braked);
+    (braked.friction != state.friction).then_some(braked)
 }

@@ -4,7 +4,7 @@
 //! states have no effect. Trial steps of the host's solver leave no trace: ledger, friction and teeth record completed
 //! steps, and change at events.
 
-use super::events::{break_tooth, breaks_tooth, energy, update_friction};
+use super::events::{are_brakes_new, break_tooth, breaks_tooth, energy, update_friction};
 use super::failure::StepFailure;
 use super::imposed;
 use super::ledger::{Recorded, Records};
@@ -212,7 +212,8 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
         }
         let jumps = imposed::is_impulse(model, &from.followed, inputs);
-        let due = is_due || jumps || inputs.lock != state.lock || breaks_tooth(model, inputs, state);
+        let commanded = inputs.lock != state.lock || are_brakes_new(model, inputs, state);
+        let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
         self.accept(from.followed);
         Ok(due)
     }

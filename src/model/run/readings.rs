@@ -1,7 +1,7 @@
 //! What can be read from a simulation: motion, forces, the ledger, and what is simulated.
 
 use super::cost_class::CostClass;
-use super::events::energy;
+use super::events::{energy, with_brakes};
 use super::imposed;
 use super::simulation::Simulation;
 use crate::contact::tooth_load::ToothLoad;
@@ -27,16 +27,20 @@ impl Simulation {
         self.state.time
     }
 
-    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, where there are
-    /// any. The step itself begins with the jump, and records its work.
+    /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
+    /// torques, where there are any. The step itself begins with the change, and records its work.
     pub fn present(&self) -> Option<Self> {
-        if imposed::are_met(&self.model, &self.inputs, &self.state) {
+        let mut state = self.state;
+        let is_met = imposed::are_met(&self.model, &self.inputs, &state);
+        if !is_met {
+            imposed::jump(&self.model, &self.inputs, &mut state);
+        }
+        // with a solver of the host friction changes at events
+        let braked = if self.is_model_exchange() { None } else { with_brakes(&self.model, &self.inputs, &state) };
+        if is_met && braked.is_none() {
             return None;
         }
-        let mut present = self.clone();
-        imposed::jump(&present.model, &present.inputs, &mut present.state);
-        present.forces = None;
-        Some(present)
+        Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
     }
 
     /// Angles and speeds.

@@ -2,6 +2,7 @@
 
 use super::excessive_deflection::limit_name;
 use super::hints;
+use super::imposed::body_effects;
 use crate::integrate::{Matrix, Point};
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
@@ -10,7 +11,7 @@ use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::state::State;
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{GearContact, Inputs, Start};
+use crate::model::scene::{GearContact, InputDerivatives, Inputs, Start};
 use crate::numeric::sqrt;
 use crate::problem::Problem;
 
@@ -65,6 +66,19 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
+/// `inputs` with the brakes of wheels that turn among the loads.
+fn with_sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> Inputs {
+    let friction = body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
+    let brakes = friction.wheel_loads(inputs);
+    let (plan, layout) = (&model.ideal.plan, &model.layout);
+    let load_torque = [0, 1].map(|s| {
+        let speed = state.v[if plan.shafts[s] { layout.end(s) } else { s }];
+        let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
+        inputs.load_torque[s] + direction * brakes[s].load
+    });
+    Inputs { load_torque, ..*inputs }
+}
+
 /// Torques that the side gears carry at the start, from accelerations where they are free to accelerate.
 fn loads(model: &Model, ideal: &Ideal, inputs: &Inputs) -> [f64; 2] {
     let load = inputs.load_torque;
@@ -85,7 +99,7 @@ fn loads(model: &Model, ideal: &Ideal, inputs: &Inputs) -> [f64; 2] {
 
 /// Winds the half-shafts of an ideal differential up.
 pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut State) {
-    let carried = loads(model, &model.ideal, inputs);
+    let carried = loads(model, &model.ideal, &with_sliding_brakes(model, inputs, state));
     let plan = &model.ideal.plan;
     for s in (0..2).filter(|&s| plan.shafts[s]) {
         state.q[plan.layout().end(s)] = shafts.static_twist(s, carried[s]);
@@ -105,6 +119,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
 ) -> Result<(), Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;
+    let inputs = &with_sliding_brakes(model, inputs, state);
     let held = Ideal { plan: plan.with_spin_held(), ..*ideal };
     let still = loads(model, &held, inputs);
     let mut point = Point::ZERO;

@@ -29,8 +29,14 @@ impl InputDerivatives {
     /// Inputs and their derivatives `time` [s] after they were `inputs`.
     pub fn after(&self, time: f64, inputs: &Inputs) -> (Inputs, Self) {
         let [first, second] = &self.rates;
-        let later = inputs.plus(time, first).plus(0.5 * time * time, second).limited();
-        (later, Self { rates: [first.plus(time, second), *second] })
+        let unlimited = inputs.plus(time, first).plus(0.5 * time * time, second);
+        let later = unlimited.limited();
+        let rates = [first.plus(time, second), *second];
+        if later == unlimited {
+            return (later, Self { rates });
+        }
+        // an input that has reached its limit stays there
+        (later, Self { rates: rates.map(|rate| rate.where_equal(&later, &unlimited)) })
     }
 }
 
@@ -57,5 +63,14 @@ mod tests {
             InputDerivatives { rates: [Inputs { lock: 1.0, fault: -1.0, ..Inputs::ZERO }, Inputs::ZERO] };
         let (later, _) = input_derivatives.after(3.0, &Inputs { lock: 0.5, fault: 0.5, ..Inputs::ZERO });
         assert_eq!((later.lock, later.fault), (1.0, 0.0));
+    }
+
+    #[test]
+    fn an_input_at_its_limit_has_no_rate() {
+        let rate = Inputs { brake_torque: [-100.0, -10.0], carrier_torque: 5.0, ..Inputs::ZERO };
+        let course = InputDerivatives { rates: [rate, Inputs::ZERO] };
+        let (later, rest) = course.after(1.0, &Inputs { brake_torque: [50.0; 2], ..Inputs::ZERO });
+        assert_eq!((later.brake_torque, later.carrier_torque), ([0.0, 40.0], 5.0));
+        assert_eq!((rest.rates[0].brake_torque, rest.rates[0].carrier_torque), ([0.0, -10.0], 5.0));
     }
 }

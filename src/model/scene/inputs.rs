@@ -65,6 +65,16 @@ macro_rules! inputs {
                 Self { $($name: self.$name.combine(Value::ZERO, |a, _| a.clamp($limits[0], $limits[1]))),+ }
             }
 
+            /// The same with 0 in place of each input that differs between `one` and `other`.
+            pub fn where_equal(&self, one: &Self, other: &Self) -> Self {
+                Self {
+                    $($name: {
+                        let kept = one.$name.combine(other.$name, |a, b| f64::from(a == b));
+                        self.$name.combine(kept, |value, kept| value * kept)
+                    }),+
+                }
+            }
+
             /// Calls `see` with each value and that of `other`.
             pub fn visit(&self, other: &Self, mut see: impl FnMut(f64, f64)) {
                 $(self.$name.visit(other.$name, &mut see);)+
