@@ -77,11 +77,14 @@ pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
 
+/// Whether wheels have brakes.
+#[inline]
+pub fn has_brakes(model: &Model) -> bool {
+    imposed::body_effects(model).friction.iter().any(|source| source.wheel.is_some())
+}
+
 /// `state` with the brakes as `inputs` have them; `None` if nothing changes.
 pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
-    if imposed::body_effects(model).friction.iter().all(|source| source.wheel.is_none()) {
-        return None;
-    }
     let mut braked = *state;
     switch_friction(model, inputs, &mut braked);
     (braked.friction != state.friction).then_some(braked)

@@ -1,7 +1,7 @@
 //! What can be read from a simulation: motion, forces, the ledger, and what is simulated.
 
 use super::cost_class::CostClass;
-use super::events::{energy, with_brakes};
+use super::events::{energy, has_brakes, with_brakes};
 use super::imposed;
 use super::simulation::Simulation;
 use crate::contact::tooth_load::ToothLoad;
@@ -30,13 +30,17 @@ impl Simulation {
     /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
     /// torques, where there are any. The step itself begins with the change, and records its work.
     pub fn present(&self) -> Option<Self> {
+        let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
+        // with a solver of the host friction changes at events
+        let may_brake = !self.is_model_exchange() && has_brakes(&self.model);
+        if is_met && !may_brake {
+            return None;
+        }
         let mut state = self.state;
-        let is_met = imposed::are_met(&self.model, &self.inputs, &state);
         if !is_met {
             imposed::jump(&self.model, &self.inputs, &mut state);
         }
-        // with a solver of the host friction changes at events
-        let braked = if self.is_model_exchange() { None } else { with_brakes(&self.model, &self.inputs, &state) };
+        let braked = if may_brake { with_brakes(&self.model, &self.inputs, &state) } else { None };
         if is_met && braked.is_none() {
             return None;
         }
