@@ -79,9 +79,10 @@ pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
 
 /// `state` with the brakes as `inputs` have them; `None` if nothing changes.
 pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
-    let mut braked = *state;
-    if imposed::body_effects(model).friction.iter().any(|source| source.wheel.is_some()) {
-        switch_friction(model, inputs, &mut braked);
+    if imposed::body_effects(model).friction.iter().all(|source| source.wheel.is_none()) {
+        return None;
     }
+    let mut braked = *state;
+    switch_friction(model, inputs, &mut braked);
     (braked.friction != state.friction).then_some(braked)
 }

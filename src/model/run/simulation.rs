@@ -153,17 +153,22 @@ impl Simulation {
     /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
     /// torques, where there are any. The step itself begins with the change, and books it.
     pub fn present(&self) -> Option<Self> {
-        let mut state = self.state;
-        let is_met = imposed::are_met(&self.model, &self.inputs, &state);
-        if !is_met {
-            imposed::jump(&self.model, &self.inputs, &mut state);
+        let (model, inputs) = (&*self.model, &self.inputs);
+        let mut present = None;
+        if !imposed::are_met(model, inputs, &self.state) {
+            imposed::jump(model, inputs, &mut present.insert(self.clone()).state);
         }
         // under a solver of the host's friction changes at events
-        let braked = if self.is_handed_over() { None } else { with_brakes(&self.model, &self.inputs, &state) };
-        if is_met && braked.is_none() {
-            return None;
+        let state = present.as_ref().map_or(&self.state, |present| &present.state);
+        if !self.is_handed_over()
+            && let Some(braked) = with_brakes(model, inputs, state)
+        {
+            present.get_or_insert_with(|| self.clone()).state = braked;
         }
-        Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
+        if let Some(present) = &mut present {
+            present.forces = None;
+        }
+        present
     }
 
     /// Angles and speeds.
