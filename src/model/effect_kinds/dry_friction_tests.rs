@@ -49,6 +49,24 @@ fn a_crossing_from_one_limit_to_the_other_is_found_at_once() {
 }
 
 #[test]
+fn a_held_body_slides_where_its_command_falls_below_its_torque() {
+    let mut brake = DryFriction::commanded(DAMPING_TIME, 0);
+    brake.push(FrictionPart { per_load: 1.0, ..FrictionPart::NONE }, STIFFNESS);
+    // 4 N·m are held while the command falls from 10 N·m to nothing: six tenths of the way
+    let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
+    for speed in [0.0, 1e-12, -1e-12] {
+        let turn = Slip { position: 4.0 / STIFFNESS, speed };
+        let part = brake.crossing(&hold, (&turn, &pressed(10.0)), (&turn, &pressed(0.0))).unwrap();
+        assert!((part - 0.6).abs() < 1e-4, "{part}");
+        assert!(brake.is_due(&hold, &turn, &pressed(3.9)) && !brake.is_due(&hold, &turn, &pressed(4.1)));
+    }
+    // no torque holds nothing: a body that turns back goes on sliding
+    let mut slides = FrictionState { mode: Mode::Forward, ..hold };
+    brake.settle(&mut slides, &Slip { position: 0.0, speed: -0.1 }, &pressed(0.0), 1.0, &mut [0.0]);
+    assert_eq!(slides.mode, Mode::Backward);
+}
+
+#[test]
 fn no_change_of_stiffness_gives_a_spring_energy() {
     let turn = Slip { position: 0.01, speed: 0.0 };
     for stiffness in [10.0, 1e3, 1e5] {

@@ -82,7 +82,9 @@ fn draw(unit: &Unit, r: &mut Random) {
             unsafe { fmi2SetBoolean(unit.c, &(i as u32), 1, &(r.below(2) as i32)) };
         }
     }
-    for (name, value) in [("inertia.left_end", 0.5), ("inertia.right_end", 0.5), ("lock.command", 1.0)] {
+    let values =
+        [("inertia.left_end", 0.5), ("inertia.right_end", 0.5), ("lock.command", 1.0), ("left.brake_torque", 500.0)];
+    for (name, value) in values {
         if let (true, Some(i)) = (r.chance(2), find(name)) {
             // SAFETY: a live component and one value
             unsafe { fmi2SetReal(unit.c, &(i as u32), 1, &value) };

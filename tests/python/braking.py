@@ -1,0 +1,27 @@
+"""Scenes with wheel brakes: both wheels with inertia, no loads but brakes, the carrier driven by torque."""
+
+import numpy as np
+from driving import SIDES, UNLOADED
+
+CONTACTS = ["ideal", "lumped", "tooth", "solid"]
+STIFFNESS, END, CARRIER_INERTIA = 1e5, 0.5, 0.02
+# of all that turns with the carrier, gears left out
+WHOLE = CARRIER_INERTIA + 2.0 * END
+BRAKED = {"effects.wheel_brake": True, "wheel_brake.stiffness": STIFFNESS, "inertia.left_end": END,
+          "inertia.right_end": END, "inertia.carrier": CARRIER_INERTIA, "scene.carrier_drive": "torque"} | UNLOADED
+# gears without inertia
+MASSLESS = {"inertia.from_geometry": False, "inertia.side_gear": 1e-12, "inertia.planet": 1e-12}
+EXACT = {"solver.relative_tolerance": 1e-9}
+
+
+def brakes(left, right=None):
+    return {"left.brake_torque": left, "right.brake_torque": left if right is None else right}
+
+
+def drive_torque(torque):
+    return {"carrier.torque_command": torque}
+
+
+def wheel_angles(driven):
+    """Of the wheels: of the side gears where half-shafts are rigid."""
+    return np.array([driven[f"{side}.angle"] - driven[f"{side}.twist"] for side in SIDES])

@@ -1,0 +1,272 @@
+"""Brake torques as inputs: ramped, released, refused; saved states, mirror images, model exchange, derivatives."""
+
+import numpy as np
+import pytest
+from braking import BRAKED, CONTACTS, END, EXACT, MASSLESS, STIFFNESS, WHOLE, brakes, drive_torque, wheel_angles
+from driving import SIDES
+from fmpy import simulate_fmu
+from fmpy.fmi1 import FMICallException
+
+IDEAL = BRAKED | MASSLESS | {"scene.gear_contact": "ideal"}
+STOP = IDEAL | brakes(400.0) | drive_torque(300.0) | {"carrier.speed_command": 30.0}
+OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.angle",
+           "right.speed", "right.shaft_torque", "carrier.torque", "carrier.speed", "planet[1].spin_angle", "heat.brake",
+           "held.wheels", "solver.steps", "solver.energy_residual", "power.in", "power.out", "power.loss"]
+
+
+def reference(driven, name):
+    return driven.opened.variables[name].valueReference
+
+
+def ramp(driven, rate):
+    """Both brake torques change at `rate` [N·m/s] in the steps to come."""
+    names = [reference(driven, f"{side}.brake_torque") for side in SIDES]
+    driven.opened.fmu.setRealInputDerivatives(names, [1, 1], [rate, rate])
+
+
+def slowed(torque, drive, speed, time, rate):
+    """Speed, angle, and heat of both brakes while wheels slide: T = torque + rate t against a constant drive."""
+    t = np.polynomial.Polynomial([0.0, 1.0])
+    brake = torque + rate * t
+    omega = speed + ((drive - 2.0 * brake) / WHOLE).integ()
+    return omega(time), omega.integ()(time), (2.0 * brake * omega).integ()(time)
+
+
+def test_a_torque_that_is_ramped_slows_wheels_by_its_closed_form(drive):
+    """By derivatives in one step of 0.2 s, and in steps of 1 ms, each with the torque at its middle."""
+    torque, rate, speed, time = 50.0, 1500.0, 30.0, 0.2
+    expected = slowed(torque, 300.0, speed, time, rate)
+    base = IDEAL | EXACT | drive_torque(300.0) | {"carrier.speed_command": speed, "scene.start": "rolling"}
+    once = drive(base | brakes(torque))
+    ramp(once, rate)
+    once.step(time)
+    assert once.read(["left.speed", "left.angle", "heat.brake"]) == pytest.approx(expected, rel=1e-9)
+    assert once.residual() < 1e-9 * once["heat.brake"]
+    # held constant in each step, work and angle follow those of the step
+    steps, size, stepped = 200, time / 200, drive(base)
+    angle = heat = 0.0
+    for k in range(steps):
+        held = torque + rate * (k + 0.5) * size
+        stepped.set(brakes(held))
+        stepped.step((k + 1) * size - stepped.time)
+        speed, turned, made = slowed(held, 300.0, speed, size, 0.0)
+        angle, heat = angle + turned, heat + made
+    assert stepped.read(["left.speed", "left.angle", "heat.brake"]) == pytest.approx([speed, angle, heat], rel=1e-9)
+    assert speed == pytest.approx(expected[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("lowest", [0.0, 30.0])
+def test_wheels_that_are_held_slide_once_their_brakes_are_ramped_below_what_they_carry(drive, lowest):
+    """In one communication step, down to `lowest` and on at that."""
+    carried, rate = 50.0, -1000.0
+    driven = drive(IDEAL | EXACT | brakes(200.0) | drive_torque(2.0 * carried) | {"scene.start": "rest"}).to(0.5, 1e-2)
+    assert driven["held.wheels"] == 2.0
+    spring = 2.0 * 0.5 * carried**2 / STIFFNESS
+    before = driven["heat.brake"]
+    ramp(driven, rate)
+    if lowest:
+        driven.step((lowest - 200.0) / rate)
+        ramp(driven, 0.0)
+        driven.set(brakes(lowest))
+        driven.step(1.0 - driven.time)
+    else:
+        driven.step(0.5)
+    begin, end = 0.5 + (carried - 200.0) / rate, 0.5 + (lowest - 200.0) / rate
+    speed, _, heat = slowed(carried, 2.0 * carried, 0.0, end - begin, rate)
+    more, _, later = slowed(lowest, 2.0 * carried, speed, 1.0 - end, 0.0)
+    assert driven["left.speed"] == pytest.approx(more, rel=1e-5)
+    assert driven["heat.brake"] - before == pytest.approx(heat + later + spring, rel=1e-5)
+    assert driven["held.wheels"] == 0.0
+    assert driven.imbalance() < 1e-6
+    assert driven["solver.steps"] < 1000.0
+
+
+def test_wheels_at_rest_are_held_by_a_torque_that_grows_from_nothing(drive):
+    """Driven from rest, they slide while T < T_e, and stop where ∫(T − T_e) dt = 0."""
+    carried, rate = 50.0, 1000.0
+    driven = drive(IDEAL | EXACT | brakes(0.0) | drive_torque(2.0 * carried) | {"scene.start": "rest"})
+    ramp(driven, rate)
+    driven.step(0.3)
+    stop = 2.0 * carried / rate
+    _, turned, _ = slowed(0.0, 2.0 * carried, 0.0, stop, rate)
+    # they stop at T = 2 T_e, and the spring gives back what is beyond T_e
+    assert driven["held.wheels"] == 2.0
+    assert driven["left.angle"] == pytest.approx(turned - carried / STIFFNESS, rel=1e-6)
+    assert driven.imbalance() < 1e-6
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_a_brake_that_is_released_while_it_holds_turns_its_spring_into_heat(drive, contact):
+    carried = 50.0
+    driven = drive(BRAKED | EXACT | brakes(750.0) | drive_torque(2.0 * carried)
+                   | {"scene.start": "rest", "scene.gear_contact": contact}).to(1.0, 1e-2)
+    before = driven["heat.brake"]
+    driven.set(brakes(0.0))
+    driven.to(1.1, 1e-2)
+    assert driven["heat.brake"] - before == pytest.approx(carried**2 / STIFFNESS, rel=1e-6)
+    assert driven["held.wheels"] == 0.0
+    assert driven["left.speed"] == pytest.approx(2.0 * carried / WHOLE * 0.1, rel=0.01)
+    # put on again while rolling
+    driven.set(brakes(100.0))
+    begin = wheel_angles(driven)
+    driven.to(1.12, 1e-3)
+    assert driven["heat.brake"] - before - carried**2 / STIFFNESS == pytest.approx(
+        100.0 * (wheel_angles(driven) - begin).sum(), rel=1e-5)
+    assert driven.imbalance() < 1e-6
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_torques_are_read_under_the_brakes_that_were_just_set(drive, contact):
+    driven = drive(BRAKED | drive_torque(100.0) | {"scene.gear_contact": contact, "carrier.speed_command": 20.0})
+    driven.to(0.1, 1e-2)
+    residual, before = driven["solver.energy_residual"], driven["left.acceleration"]
+    driven.set(brakes(300.0, 0.0))
+    delivered = 300.0 + END * driven["left.acceleration"]
+    assert driven["left.shaft_torque"] == pytest.approx(delivered, rel=1e-9)
+    assert driven["left.acceleration"] < before - 50.0
+    assert driven["solver.energy_residual"] == residual
+
+
+@pytest.mark.parametrize("value", [-1.0, -1e-9, float("nan"), float("inf"), 2e8])
+def test_a_torque_that_is_no_brake_s_is_refused_by_name_and_range(open_fmu, value):
+    with open_fmu() as opened:
+        opened.set("effects.wheel_brake", True)
+        opened.initialise()
+        for side in SIDES:
+            begin, name = len(opened.log), f"{side}.brake_torque"
+            with pytest.raises(FMICallException) as failure:
+                opened.set(name, value)
+            assert failure.value.status == 2
+            message = "\n".join(opened.log[begin:])
+            assert name in message and "[0, 100000000]" in message and "N.m" in message, message
+            assert opened.get(name) == 0.0
+        opened.fmu.doStep(0.0, 1e-3)
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_a_state_saved_while_a_wheel_is_held_goes_on_with_the_same_bits(drive, contact):
+    values = BRAKED | brakes(750.0, 20.0) | drive_torque(100.0) | {"scene.start": "rest", "scene.gear_contact": contact}
+
+    def go_on(driven):
+        driven.to(0.15, 1e-3).set(brakes(30.0, 20.0))
+        return driven.to(0.2, 1e-3).read(OUTPUTS)
+
+    driven = drive(values).to(0.1, 1e-3)
+    assert driven["held.wheels"] == 1.0
+    kept, within = driven.save(), driven.opened.fmu.getFMUstate()
+    first = go_on(driven)
+    driven.opened.fmu.setFMUstate(within)
+    driven.opened.fmu.freeFMUstate(within)
+    driven.time = kept[1]
+    assert go_on(driven) == first
+    assert go_on(driven.restore(kept)) == first
+    assert go_on(drive(values).restore(kept)) == first
+
+
+SIGNED = ["angle", "speed", "shaft_torque"]
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_mirrored_scenes_have_mirrored_motions(drive, contact):
+    """Backwards, and with left and right exchanged."""
+
+    def motion(sign, left, right):
+        values = BRAKED | EXACT | {f"{left}.brake_torque": 300.0, f"{right}.brake_torque": 100.0,
+                                   f"{left}.load_torque": sign * 20.0, "scene.gear_contact": contact,
+                                   "scene.start": "rest", **drive_torque(sign * 500.0)}
+        driven, rows = drive(values), []
+        names = [f"{side}.{name}" for side in (left, right) for name in SIGNED] + ["carrier.speed", "heat.brake"]
+        driven.to(0.1, 1e-2, lambda d: rows.append(d.read(names)))
+        driven.set(drive_torque(sign * -200.0))
+        driven.to(0.2, 1e-2, lambda d: rows.append(d.read(names)))
+        return np.array(rows)
+
+    ahead = motion(1.0, *SIDES)
+    signs = np.array([-1.0] * 7 + [1.0])
+    scale = np.abs(ahead).max(axis=0)
+    # teeth have another flank backwards, of the same shape
+    assert np.abs(motion(-1.0, *SIDES) * signs - ahead).max(axis=0) == pytest.approx(0.0, abs=1e-5 * scale.max())
+    assert (np.abs(motion(1.0, *SIDES[::-1]) - ahead) / scale).max() < 1e-5
+
+
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_without_the_effect_a_brake_torque_changes_no_bit(drive, contact):
+    base = BRAKED | {"effects.wheel_brake": False, "scene.gear_contact": contact}
+    runs = [drive(base | by | drive_torque(300.0)).to(0.1, 1e-3).read(OUTPUTS) for by in (brakes(0.0), brakes(500.0))]
+    assert runs[0] == runs[1]
+
+
+METHODS = {"adaptive": (1e-6, 500), "radau": (1e-6, 500), "rodas4": (1e-6, 500), "dormand_prince": (1e-6, 50_000),
+           "fixed_step": (2e-3, 10_010)}
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_every_method_stops_a_wheel_where_it_stops(drive, method):
+    tolerance, steps = METHODS[method]
+    driven = drive(STOP | {"solver.method": method, "scene.start": "rolling"}).to(1.0, 1e-2)
+    slip = 0.5 * 30.0**2 * WHOLE / (2.0 * 400.0 - 300.0)
+    assert driven["held.wheels"] == 2.0
+    assert driven["left.angle"] == pytest.approx(slip - (400.0 - 150.0) / STIFFNESS, rel=tolerance)
+    assert driven["left.speed"] == pytest.approx(0.0, abs=1e-6)
+    assert driven["solver.steps"] < steps
+
+
+@pytest.fixture
+def exchange(unpacked, description, literals):
+    """exchange(values, signals, stop): the speed and the angle of the left wheel under a solver of the host's."""
+
+    def run(values, signals, stop):
+        values = {name: literals[name][value] if name in literals else value for name, value in values.items()}
+        record = simulate_fmu(unpacked, model_description=description, fmi_type="ModelExchange", start_values=values,
+                              input=signals, stop_time=stop, output_interval=1e-3, relative_tolerance=1e-9,
+                              output=["left.speed", "left.angle", "heat.brake", "held.wheels"], solver="CVode",
+                              logger=lambda *_: None)
+        return [record[name][-1] for name in ("left.speed", "left.angle", "heat.brake", "held.wheels")]
+
+    return run
+
+
+@pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
+def test_a_solver_of_the_host_stops_a_wheel_as_the_own_one_does(drive, exchange, contact):
+    values = BRAKED | brakes(400.0, 300.0) | drive_torque(300.0) | {"scene.gear_contact": contact,
+                                                                     "carrier.speed_command": 5.0}
+    own = drive(values | EXACT).to(0.3, 1e-3)
+    speed, angle, heat, held = exchange(values, None, 0.3)
+    assert held == own["held.wheels"] == 2.0
+    assert angle == pytest.approx(own["left.angle"], rel=1e-4)
+    assert heat == pytest.approx(own["heat.brake"], rel=1e-2)
+    assert speed == pytest.approx(0.0, abs=1e-4)
+
+
+def test_a_solver_of_the_host_follows_a_brake_that_is_ramped_up_from_nothing_and_released(exchange):
+    """Continuous inputs, whose brake begins and ends between events."""
+    shape = [("time", float), ("left.brake_torque", float), ("right.brake_torque", float)]
+    points = [(0.0, 0.0), (0.1, 0.0), (0.2, 400.0), (0.3, 0.0), (0.5, 0.0)]
+    signals = np.array([(time, torque, torque) for time, torque in points], dtype=shape)
+    values = IDEAL | drive_torque(300.0) | {"carrier.speed_command": 60.0, "scene.start": "rolling"}
+    speed, angle, heat, held = exchange(values, signals, 0.5)
+    omega, turned, made = 60.0, 0.0, 0.0
+    for torque, rate, time in [(0.0, 0.0, 0.1), (0.0, 4000.0, 0.1), (400.0, -4000.0, 0.1), (0.0, 0.0, 0.2)]:
+        omega, more, warm = slowed(torque, 300.0, omega, time, rate)
+        turned, made = turned + more, made + warm
+    assert held == 0.0
+    assert [speed, angle] == pytest.approx([omega, turned], rel=1e-4)
+    assert heat == pytest.approx(made, rel=1e-3)
+
+
+def test_derivatives_by_the_brake_torque_are_those_of_the_closed_form(drive):
+    driven = drive(STOP | {"scene.start": "rolling"}).to(0.02, 1e-2)
+    fmu, known = driven.opened.fmu, [reference(driven, f"{side}.brake_torque") for side in SIDES]
+    unknown = [reference(driven, name) for name in ("left.acceleration", "left.shaft_torque")]
+    # both wheels: −2/J of all, of which each wheel keeps 1 − 2 J_w/J
+    expected = [-2.0 / WHOLE, 1.0 - 2.0 * END / WHOLE]
+    assert fmu.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx(expected, rel=1e-6)
+    ramp(driven, -700.0)
+    driven.step(0.01)
+    slopes = fmu.getRealOutputDerivatives(unknown, [1, 1])
+    assert slopes == pytest.approx([-700.0 * slope for slope in expected], rel=1e-6)
+    # a wheel that is held does not feel its brake's torque
+    ramp(driven, 0.0)
+    driven.to(1.0, 1e-2)
+    assert driven["held.wheels"] == 2.0
+    assert fmu.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-9)
