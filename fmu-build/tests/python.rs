@@ -9,6 +9,6 @@ fn the_fmu_passes_its_python_tests() -> Result<()> {
     let environment = Environment::ready(|what| println!("{what}"))?;
     let fmu = package::package()?;
     // the error is pytest's report, which Debug prints line by line
-    println!("{}", environment.test(&fmu, &["-q"])?);
+    println!("{}", environment.test(&fmu, &["-q", "-n", "auto", "--dist", "worksteal"])?);
     Ok(())
 }

@@ -184,6 +184,8 @@ fn distributable(mut command: Command, name: &str, ending: &str) -> Result<PathB
         .arg("--target-dir")
         .arg(paths::target().join("cross").join(name))
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
+        // whatever the rest is built with: one unit inlines what matters
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", without_folders().join("\u{1f}"));
     built_by(command, CRATE, ending).with_context(|| format!("the library for {name}"))
 }
