@@ -109,7 +109,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_E
             equations.tooth_loads(pair, point, g, s, |load| {
                 mesh.add(load);
                 if let Some(strength) = &model.strength {
-                    stress[g][s].add(strength, load);
+                    strength.add_load(&mut stress[g][s], load);
                 }
             });
         }

@@ -4,6 +4,8 @@ use super::fatigue::Fatigue;
 use super::mesh_load::MeshLoad;
 use super::overload::{Overload, Stressed};
 use super::spec::StrengthSpec;
+use crate::contact::pairs::Flank;
+use crate::contact::tooth_load::ToothLoad;
 use crate::model::effect_kinds::effect::Setting;
 use crate::problem::Problem;
 use crate::strength::{Load, LoadCycle, LoadFactors, Rainflow, Rating, loaded_flank, pulsating_range};
@@ -51,6 +53,15 @@ impl GearStrength {
         };
         let sensitivity = material.mean_stress_sensitivity();
         Ok(Self { rating, sensitivity, mean_cone: setting.pair.mean_cone })
+    }
+
+    /// Adds the load of a pair to that of its mesh.
+    pub fn add_load(&self, mesh: &mut MeshLoad, load: &ToothLoad) {
+        // referred to the mean cone distance, as in the formulas of strength
+        mesh.normal += load.normal * load.cone / self.mean_cone;
+        mesh.driving = load.flank == Flank::Drive;
+        let pressure = self.rating.contact.pressure_at(load.line_load, load.cone, load.s);
+        mesh.pressure = mesh.pressure.max(pressure.unwrap_or(0.0));
     }
 
     /// Sets the readings of stress from the loads of all meshes at an instant.
