@@ -95,7 +95,7 @@ fn inputs(effect: &Declared) -> Vec<bevel_differential::declaration::Row<InputFi
 
 /// Switch, what it adds, and what it brings to the interface.
 fn overview() -> Table {
-    let mut table = Table::new(["switch", "what it adds", "inputs and outputs of its own"]).all_left();
+    let mut table = Table::new(["switch", "what it adds", "own inputs and outputs"]).all_left();
     for effect in EFFECTS {
         let inputs = inputs(effect);
         let heat = effect.heat.map(|heat| heat.output);

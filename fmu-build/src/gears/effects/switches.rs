@@ -15,7 +15,8 @@ const LEVEL: &str = "scene.gear_contact";
 /// Effects that say what is built in, broken or driven, and not how closely it is looked at: whether a differential has
 /// clutch packs or a broken tooth, and how it is excited, is part of the question. They are not put into a scene that
 /// does not have them.
-const PART_OF_THE_QUESTION: [&str; 3] = ["effects.limited_slip", "effects.tooth_fault", "effects.final_drive"];
+const PART_OF_THE_QUESTION: [&str; 4] =
+    ["effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake"];
 
 /// Effects that change no motion and only give outputs, with the beginnings of the names of those. Zero is an answer of
 /// theirs, such as a damage of 0, and differs from not asking.
