@@ -134,7 +134,9 @@ fn what_does_not_go_together_is_shown_with_its_reason() {
         assert!(matches!(row(&found, name).verdict, Verdict::Refused(_)), "{name}");
     }
     let text = table::text(&found);
-    assert!(text.contains("tooth_errors, tooth_fault, tooth_friction: acts on single tooth pairs: it needs"), "{text}");
+    let reason =
+        "tooth_fault, tooth_friction: does not work with scene.gear_contact = ideal: it acts on single tooth pairs";
+    assert!(text.contains(reason), "{text}");
 }
 
 #[test]

@@ -291,25 +291,11 @@ fn initial_derivatives(
             ))
         })?;
         for (sum, source) in sums.iter_mut().zip(sources) {
-            *sum += weight * read(&mut simulation, *source);
+            *sum += weight * source.read(&mut simulation);
         }
     }
     for ((reference, sum), value) in unknown.iter().zip(sums).zip(values.iter()) {
         value.write(finite_slope(row(reference)?, sum / step)?);
     }
     Ok(())
-}
-
-/// Value of a variable.
-fn read(simulation: &mut Simulation, source: OutputSource) -> f64 {
-    match source {
-        OutputSource::Motion(of) => of(&simulation.motion()),
-        OutputSource::Forces(of) => of(simulation.forces()),
-        OutputSource::Reading(place) => simulation.forces().readings[place],
-        OutputSource::Ledger(of) => of(&simulation.ledger()),
-        OutputSource::LedgerReading(place) => simulation.ledger().readings[place],
-        OutputSource::Heat(place) => simulation.ledger().heat[place],
-        OutputSource::State(k) => simulation.states()[k],
-        OutputSource::Rate(k) => simulation.state_rates()[k],
-    }
 }

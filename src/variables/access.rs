@@ -1,7 +1,7 @@
 //! The way from a row of the table to the value of its variable.
 
 use crate::declaration::{EnumType, Field, GetChoice, Parameter, Row, SetChoice};
-use crate::model::{Forces, InputField, LedgerReadings, Motion, Parameters};
+use crate::model::{Forces, InputField, LedgerReadings, Motion, Parameters, Simulation};
 
 /// Where the value of an output is read.
 #[derive(Clone, Copy)]
@@ -22,6 +22,22 @@ pub enum OutputSource {
     State(usize),
     /// The rate of one.
     Rate(usize),
+}
+
+impl OutputSource {
+    /// Value of the output.
+    pub fn read(self, simulation: &mut Simulation) -> f64 {
+        match self {
+            Self::Motion(of) => of(&simulation.motion()),
+            Self::Forces(of) => of(simulation.forces()),
+            Self::Reading(place) => simulation.forces().readings[place],
+            Self::Ledger(of) => of(&simulation.ledger()),
+            Self::LedgerReading(place) => simulation.ledger().readings[place],
+            Self::Heat(place) => simulation.ledger().heat[place],
+            Self::State(k) => simulation.states()[k],
+            Self::Rate(k) => simulation.state_rates()[k],
+        }
+    }
 }
 
 /// Type of a variable and the way to its value.

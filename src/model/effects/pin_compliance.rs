@@ -42,7 +42,7 @@ impl Declare for PinComplianceSpec {
     });
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
-        why: "it follows from the forces of the meshes, which solid teeth give in one direction only",
+        why: "it follows from the forces of the meshes along the axes and across the pins",
     });
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {

@@ -73,7 +73,7 @@ impl Declare for ThrustFrictionSpec {
     });
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
-        why: "it follows from the thrusts of the meshes, which solid teeth do not give",
+        why: "it follows from the thrusts of the meshes",
     });
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::{Inputs, Parameters, Simulation};
 use bevel_differential::problem::{self, Problem};
-use bevel_differential::variables::{Access, OutputSource, Variable, check_ranges};
+use bevel_differential::variables::{Access, Variable, check_ranges};
 
 use super::units;
 use super::{InputTable, Scene};
@@ -105,11 +105,7 @@ impl<'a> SceneRun<'a> {
     /// Value of an output.
     pub fn read(&mut self, row: &Variable) -> f64 {
         match row.access {
-            Access::Output(OutputSource::Motion(of)) => of(&self.simulation.motion()),
-            Access::Output(OutputSource::Forces(of)) => of(self.simulation.forces()),
-            Access::Output(OutputSource::Ledger(of)) => of(&self.simulation.ledger()),
-            Access::Output(OutputSource::State(k)) => self.simulation.states()[k],
-            Access::Output(OutputSource::Rate(k)) => self.simulation.state_rates()[k],
+            Access::Output(source) => source.read(&mut self.simulation),
             _ => f64::NAN,
         }
     }
