@@ -150,7 +150,7 @@ fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
         ("[[at]]\ntime = 0.05\ngeometry.module = \"4 mm\"", vec!["time = 0.05", "geometry.module is fixed"]),
         ("[[at]]\ntime = 7\nleft.load_torque = 0", vec!["time = 7", "[0, 0.1] s"]),
         ("[[at]]\nleft.load_torque = 0", vec!["no time"]),
-        ("[[table]]\ninput = \"left.speed\"\ntime = [0]\nvalue = [0]", vec!["left.speed", "no input"]),
+        ("[[table]]\ninput = \"left.speed\"\ntime = [0]\nvalue = [0]", vec!["left.speed", "not an input"]),
         ("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1]\nvalue = [0]", vec!["2 times and 1 values"]),
         ("[[table]]\ninput = \"left.load_torque\"\ntime = [1, 0]\nvalue = [0, 0]", vec!["rise"]),
         ("stop_tim = 3", vec!["stop_tim"]),

@@ -8,10 +8,11 @@ use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
 use bevel_differential::model::Parameters;
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
-    Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, real_start, table,
+    Access, Causality, EnumType, MODEL_NAME, Table, Variability, Variable, guid, real_start, table,
 };
 use clap::Args;
 
+use crate::fmu::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use crate::fmu::effect_list;
 use crate::fmu::xml::Element;
 use crate::tools::paths;
@@ -286,62 +287,6 @@ fn structure(table: &Table) -> Element {
         .child(Element::new("Outputs").children(outputs))
         .child(Element::new("Derivatives").children(derivatives))
         .child(Element::new("InitialUnknowns").children(initial))
-}
-
-/// Ending of names of outputs that depend only on the load of their side.
-const BY_OWN_LOAD: &str = ".twist";
-/// Endings of names of outputs that depend only on positions.
-const BY_POSITION: [&str; 1] = ["transmission_error"];
-/// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
-const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
-const BY_MOTION: [&str; 1] = ["power.loss"];
-/// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
-const FOLLOWERS: [(&str, &[&str]); 2] = [
-    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
-    ("planet.spin_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
-];
-
-fn is_torque(input: &Variable) -> bool {
-    input.unit == Some(units::NEWTON_METRE)
-}
-
-fn is_speed(input: &Variable) -> bool {
-    input.unit == Some(units::RAD_PER_S)
-}
-
-fn is_of_ledger(row: &Variable) -> bool {
-    let by_step =
-        |source| matches!(source, OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
-    matches!(row.access, Access::Output(source) if by_step(source))
-}
-
-fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
-    table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
-}
-
-/// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
-///
-/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
-/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the ledger
-/// follow with time alone.
-pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
-    let row = &table.rows[index];
-    let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
-    match row.access {
-        Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
-            FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
-        }),
-        Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {
-            if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
-                return inputs_where(table, |input| is_torque(input) && input.name.starts_with(side));
-            }
-            if named(&BY_MOTION_OF_TEETH) {
-                return inputs_where(table, |input| FOLLOWERS.iter().any(|(command, _)| *command == input.name));
-            }
-            inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
-        }
-        _ => Vec::new(),
-    }
 }
 
 /// A number such that reading it gives the same bits again.

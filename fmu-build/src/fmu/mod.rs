@@ -1,6 +1,7 @@
 //! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
 //! and the archive. Commands: `package`, `describe`, `toolchains`.
 
+pub mod dependencies;
 pub mod describe;
 pub mod documentation;
 pub mod effect_list;

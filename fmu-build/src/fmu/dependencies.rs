@@ -1,0 +1,70 @@
+//! Which inputs each output depends on at an instant: the model structure of the description.
+
+use bevel_differential::variables::{Access, OutputSource, Table, Variable, units};
+
+/// Ending of names of outputs that depend on the torques of their side, and on speeds that a held wheel opposes.
+const BY_OWN_LOAD: &str = ".twist";
+/// Endings of names of outputs that depend only on positions.
+const BY_POSITION: [&str; 1] = ["transmission_error"];
+/// Parts of names of outputs that depend on positions and speeds but not on torques: of teeth, and of shafts as well.
+const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
+const BY_MOTION: [&str; 1] = ["power.loss"];
+/// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
+const FOLLOWERS: [(&str, &[&str]); 2] = [
+    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+    ("planet.spin_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+];
+
+/// Whether speeds follow the input at once.
+fn is_followed(input: &Variable) -> bool {
+    FOLLOWERS.iter().any(|(command, _)| *command == input.name)
+}
+
+/// Whether the input is a torque.
+pub fn is_torque(input: &Variable) -> bool {
+    input.unit == Some(units::NEWTON_METRE)
+}
+
+/// Whether the input is a speed.
+pub fn is_speed(input: &Variable) -> bool {
+    input.unit == Some(units::RAD_PER_S)
+}
+
+/// Whether the output changes with accepted steps only.
+pub fn is_of_ledger(row: &Variable) -> bool {
+    let by_step =
+        |source| matches!(source, OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
+    matches!(row.access, Access::Output(source) if by_step(source))
+}
+
+/// Inputs that are `wanted`, by their indices.
+pub fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
+    table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
+}
+
+/// Inputs that output `index` depends on at an instant, over all scenes and both kinds of FMU; tests/python checks it.
+///
+/// Torques act at once on accelerations and, without teeth, on all forces. Imposed speeds act at once in model exchange,
+/// on speeds and on all forces, which are damped; in co-simulation they act through the step only. Angles and the ledger
+/// follow with time alone.
+pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
+    let row = &table.rows[index];
+    let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
+    match row.access {
+        Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
+            FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
+        }),
+        Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {
+            if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
+                return inputs_where(table, |input| {
+                    is_torque(input) && input.name.starts_with(side) || is_followed(input)
+                });
+            }
+            if named(&BY_MOTION_OF_TEETH) {
+                return inputs_where(table, is_followed);
+            }
+            inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+        }
+        _ => Vec::new(),
+    }
+}
