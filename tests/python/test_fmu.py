@@ -201,7 +201,10 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(op
     scenes = [ends, {"effects.half_shaft": True}, {**shafts, "effects.strength": True},
               {**ends, "effects.limited_slip": True, "limited_slip.torque_coefficient": 0.0}]
     brakes = {"effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 50.0}
-    scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}]
+    swapped = {**brakes, "left.brake_torque": 50.0, "right.brake_torque": 100.0}
+    scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]
+    # one wheel stands while planets spin at 1 rad/s
+    scenes += [{"effects.half_shaft": True, **brakes, "carrier.speed_command": speed} for speed in [-0.625, 0.625]]
     left, right = {"scene.left_drive": "speed"}, {"scene.right_drive": "speed"}
     ways = [(carrier, spin) for carrier in ["speed", "torque"] for spin in ["free", "imposed"]]
     drives = [(scene, *way) for scene in scenes for way in ways]
