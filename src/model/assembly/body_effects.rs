@@ -20,6 +20,8 @@ pub struct BodyEffects {
     pub half_shafts: HalfShafts,
     /// Whether there are effects; without any, a lock may still be commanded.
     pub always: bool,
+    /// Whether wheels have brakes.
+    pub has_brakes: bool,
 }
 
 impl BodyEffects {
@@ -27,6 +29,7 @@ impl BodyEffects {
     pub fn new(p: &Parameters, effects: &SceneEffects, plan: &Plan) -> Self {
         let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
         Self {
+            has_brakes: friction.iter().any(|source| source.wheel.is_some()),
             always: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
             forces: Arc::new(forces),
             friction,

@@ -80,7 +80,7 @@ pub fn are_brakes_new(model: &Model, inputs: &Inputs, state: &State) -> bool {
 /// Whether wheels have brakes.
 #[inline]
 pub fn has_brakes(model: &Model) -> bool {
-    imposed::body_effects(model).friction.iter().any(|source| source.wheel.is_some())
+    imposed::body_effects(model).has_brakes
 }
 
 /// `state` with the brakes as `inputs` have them; `None` if nothing changes.
