@@ -1,4 +1,5 @@
-"""The threshold at which free planets roll under unequal loads, against statics computed here from the formulas.
+"""The threshold at which free planets roll under unequal loads, against the statics of the same gears: computed here from
+the formulas for `impact`, and for the laws from the shape of the teeth from the torque that turns the planets slowly.
 
 Stiffness that varies along the path makes a potential well for the planets' spin. Its depth and steepest slope follow
 from the tooth geometry alone: energy of all pairs, with side gears in balance with their load, while the planets turn."""
@@ -13,6 +14,8 @@ from plain import Differential, Gears, Scene
 GEARS = Gears()
 # only its elastic forces: pairs at zero speed
 MODEL = Differential(Scene())
+# spin at which inertia and damping take less than a thousandth of the torque [rad/s]
+SLOW = 0.01
 
 
 def energy(approach, travel):
@@ -49,3 +52,18 @@ def threshold():
 def test_free_planets_roll_beyond_the_steepest_slope_of_their_well(drive, threshold, share, rolls):
     driven = drive({"left.load_torque": theory.LOAD + share * threshold}).to(0.2, 1e-3)
     assert (abs(driven["planet[1].spin_speed"]) > 10.0) == rolls, threshold
+
+
+@pytest.mark.parametrize("law", ["impact", "line", "line_weber"])
+def test_the_threshold_is_the_largest_torque_that_turning_the_planets_slowly_takes(drive, law, threshold):
+    points = 400
+    turned = drive({"contact.law": law, "scene.planet_spin": "imposed", "planet.spin_command": SLOW})
+    torques = []
+    turned.to(theory.TOOTH_PITCH / SLOW, theory.TOOTH_PITCH / SLOW / points, lambda d: torques.append(d["planet.spin_torque"]))
+    # a difference of the loads by ΔT turns the planets by ΔT z_p/z_s
+    steepest = np.max(np.abs(torques)) * theory.SIDE_TEETH / theory.PLANET_TEETH
+    if law == "impact":
+        assert steepest == pytest.approx(threshold, rel=2e-3)
+    for share, rolls in [(0.97, False), (1.03, True)]:
+        driven = drive({"contact.law": law, "left.load_torque": theory.LOAD + share * steepest}).to(0.2, 1e-3)
+        assert (abs(driven["planet[1].spin_speed"]) > 10.0) == rolls, steepest

@@ -1,6 +1,7 @@
 //! A running simulation: its start, its steps, events, the ledger, and model exchange.
 
 mod cost_class;
+mod equilibrium;
 mod events;
 mod excessive_deflection;
 mod exchange;

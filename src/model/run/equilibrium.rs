@@ -1,0 +1,177 @@
+//! The static equilibrium of loaded teeth: positions at which the meshes carry their loads, and stay.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::excessive_deflection::limit_name;
+use super::hints;
+use crate::integrate::{Matrix, Point};
+use crate::model::assembly::model::Model;
+use crate::model::assembly::teeth::Teeth;
+use crate::model::dynamics::equations::Equations;
+use crate::numeric::{Landscape, Search, sqrt};
+use crate::problem::Problem;
+
+/// Longest step of the search for an equilibrium [base pitches]: the potential tilts under unequal loads, and a long
+/// step would leave the nearest well.
+const LONGEST_STEP: f64 = 1.0 / 32.0;
+/// Torque balance at equilibrium, relative to the loads.
+const BALANCE: f64 = 1e-11;
+/// Loads below this are none [N·m].
+const LEAST_LOAD: f64 = 1e-6;
+
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+    /// Forces of meshes and structure at rest, with their derivatives by position.
+    pub(super) fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
+            return self.structure(at);
+        }
+        let still = Point { q: at.q, v: [0.0; N] };
+        (self.tooth_torques(&still).0, self.tooth_stiffness(at))
+    }
+
+    /// Energy that belongs to [`Self::statics`].
+    fn static_energy(&self, at: &Point<N>) -> f64 {
+        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
+            self.stored(at, false)
+        } else {
+            self.elastic_energy(at)
+        }
+    }
+}
+
+/// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
+pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    model: &Model,
+    teeth: &Teeth,
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    torque: [f64; 2],
+    point: &mut Point<N>,
+) -> Result<(), Problem> {
+    for s in 0..2 {
+        point.q[s] = 0.0;
+        if torque[s] == 0.0 {
+            continue;
+        }
+        // Q_α falls steadily with α: bracket between mid-gap and the angle of the largest deflection
+        let mut free = 0.0;
+        let mut pressed =
+            -torque[s].signum() * (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
+        let excess = |alpha: f64, point: &mut Point<N>| {
+            point.q[s] = alpha;
+            (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()
+        };
+        if excess(pressed, point) < 0.0 {
+            let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
+            return Err(Problem::new(
+                name,
+                format!(
+                    "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+                    torque[s],
+                    limit_name(model),
+                    hints::stiffer_teeth(&model.parameters)
+                ),
+            ));
+        }
+        for _ in 0..200 {
+            let middle = 0.5 * (free + pressed);
+            if middle == free || middle == pressed {
+                break;
+            }
+            if excess(middle, point) < 0.0 { free = middle } else { pressed = middle }
+        }
+        point.q[s] = pressed;
+    }
+    Ok(())
+}
+
+/// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
+/// tooth pitch.
+///
+/// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
+/// under loads that drive forward, at negative ones under the mirrored loads.
+pub fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    torque: [f64; 2],
+    point: &Point<N>,
+) -> Option<Point<N>> {
+    let well = Well { equations, torque, point, unknowns: unknowns(equations) };
+    let teeth = equations.teeth;
+    let load = torque[0].abs() + torque[1].abs();
+    let forward = torque[0] + torque[1];
+    let forward = if forward == 0.0 { torque[0] } else { forward };
+    let lean = if forward < 0.0 { -1.0 } else { 1.0 };
+    let is_planet = |i: usize| (0..teeth.layout.groups).any(|g| i == teeth.layout.planet(g));
+    let balance = BALANCE * load.max(LEAST_LOAD);
+    let search = Search {
+        longest: LONGEST_STEP * teeth.base_pitch,
+        balance,
+        rough: balance.max(sqrt(f64::EPSILON) * load),
+        lean: well.unknowns_from(|i| if is_planet(i) { lean } else { 0.0 }),
+    };
+    let found = well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?);
+    let pitch = teeth.base_pitch / teeth.sin_base[0];
+    (0..teeth.layout.groups).all(|g| found.q[teeth.layout.planet(g)].abs() < pitch).then_some(found)
+}
+
+/// Places of the unknown positions, and how many bodies each stands for; a group without members has nothing to find.
+fn unknowns<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+) -> Vec<(usize, f64)> {
+    let teeth = equations.teeth;
+    let layout = &teeth.layout;
+    let mut unknowns = vec![(0, 1.0), (1, 1.0)];
+    for g in (0..G).filter(|&g| layout.members[g] > 0.0) {
+        if !teeth.plan.spin_imposed {
+            unknowns.push((layout.planet(g), layout.members[g]));
+        }
+        if P > 0 {
+            unknowns.push((layout.pin(g), layout.members[g]));
+        }
+    }
+    if P > 0 {
+        unknowns.extend([(layout.seat(0), 1.0), (layout.seat(1), 1.0)]);
+    }
+    unknowns
+}
+
+/// The potential V + Σ T_s α_s around `point` as a function of the unknown positions.
+struct Well<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> {
+    equations: &'a Equations<'a, N, G, P, WITH_EFFECTS>,
+    torque: [f64; 2],
+    point: &'a Point<N>,
+    unknowns: Vec<(usize, f64)>,
+}
+
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Well<'_, N, G, P, WITH_EFFECTS> {
+    fn unknowns_from(&self, value: impl Fn(usize) -> f64) -> DVector<f64> {
+        DVector::from_iterator(self.unknowns.len(), self.unknowns.iter().map(|&(i, _)| value(i)))
+    }
+
+    fn at(&self, x: &DVector<f64>) -> Point<N> {
+        let mut point = *self.point;
+        self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
+        point
+    }
+}
+
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Landscape
+    for Well<'_, N, G, P, WITH_EFFECTS>
+{
+    fn value(&self, x: &DVector<f64>) -> f64 {
+        let at = self.at(x);
+        self.equations.static_energy(&at) + self.torque[0] * at.q[0] + self.torque[1] * at.q[1]
+    }
+
+    fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+        let (sum, stiffness) = self.equations.statics(&self.at(x));
+        // forces on unknowns, counted by the bodies they stand for, point down the potential
+        let force = |&(i, members): &(usize, f64)| if i < 2 { sum[i] - self.torque[i] } else { members * sum[i] };
+        let n = self.unknowns.len();
+        let gradient = DVector::from_iterator(n, self.unknowns.iter().map(|unknown| -force(unknown)));
+        let hessian = DMatrix::from_fn(n, n, |a, b| {
+            let ((i, members), (j, _)) = (self.unknowns[a], self.unknowns[b]);
+            -members * stiffness[i][j]
+        });
+        (gradient, hessian)
+    }
+}

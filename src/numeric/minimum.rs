@@ -1,0 +1,228 @@
+//! A local minimum of a function of a few variables, from its exact gradient and Hessian.
+//!
+//! Newton's method, damped where the Hessian is not positive definite (Levenberg). The gradient also vanishes at maxima and
+//! saddle points: where it does, the Hessian decides, and the search goes on along a direction in which the function
+//! curves down (J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd edition, sections 3.4 and 4.3).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::sqrt;
+
+/// A function to be minimised.
+pub trait Landscape {
+    /// Its value at `x`.
+    fn value(&self, x: &DVector<f64>) -> f64;
+    /// Gradient and Hessian at `x`.
+    fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>);
+}
+
+/// How to search.
+#[derive(Clone, Debug)]
+pub struct Search {
+    /// Largest change of a variable in one step, so that the search does not leap over a nearby minimum.
+    pub longest: f64,
+    /// Largest component of the gradient at a balance.
+    pub balance: f64,
+    /// The same where rounding of the values allows no better.
+    pub rough: f64,
+    /// From a saddle point the search leaves in the direction of this vector rather than against it.
+    pub lean: DVector<f64>,
+}
+
+/// Iterations; a handful is enough.
+const MAX_ITERATIONS: usize = 200;
+/// Trials of one step, with growing damping or shrinking length.
+const TRIALS: usize = 60;
+/// Curvature relative to the Hessian's diagonal that counts as none: a flat valley is no saddle.
+const FLAT: f64 = 1e-9;
+/// Inverse iterations for the direction of least curvature, each of which gains a digit at least.
+const INVERSE_ITERATIONS: usize = 16;
+
+impl Search {
+    /// The minimum that descent from `start` reaches, if it reaches one.
+    pub fn minimum(&self, landscape: &impl Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
+        let (mut x, mut damping) = (start, 0.0);
+        for _ in 0..MAX_ITERATIONS {
+            let (gradient, hessian) = landscape.slopes(&x);
+            let descended = if gradient.amax() <= self.balance {
+                let Some(way) = downward(&hessian, &self.lean) else {
+                    return Some(polished(landscape, x, gradient, hessian));
+                };
+                self.leave(landscape, &x, &way)
+            } else {
+                self.step(landscape, &x, (&gradient, &hessian), &mut damping)
+            };
+            let Some(next) = descended else {
+                let settled = gradient.amax() <= self.rough && downward(&hessian, &self.lean).is_none();
+                return settled.then_some(x);
+            };
+            x = next;
+        }
+        None
+    }
+
+    /// A step from a saddle point along `way`, as long as it leads down.
+    fn leave(&self, landscape: &impl Landscape, x: &DVector<f64>, way: &DVector<f64>) -> Option<DVector<f64>> {
+        let value = landscape.value(x);
+        (0..TRIALS as i32)
+            .map(|k| x + way * (self.longest / way.amax() * 0.5f64.powi(k)))
+            .find(|trial| landscape.value(trial) < value)
+    }
+
+    /// A damped Newton step that leads down.
+    fn step(
+        &self,
+        landscape: &impl Landscape,
+        x: &DVector<f64>,
+        (gradient, hessian): (&DVector<f64>, &DMatrix<f64>),
+        damping: &mut f64,
+    ) -> Option<DVector<f64>> {
+        let (value, size) = (landscape.value(x), hessian.diagonal().amax().max(f64::MIN_POSITIVE));
+        for _ in 0..TRIALS {
+            let mut damped = hessian.clone();
+            (0..x.len()).for_each(|i| damped[(i, i)] += *damping * size);
+            let step = damped.cholesky().map(|c| c.solve(gradient));
+            if let Some(step) = step.filter(|step| step.amax() < self.longest) {
+                let trial = x - step;
+                let lower = landscape.value(&trial) < value;
+                // near the minimum values differ by less than their rounding
+                let level = || landscape.value(&trial) <= value + 1e-12 * size;
+                if lower || landscape.slopes(&trial).0.norm() < gradient.norm() && level() {
+                    *damping = if *damping < 1e-14 { 0.0 } else { *damping * 0.1 };
+                    return Some(trial);
+                }
+            }
+            *damping = if *damping == 0.0 { 1e-12 } else { *damping * 10.0 };
+        }
+        None
+    }
+}
+
+/// Newton's method from `x`, near a minimum, as long as each step halves the gradient at least. Where the curvature is that
+/// of a contact just touching, the gradient falls only linearly.
+fn polished(
+    landscape: &impl Landscape,
+    mut x: DVector<f64>,
+    mut gradient: DVector<f64>,
+    mut hessian: DMatrix<f64>,
+) -> DVector<f64> {
+    while gradient.amax() > 0.0 {
+        let Some(cholesky) = hessian.cholesky() else { break };
+        let trial = &x - cholesky.solve(&gradient);
+        let (next, curvature) = landscape.slopes(&trial);
+        // written so that NaN ends it, too
+        let halved = next.amax() <= 0.5 * gradient.amax();
+        if !halved {
+            break;
+        }
+        (x, gradient, hessian) = (trial, next, curvature);
+    }
+    x
+}
+
+/// A direction in which a function with this Hessian curves down, on the side of `lean`; `None` if there is none.
+fn downward(hessian: &DMatrix<f64>, lean: &DVector<f64>) -> Option<DVector<f64>> {
+    let n = lean.len();
+    // variables of different units, each scaled by its own curvature, which keeps the signs of all curvatures
+    let scale = DVector::from_fn(n, |i, _| {
+        let own = hessian[(i, i)].abs();
+        if own > 0.0 { 1.0 / sqrt(own) } else { 1.0 }
+    });
+    let scaled = DMatrix::from_fn(n, n, |i, j| hessian[(i, j)] * scale[i] * scale[j]);
+    let shifted = |shift: f64| (&scaled + DMatrix::identity(n, n) * shift).cholesky();
+    if shifted(FLAT).is_some() {
+        return None;
+    }
+    // the smallest shift of these that makes it definite is near the most negative curvature
+    let cholesky = (0..=40).map(|k| FLAT * 2f64.powi(k)).find_map(shifted)?;
+    let units = (0..n).map(|i| DVector::from_fn(n, |j, _| if i == j { 1.0 } else { 0.0 }));
+    std::iter::once(lean.component_div(&scale)).chain(units).find_map(|start| {
+        let way = (0..INVERSE_ITERATIONS).fold(start, |way, _| cholesky.solve(&way).normalize());
+        (way.dot(&(&scaled * &way)) < 0.0).then(|| way.component_mul(&scale))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two wells at x = ±1 and a stiff valley y = kx: f = x⁴/4 − x²/2 + K(y − kx)²/2 + tx.
+    struct Wells {
+        valley: f64,
+        tilt: f64,
+    }
+
+    const STIFF: f64 = 1e5;
+
+    impl Landscape for Wells {
+        fn value(&self, p: &DVector<f64>) -> f64 {
+            let (x, d) = (p[0], p[1] - self.valley * p[0]);
+            0.25 * x.powi(4) - 0.5 * x * x + 0.5 * STIFF * d * d + self.tilt * x
+        }
+
+        fn slopes(&self, p: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+            let (x, k, d) = (p[0], self.valley, p[1] - self.valley * p[0]);
+            let gradient = DVector::from_vec(vec![x * x * x - x - STIFF * k * d + self.tilt, STIFF * d]);
+            let curvature = [3.0 * x * x - 1.0 + STIFF * k * k, -STIFF * k, -STIFF * k, STIFF];
+            (gradient, DMatrix::from_row_slice(2, 2, &curvature))
+        }
+    }
+
+    fn search(lean: f64) -> Search {
+        Search { longest: 0.1, balance: 1e-11, rough: 1e-8, lean: DVector::from_vec(vec![lean, 0.0]) }
+    }
+
+    #[test]
+    fn the_top_between_two_equal_wells_is_left_to_the_side_of_the_lean() {
+        for valley in [0.0, 0.5, -3.0] {
+            for lean in [1.0, -1.0] {
+                let wells = Wells { valley, tilt: 0.0 };
+                let found = search(lean).minimum(&wells, DVector::zeros(2)).expect("a minimum");
+                assert!((found[0] - lean).abs() < 1e-9 && (found[1] - valley * lean).abs() < 1e-9, "{found}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_tilt_decides_before_the_lean() {
+        for tilt in [0.2, -0.2] {
+            let found = search(tilt).minimum(&Wells { valley: 1.0, tilt }, DVector::zeros(2)).expect("a minimum");
+            assert!(found[0] * tilt < 0.0, "{found}");
+        }
+    }
+
+    /// f = x² + 0·y: a flat valley.
+    struct Valley;
+
+    impl Landscape for Valley {
+        fn value(&self, p: &DVector<f64>) -> f64 {
+            p[0] * p[0]
+        }
+
+        fn slopes(&self, p: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+            let curvature = DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 0.0, 0.0]);
+            (DVector::from_vec(vec![2.0 * p[0], 0.0]), curvature)
+        }
+    }
+
+    #[test]
+    fn a_flat_valley_is_a_minimum() {
+        let found = search(1.0).minimum(&Valley, DVector::from_vec(vec![0.05, 0.3])).expect("a minimum");
+        assert!(found[0].abs() < 1e-10 && (found[1] - 0.3).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn a_slope_without_end_has_no_minimum() {
+        struct Slope;
+        impl Landscape for Slope {
+            fn value(&self, p: &DVector<f64>) -> f64 {
+                p[0]
+            }
+            fn slopes(&self, _: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
+                (DVector::from_vec(vec![1.0]), DMatrix::zeros(1, 1))
+            }
+        }
+        let search = Search { lean: DVector::from_vec(vec![1.0]), ..search(1.0) };
+        assert!(search.minimum(&Slope, DVector::zeros(1)).is_none());
+    }
+}
