@@ -24,6 +24,15 @@ impl fmt::Display for Problem {
     }
 }
 
+/// Two numbers that a message compares, with at least `digits` decimals and as many as it takes to tell them apart.
+pub fn told_apart(pair: [f64; 2], digits: usize) -> [String; 2] {
+    let written = |digits: usize| pair.map(|x| format!("{x:.digits$}"));
+    (digits..=MOST_DIGITS).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(digits))
+}
+
+/// Decimals beyond which doubles of ordinary size hold no more.
+const MOST_DIGITS: usize = 17;
+
 /// Several problems in one text, a line each.
 pub fn list(problems: &[Problem]) -> String {
     problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
