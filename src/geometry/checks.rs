@@ -101,10 +101,8 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         let toe_root = 2.0 * pair.inner_cone * sin(gear.root);
         if bore >= toe_root && pair.inner_cone > 0.0 {
             let [bore, limit] = told_apart([bore * MM, toe_root * MM], 3);
-            found.push(Problem::new(
-                name,
-                format!("{bore} mm is not less than the root circle at the toe, {limit} mm"),
-            ));
+            found
+                .push(Problem::new(name, format!("{bore} mm is not less than the root circle at the toe, {limit} mm")));
         }
     }
     if pair.path.contact_ratio <= 0.0 {
