@@ -1,7 +1,7 @@
 """Balance of the angular momentum about the axle, beside that of the energy: asserted after every step of a `Drive`.
 
 The carrier turns with its planets, or each planet with its compliant pin; side gears end where the half-shafts begin. What
-changes their momentum are the drive, the torques of the shafts and drag. Inertias are given, or of `solids`; what a
+changes their momentum are the drive, the torques of the shafts and drag. Inertias are given, or of `outline_solids`; what a
 drive that imposes the carrier's speed must give follows from the torques of the meshes.
 
 INSTANT   of all terms at an instant: rounding
@@ -9,7 +9,7 @@ SOLIDS    of the inertias of solids: what the program's facets are off by, as do
 RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off"""
 
 import numpy as np
-import solids
+import outline_solids
 
 INSTANT, SOLIDS, RUN = 1e-9, 2e-5, 10.0
 SIDES = ["left", "right"]
@@ -58,7 +58,7 @@ class Momentum:
 
         if self.whole("geometry.addendum_system") != self.opened.number("geometry.addendum_system", "gleason"):
             raise ValueError("solids with other addenda")
-        both, cones = solids.gears(of)
+        both, cones = outline_solids.gears(of)
         density = self.opened.get("material.density")
         planet, side = (gear.inertias(cones, of(bore), density)
                         for gear, bore in zip(both, ["planet_bore", "side_bore"]))
