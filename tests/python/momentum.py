@@ -56,9 +56,10 @@ class Momentum:
                 return 0.0
             return self.whole(f"geometry.{name}") if name in integers else self.opened.get(f"geometry.{name}")
 
-        if self.whole("geometry.addendum_system") != self.opened.number("geometry.addendum_system", "gleason"):
-            raise ValueError("solids with other addenda")
-        both, cones = outline_solids.gears(of)
+        number = self.whole("geometry.addendum_system")
+        items = self.opened.variables["geometry.addendum_system"].declaredType.items
+        system = next(item.name for item in items if int(item.value) == number)
+        both, cones = outline_solids.gears(system, of)
         density = self.opened.get("material.density")
         planet, side = (gear.inertias(cones, of(bore), density)
                         for gear, bore in zip(both, ["planet_bore", "side_bore"]))

@@ -87,21 +87,30 @@ class Gear:
         return density * (whole * (outer**5 - inner**5) - bored)
 
 
-def gears(of):
-    """Planet and side gear with Gleason's long and short addenda from values `of(name)` of geometry; with the cone distances
-    of both ends."""
+def depths(system, of, teeth):
+    """Addenda and dedenda of planet and side gear in modules (docs/theory.md, section 1)."""
+    if system == "explicit":
+        return [[of(f"{gear}_{what}") for gear in ["planet", "side"]] for what in ["addendum", "dedendum"]]
+    virtual = (max(teeth) / min(teeth)) ** 2
+    large, whole = {"standard": (1.0, 2.25), "iso23509": (2.0 * (0.21 + 0.29 / virtual), 2.25),
+                    "gleason": (0.540 + 0.460 / virtual, 2.188 + 0.05e-3 / of("module"))}[system]
+    addenda = [2.0 - large, large] if teeth[0] <= teeth[1] else [large, 2.0 - large]
+    return addenda, [whole - addendum for addendum in addenda]
+
+
+def gears(system, of):
+    """Planet and side gear of an addendum system from values `of(name)` of geometry, with the cone distances of both ends."""
     teeth = [of("planet_teeth"), of("side_teeth")]
     module, pressure, backlash = of("module"), of("pressure_angle"), of("backlash")
     outer = 0.5 * module * np.hypot(*teeth)
-    side = (0.540 + 0.460 / (teeth[1] / teeth[0]) ** 2) * module
-    addenda, depth = [2.0 * module - side, side], 2.188 * module + 0.05e-3
-    shift = (addenda[0] - addenda[1]) / (2.0 * module)
+    addenda, dedenda = depths(system, of, teeth)
+    shift = (addenda[0] - addenda[1]) / 2.0
 
     def gear(i):
         pitch = np.arctan2(teeth[i], teeth[1 - i])
         thickness = 0.5 * np.pi + (2.0, -2.0)[i] * shift * np.tan(pressure) - 0.5 * backlash / module
-        return Gear(teeth[i], pitch, np.arcsin(np.sin(pitch) * np.cos(pressure)), pitch + np.arctan2(addenda[i], outer),
-                    pitch - np.arctan2(depth - addenda[i], outer), thickness / teeth[i],
+        return Gear(teeth[i], pitch, np.arcsin(np.sin(pitch) * np.cos(pressure)), pitch + np.arctan(addenda[i] * module / outer),
+                    pitch - np.arctan(dedenda[i] * module / outer), thickness / teeth[i],
                     of("root_fillet") * module / outer)
 
     return [gear(0), gear(1)], (outer - of("face_width"), outer)
