@@ -58,6 +58,19 @@ fn a_wide_face_a_pointed_tooth_and_a_thin_rim_give_warnings() {
 }
 
 #[test]
+fn a_face_that_is_hardly_too_wide_is_told_apart_from_the_limit() {
+    let limit = Pair::new(&usual()).outer_cone / 3.0;
+    for excess in [1e-2, 1e-4, 1e-7, 1e-12] {
+        let warnings = found(&GearSpec { face_width: limit * (1.0 + excess), ..usual() }).1;
+        let text = warnings.iter().find(|text| text.starts_with("geometry.face_width")).expect("a warning");
+        let mut numbers = text.split(' ').filter_map(|word| word.parse::<f64>().ok());
+        // the width, its share of R_e, the limit
+        let (width, limit) = (numbers.next().expect("a width"), numbers.nth(1).expect("a limit"));
+        assert!(width > limit, "{text}");
+    }
+}
+
+#[test]
 fn a_contact_ratio_below_one_gives_a_warning() {
     assert_warns(&explicit([0.6, 0.8], [0.3, 0.9]), &["contact ratio 0."]);
 }

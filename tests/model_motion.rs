@@ -2,6 +2,14 @@
 
 use bevel_differential::model::{CONTACT_HEAT, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
 
+use angular_momentum::Differential;
+
+#[path = "angular_momentum/mod.rs"]
+mod angular_momentum;
+
+/// Error of the momentum's balance, of all its terms: rounding.
+const ROUNDING: f64 = 1e-9;
+
 fn turn() -> (Parameters, Inputs) {
     let mut p = Parameters::default();
     p.scene.planet_spin = PlanetSpin::Imposed;
@@ -17,8 +25,11 @@ fn undamped_residual(start: Start, tolerance: f64) -> f64 {
     p.solver.relative_tolerance = tolerance;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     let (mut turnover, steps) = (0.0, 5000);
+    let differential = Differential::of(&s);
     for k in 1..=steps {
         s.advance(0.5 * f64::from(k) / f64::from(steps)).unwrap();
+        let balance = differential.at(&s);
+        assert!(balance.error() < ROUNDING, "{start:?}, t = {}: {balance:?}", s.time());
         let f = s.forces();
         turnover += (f.power_in.abs() + f.power_out.abs()) * 0.5 / f64::from(steps);
     }
@@ -104,6 +115,7 @@ fn an_ideal_torque_driven_differential_with_unequal_ends_follows_its_mass_matrix
     let all = j.carrier * carrier + j.side[0] * left + j.side[1] * right - (500.0 - 40.0);
     let roll = r * (j.side[0] * left - j.side[1] * right) + 2.0 * j.planet * spin - r * (30.0 - 10.0);
     assert!(all.abs() < 1e-9 && roll.abs() < 1e-9, "{all} {roll}");
+    assert!(Differential::of(&s).at(&s).error() < ROUNDING);
 }
 
 #[test]
@@ -121,6 +133,9 @@ fn a_jump_of_an_imposed_speed_is_counted_as_work() {
         }
         let m = s.motion();
         assert!((m.side_speed[0] / inputs.carrier_speed - 1.0).abs() < 1e-4, "{contact:?}: {m:?}");
+        if contact == GearContact::Tooth {
+            assert!(Differential::of(&s).at(&s).error() < ROUNDING);
+        }
         let b = s.ledger();
         assert!(b.energy_residual.abs() < 1e-2 * b.heat[CONTACT_HEAT].max(1.0), "{contact:?}: {b:?}");
     }
@@ -152,6 +167,7 @@ fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     p.effects.corner_contact = false;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     s.advance(0.5).unwrap();
+    assert!(Differential::of(&s).at(&s).error() < ROUNDING);
     // each jump is of some tenths of a joule, and there are a dozen of them
     let residual = s.ledger().energy_residual;
     assert!(residual.abs() < 1e-3, "{residual} J");

@@ -5,7 +5,7 @@ use super::pair::Pair;
 use super::solid::Foot;
 use super::spec::GearSpec;
 use crate::numeric::{cos, sin};
-use crate::problem::Problem;
+use crate::problem::{Problem, told_apart};
 
 const NAMES: [&str; 2] = ["planet", "side gear"];
 const MM: f64 = 1e3;
@@ -87,24 +87,22 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         }
         let mate = &pair.gears[1 - i];
         if gear.addendum >= mate.dedendum {
+            let [tip, room] = told_apart([gear.addendum * MM, mate.dedendum * MM], 3);
             found.push(Problem::new(
                 addendum(i),
                 format!(
-                    "the {}'s tip would strike the {}'s root: addendum {:.3} mm, dedendum {:.3} mm",
+                    "the {}'s tip would strike the {}'s root: addendum {tip} mm, dedendum {room} mm",
                     NAMES[i],
-                    NAMES[1 - i],
-                    gear.addendum * MM,
-                    mate.dedendum * MM
+                    NAMES[1 - i]
                 ),
             ));
         }
         let (name, bore) = bore(spec, i);
         let toe_root = 2.0 * pair.inner_cone * sin(gear.root);
         if bore >= toe_root && pair.inner_cone > 0.0 {
-            found.push(Problem::new(
-                name,
-                format!("{:.3} mm is not less than the root circle at the toe, {:.3} mm", bore * MM, toe_root * MM),
-            ));
+            let [bore, limit] = told_apart([bore * MM, toe_root * MM], 3);
+            found
+                .push(Problem::new(name, format!("{bore} mm is not less than the root circle at the toe, {limit} mm")));
         }
     }
     if pair.path.contact_ratio <= 0.0 {
@@ -125,15 +123,14 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         let mate = &pair.gears[1 - i];
         if pair.path.clipped[i] {
             let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
+            let [modules, limit] = told_apart([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
             found.push(Problem::new(
                 "geometry.addendum_system",
                 format!(
-                    "{what}: the {}'s addendum {:.3} mm = {:.3} m exceeds the limit {:.3} m at {:.1} deg; \
+                    "{what}: the {}'s addendum {:.3} mm = {modules} m exceeds the limit {limit} m at {:.1} deg; \
                      the path of contact ends at the {}'s base circle",
                     NAMES[1 - i],
                     mate.addendum * MM,
-                    mate.addendum / m,
-                    pair.limit_addendum(1 - i) / m,
                     pair.pressure_angle.to_degrees(),
                     NAMES[i]
                 ),
@@ -150,14 +147,10 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         let rim = (pair.inner_cone * sin(gear.root) - bore / 2.0) / cos(gear.root);
         let toe_module = m * pair.inner_cone / pair.outer_cone;
         if bore > 0.0 && rim < RIM * toe_module {
+            let [rim, least] = told_apart([rim * MM, RIM * toe_module * MM], 2);
             found.push(Problem::new(
                 name,
-                format!(
-                    "the {}'s rim at the toe is {:.2} mm, thinner than 2 modules there ({:.2} mm)",
-                    NAMES[i],
-                    rim * MM,
-                    RIM * toe_module * MM
-                ),
+                format!("the {}'s rim at the toe is {rim} mm, thinner than 2 modules there ({least} mm)", NAMES[i]),
             ));
         }
     }
@@ -165,13 +158,10 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found.extend(striking_planets(spec, pair));
     let share = spec.face_width / pair.outer_cone;
     if share > FACE_WIDTH_LIMIT {
+        let [width, usual] = told_apart([spec.face_width * MM, pair.outer_cone * FACE_WIDTH_LIMIT * MM], 2);
         found.push(Problem::new(
             "geometry.face_width",
-            format!(
-                "{:.1} mm is {share:.3} R_e, above the usual R_e/3 = {:.2} mm",
-                spec.face_width * MM,
-                pair.outer_cone * FACE_WIDTH_LIMIT * MM
-            ),
+            format!("{width} mm is {share:.3} R_e, above the usual R_e/3 = {usual} mm"),
         ));
     }
     if pair.path.contact_ratio < 1.0 && pair.path.contact_ratio > 0.0 {

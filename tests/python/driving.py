@@ -1,4 +1,5 @@
-"""Drives an opened FMU from communication point to communication point and accounts for the energy it turns over.
+"""Drives an opened FMU from communication point to communication point, accounts for the energy it turns over, and asserts
+the balance of the angular momentum about the axle after every step (momentum.py).
 
 Limits of the energy residual, each against what it is compared with:
 
@@ -8,6 +9,7 @@ BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of 
           correct to four digits"""
 
 import numpy as np
+from momentum import Momentum
 
 UNDAMPED, BLOWS = 1e-6, 1e-4
 SIDES = ["left", "right"]
@@ -37,6 +39,7 @@ class Drive:
         self.set(values or {})
         opened.initialise()
         self.heats = [name for name in opened.variables if name.startswith("heat.")]
+        self.momentum = Momentum(opened)
 
     def __getitem__(self, name):
         return self.opened.get(name)
@@ -56,8 +59,10 @@ class Drive:
 
     def step(self, size):
         begin = self.powers()
+        self.momentum.before_step()
         self.opened.fmu.doStep(self.time, size)
         self.time += size
+        self.momentum.after_step(size)
         self.exchanged += 0.5 * size * (begin + self.powers())
 
     def to(self, stop, size, each=None):

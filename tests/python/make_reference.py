@@ -20,7 +20,8 @@ MESH = [f"planet[1].{side}_{what}" for side in SIDES for what in ("normal_force"
 OUTPUTS = ["left.speed", "right.speed", "planet[1].spin_speed", "carrier.torque", *MESH]
 UNITS = {"speed": "rad/s", "torque": "N.m", "force": "N", "error": "m"}
 
-GIVEN = {"inertia.from_geometry": False}  # the plain model has no solids to take inertias from
+# the plain model has no solids to take inertias from
+GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
 TURN = {"carrier.speed_command": radians(954.0), "planet.spin_command": radians(200.0), "scene.planet_spin": "imposed"}
 TURNING = {"carrier_speed": radians(954.0), "spin": radians(200.0), "spin_imposed": True}
 # Planets of a given inertia have that across their axis (about the apex) in the proportion of their solid; this is the

@@ -21,6 +21,7 @@ from fmpy import extract, instantiate_fmu, read_model_description
 from fmpy.fmi1 import FMICallException
 
 import random_scenes
+from momentum import Momentum
 
 sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
 from instance import Instance  # noqa: E402
@@ -79,6 +80,7 @@ class Attempt:
     def __init__(self, folder, description, scene):
         self.scene, self.problems, self.verdict = scene, [], "ran"
         self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
+        self.balanced = False
         self.instance, self.messages = StatusInstance(folder, description), []
         try:
             if self.start():
@@ -94,7 +96,7 @@ class Attempt:
 
     def record(self):
         found = {name: getattr(self, name) for name in ("verdict", "problems", "imbalance", "turned_over", "attempts",
-                                                        "slowest")}
+                                                        "slowest", "balanced")}
         return {**found, "log": self.messages}
 
     def demand(self, holds, what):
@@ -119,12 +121,15 @@ class Attempt:
     def go(self):
         one, now = self.instance, 0.0
         self.finite(one.outputs(), "at the start")
+        momentum = self.momentum()
         exchanged = inertial = 0.0
         for size, inputs in self.scene["steps"]:
             for name, value in inputs.items():
                 self.demand(one.set(name, value) == OK, f"input {name} = {value} refused")
             before = one.outputs()
             kept = one.fmu.getFMUstate()
+            if momentum:
+                momentum.before_step()
             begin, time_before = len(one.log), time.monotonic()
             status = one.call(one.fmu.doStep, now, size)
             self.slowest = max(self.slowest, time.monotonic() - time_before)
@@ -139,6 +144,8 @@ class Attempt:
                 self.demand("t = " in " ".join(one.log[begin:]), f"no time in {one.log[begin:]}")
                 self.demand(one.call(one.fmu.setFMUstate, kept) == OK and one.outputs() == before, "state not restored")
             else:
+                if momentum:
+                    self.demand_momentum(momentum, size)
                 exchanged += size * (turned(before) + turned(after)) / 2.0
                 inertial = max(inertial, kinetic(self.scene, before), kinetic(self.scene, after))
             one.fmu.freeFMUstate(kept)
@@ -156,6 +163,20 @@ class Attempt:
             # what stuck springs took back may for a moment be more than what friction gave
             made = [name for name, value in heat.items() if value < -COLD * self.turned_over]
             self.demand(not made, f"energy made out of heat: {made}")
+
+    def momentum(self):
+        """The balance of the angular momentum, where gears have solids that the tests can weigh."""
+        try:
+            return Momentum(self.instance)
+        except ValueError:
+            return None
+
+    def demand_momentum(self, momentum, size):
+        try:
+            momentum.after_step(size)
+            self.balanced = True
+        except AssertionError as wrong:
+            self.demand(False, str(wrong))
 
     def finite(self, outputs, when):
         wrong = [name for name, value in outputs.items() if not math.isfinite(value)]

@@ -25,9 +25,10 @@ def described(description, kind, count, index, record):
 @pytest.mark.parametrize("kind", random_scenes.KINDS)
 def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(unpacked, description, request, kind):
     count = max(request.config.getoption("--scenes") // len(random_scenes.KINDS), 1)
-    verdicts, failures = collections.Counter(), []
+    verdicts, failures, balanced = collections.Counter(), [], 0
     for index, record in scene_runs.attempts(unpacked, kind, count, SEED):
         verdicts[record["verdict"]] += 1
+        balanced += record.get("balanced", False)
         if record["verdict"] == "failed":
             failures.append((index, record))
     print(kind, dict(verdicts))
@@ -36,6 +37,8 @@ def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(unpac
     assert sum(verdicts.values()) == count
     if kind == "plausible":
         assert verdicts["ran"] >= 0.5 * count, verdicts
+        # nearly all of them with gears that momentum.py can weigh
+        assert balanced >= 0.8 * verdicts["ran"], balanced
     if kind == "wild" and count >= 10:
         assert verdicts["refused"] >= 0.5 * count, verdicts
 

@@ -20,6 +20,8 @@ pub struct Additions {
     pub gaps: [Option<Arc<FlankGaps>>; 2],
     /// Teeth without errors, for their numbers.
     pub perfect: FlankGaps,
+    /// Mass of a planet times its distance from the carrier's axis [kg·m].
+    pub planet_moment: f64,
     /// Effects on bodies.
     pub bodies: BodyEffects,
 }

@@ -24,6 +24,8 @@ pub struct Inertias {
     pub planet_transverse: f64,
     /// Mass of a side gear [kg].
     pub side_mass: f64,
+    /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m], always of its solid.
+    pub planet_moment: f64,
     /// Number of planets.
     pub planets: f64,
 }
@@ -44,6 +46,7 @@ impl Inertias {
             planet: planet_axial,
             planet_transverse: transverse,
             side_mass: side.mass * (side_axial / side.axial),
+            planet_moment: planet.mass * planet.centre,
             planets,
         }
     }
@@ -86,7 +89,7 @@ mod tests {
         let mut p = Parameters::default();
         p.geometry.planet_count = 4;
         let pair = Pair::new(&p.geometry);
-        let GearMass { axial, transverse_at_apex, .. } = gear_mass(&pair, &p.geometry, 0, p.material.density);
+        let GearMass { axial, transverse_at_apex, mass, centre } = gear_mass(&pair, &p.geometry, 0, p.material.density);
         let j = Inertias::new(&p, &pair);
         assert!((j.carrier / (0.02 + 4.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         assert_eq!(j.planet, axial);
@@ -96,6 +99,9 @@ mod tests {
         p.inertia.left_end = 0.5;
         let j = Inertias::new(&p, &pair);
         assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
-        assert_eq!((j.planet, j.side), (3.0 * axial, [9e-5 + 0.5, 9e-5]));
+        let given = p.inertia.side_gear;
+        assert_eq!((j.planet, j.side), (3.0 * axial, [given + 0.5, given]));
+        // but not its mass
+        assert_eq!(j.planet_moment, mass * centre);
     }
 }

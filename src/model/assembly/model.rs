@@ -162,6 +162,7 @@ fn teeth(
         friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
+        planet_moment: ideal.inertia.planet_moment,
         bodies,
     };
     Teeth::new(pair, mesh, plan, &ideal.inertia, deflection_limit, additions)

@@ -75,7 +75,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
     fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = if self.friction().depends_on_load() {
-            let (sides, planets) = self.mesh_surface_loads(&self.all_loads::<f64>(at));
+            let (sides, planets) = self.mesh_surface_loads(at, &self.all_loads::<f64>(at));
             self.surface_loads_of(&sides, &planets)
         } else {
             self.surface_loads_of(&[], &[])
@@ -196,6 +196,15 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     std::array::from_fn(|k| of_planet[0] * p[k] + per * (across * t[k] + SIGMA[s] * along * a[k]));
                 self.spread(Self::PLANET + g, -direction, s, &slopes, j);
             }
+        }
+    }
+
+    /// Derivatives of the planets' dry friction by the speeds that throw them outward.
+    pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<N>) {
+        let per_thrust = self.friction().planet.limit_slopes()[0];
+        for g in 0..G {
+            let direction = self.friction_state[FRICTION_PLANETS + g].mode.direction();
+            j.by_velocity[Self::PLANET + g][Self::orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
         }
     }
 

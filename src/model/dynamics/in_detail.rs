@@ -75,9 +75,21 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         self.teeth.additions.detailed.load(&self.teeth.mesh.engagement, gaps, names, &state, look)
     }
 
-    /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes.
+    /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
+    pub(super) const fn orbit(g: usize) -> usize {
+        if P > 0 { Self::PIN + g } else { CARRIER }
+    }
+
+    /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
+    pub(super) fn centrifugal(&self, at: &Point<N>, g: usize) -> [f64; 2] {
+        let per_speed = self.teeth.additions.planet_moment * at.v[Self::orbit(g)];
+        [per_speed * at.v[Self::orbit(g)], 2.0 * per_speed]
+    }
+
+    /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes and the planets' orbit.
     pub(in crate::model) fn mesh_surface_loads<T: Local>(
         &self,
+        at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
     ) -> ([SurfaceLoad; 2], [SurfaceLoad; G]) {
         let side = self.teeth.sin_base[1];
@@ -90,7 +102,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             let across = l.tangential.value() + r.tangential.value();
             let along = l.side_axial.value() - r.side_axial.value();
             SurfaceLoad {
-                thrust: l.planet_axial.value() + r.planet_axial.value(),
+                thrust: l.planet_axial.value() + r.planet_axial.value() + self.centrifugal(at, g)[0],
                 load: sqrt(across * across + along * along),
             }
         });
@@ -121,7 +133,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 power.heat[place] = in_pairs(G, |g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
         }
-        let (sides, planets) = self.mesh_surface_loads(&loads);
+        let (sides, planets) = self.mesh_surface_loads(at, &loads);
         self.add_friction(at, &self.surface_loads_of(&sides, &planets), sum, power);
         if let Some(j) = slopes {
             let block = |part: usize| {
@@ -135,6 +147,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             self.add_blocks(&block(0), &mut j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
             self.friction_slopes_by_loads(&loads, &planets, j);
+            self.friction_slopes_by_orbit(at, j);
         }
     }
 

@@ -2,7 +2,8 @@
 //!
 //! Dry friction T = μ F r on each surface, with the thrust of all meshes on the side gear, both meshes' thrust on the
 //! planet and the resultant across its pin (Coulomb; H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer
-//! 2011, section 10.2 on locking values).
+//! 2011, section 10.2 on locking values). A planet's washer also bears its centrifugal force m r ω², with mass and centre
+//! of mass of its solid.
 //!
 //! The radii are given, or follow from the gears (`radii_from_geometry`). A pin fills its bore; without a bore it has
 //! four fifths of the radius of the root circle at the toe, where a gear is thinnest. A washer spans the back face of its
@@ -19,7 +20,7 @@ use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
 use crate::model::scene::GearContact;
 use crate::numeric::sin;
-use crate::problem::Problem;
+use crate::problem::{Problem, told_apart};
 
 /// Radius of a pin or shaft over that of the root circle at the toe, where the gear has no bore.
 const PIN_IN_ROOT: f64 = 0.8;
@@ -179,15 +180,13 @@ impl ThrustFrictionSpec {
             return None;
         }
         let limit = toe_root(setting.pair, 0);
-        let what = if bore > 0.0 {
+        let (other, misfit, what) = if bore > 0.0 {
             let fits = (1.0 - CLEARANCE) * bore..=(1.0 + ROUNDING) * bore;
-            (!fits.contains(&pin))
-                .then(|| format!("does not match the planet's bore of radius {:.3} mm", bore * PER_MM))
+            (bore, !fits.contains(&pin), "does not match the planet's bore of radius")
         } else {
-            (pin >= limit)
-                .then(|| format!("is not less than the planet's root circle at the toe, {:.3} mm", limit * PER_MM))
+            (limit, pin >= limit, "is not less than the planet's root circle at the toe,")
         };
-        what.map(|what| Problem::new("thrust_friction.pin_radius", format!("{:.3} mm {what}; {HINT}", pin * PER_MM)))
+        misfit.then(|| misfitting("thrust_friction.pin_radius", pin, what, other))
     }
 
     /// Warning about a washer of gear `i` that does not fit it.
@@ -196,17 +195,22 @@ impl ThrustFrictionSpec {
         let gear = ["planet", "side gear"][i];
         let radius = [self.planet_washer_radius, self.side_washer_radius][i];
         let (face, bore) = (back_face(setting.pair, i), [setting.geometry.planet_bore, setting.geometry.side_bore][i]);
-        let what = if radius == 0.0 {
-            return None;
+        if radius == 0.0 {
+            None
         } else if radius >= face {
-            format!("is not less than the {gear}'s back face, {:.3} mm", face * PER_MM)
+            Some(misfitting(names[i], radius, &format!("is not less than the {gear}'s back face,"), face))
         } else if radius <= 0.5 * bore {
-            format!("lies within the {gear}'s bore of radius {:.3} mm", 0.5 * bore * PER_MM)
+            Some(misfitting(names[i], radius, &format!("lies within the {gear}'s bore of radius"), 0.5 * bore))
         } else {
-            return None;
-        };
-        Some(Problem::new(names[i], format!("{:.3} mm {what}; {HINT}", radius * PER_MM)))
+            None
+        }
     }
+}
+
+/// Warning about a radius that does not fit another [m], and `what` is wrong with it.
+fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Problem {
+    let [radius, other] = told_apart([radius * PER_MM, other * PER_MM], 3);
+    Problem::new(name, format!("{radius} mm {what} {other} mm; {HINT}"))
 }
 
 /// What to do about radii that do not fit.

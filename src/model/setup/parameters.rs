@@ -43,8 +43,8 @@ impl Default for Parameters {
             inertia: InertiaSpec {
                 from_geometry: true,
                 carrier: 0.02,
-                side_gear: 9e-5,
-                planet: 2e-5,
+                side_gear: 1.47e-4,
+                planet: 3.23e-5,
                 left_end: 0.0,
                 right_end: 0.0,
             },

@@ -1,0 +1,144 @@
+"""Balance of the angular momentum about the axle, beside that of the energy: asserted after every step of a `Drive`.
+
+The carrier turns with its planets, or each planet with its compliant pin; side gears end where the half-shafts begin. What
+changes their momentum are the drive, the torques of the shafts and drag. Inertias are given, or of `outline_solids`; what a
+drive that imposes the carrier's speed must give follows from the torques of the meshes.
+
+INSTANT   of all terms at an instant: rounding
+SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/theory.md states
+RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off"""
+
+import numpy as np
+import outline_solids
+
+INSTANT, SOLIDS, RUN = 1e-9, 2e-5, 10.0
+SIDES = ["left", "right"]
+# dry friction between side gears and carrier, of which no output tells
+RUBBING = ["effects.thrust_friction", "effects.limited_slip"]
+
+
+class Momentum:
+    """Of an initialised instance."""
+
+    def __init__(self, opened):
+        self.opened = opened
+        self.on = {name: self.switch(name) for name in opened.variables if name.startswith("effects.")}
+        drives = {name: self.whole(f"scene.{name}") for name in ["carrier_drive", "left_drive", "right_drive"]}
+        self.imposed = {name: drives[name] == opened.number(f"scene.{name}", "speed") for name in drives}
+        self.planets = self.whole("geometry.planet_count")
+        self.radius = 0.5 * opened.get("geometry.module") * self.whole("geometry.side_teeth")
+        self.orbit, self.side, self.facets = self.inertias()
+        self.carrier = opened.get("inertia.carrier")
+        self.twists = [self.imposed[f"{s}_drive"] or self.on["effects.half_shaft"] and opened.get(f"inertia.{s}_end") > 0.0
+                       for s in SIDES]
+        self.ends = opened.read([f"inertia.{s}_end" for s in SIDES])
+        self.drag = {name: opened.get(f"bearing_drag.{name}") for name in
+                     ["carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous",
+                      "breakaway_speed"]}
+        self.pins = [f"planet[{i + 1}].pin_speed" if self.on["effects.pin_compliance"] else "carrier.speed"
+                     for i in range(self.planets)]
+        self.bodies = ["carrier.speed", *self.pins, "left.speed", "right.speed"]
+        self.gained = self.given = self.turned_over = 0.0
+        self.momentum, self.external = self.now(), self.commands()
+
+    def switch(self, name):
+        return bool(self.opened.fmu.getBoolean([self.opened.variables[name].valueReference])[0])
+
+    def whole(self, name):
+        return self.opened.fmu.getInteger([self.opened.variables[name].valueReference])[0]
+
+    def inertias(self):
+        """Of a planet about the axle and of a side gear, and how far that of the solids may be off."""
+        integers = ["planet_teeth", "side_teeth"]
+
+        def of(name):
+            if name == "backlash" and not self.on["effects.backlash"]:
+                return 0.0
+            return self.whole(f"geometry.{name}") if name in integers else self.opened.get(f"geometry.{name}")
+
+        number = self.whole("geometry.addendum_system")
+        items = self.opened.variables["geometry.addendum_system"].declaredType.items
+        system = next(item.name for item in items if int(item.value) == number)
+        both, cones = outline_solids.gears(system, of)
+        density = self.opened.get("material.density")
+        planet, side = (gear.inertias(cones, of(bore), density)
+                        for gear, bore in zip(both, ["planet_bore", "side_bore"]))
+        if self.switch("inertia.from_geometry"):
+            return planet[1], side[0], [1.0, 1.0]
+        # a given planet has its solid's proportions
+        given = self.opened.get("inertia.planet")
+        return planet[1] / planet[0] * given, self.opened.get("inertia.side_gear"), [1.0, 0.0]
+
+    def weights(self):
+        """Inertia of each body."""
+        return np.array([self.carrier, *[self.orbit] * self.planets, self.side, self.side])
+
+    def dragged(self, speeds):
+        """Torques of drag on carrier and side gears."""
+        if not self.on["effects.bearing_drag"]:
+            return np.zeros(3)
+        d = self.drag
+        built_up = np.tanh(speeds / d["breakaway_speed"])
+        carrier = d["carrier_torque"] * built_up[0] + d["carrier_viscous"] * speeds[0]
+        carrier += d["carrier_churning"] * speeds[0] * abs(speeds[0])
+        return np.array([carrier, *(d["side_torque"] * built_up[1:] + d["side_viscous"] * speeds[1:])])
+
+    def check(self):
+        """Asserts the balance at the present instant."""
+        one = self.opened
+        rates = np.array(one.read([f"der({name})" for name in self.bodies]))
+        terms = self.weights() * rates
+        drag = self.dragged(np.array(one.read(["carrier.speed", "left.speed", "right.speed"])))
+        drive, *shafts = one.read(["carrier.torque", "left.shaft_torque", "right.shaft_torque"])
+        meshes = self.radius * np.array(one.read(["left.tangential_force", "right.tangential_force"]))
+        rounding = INSTANT * (np.sum(np.abs(terms)) + sum(map(abs, [drive, *shafts, *drag])) + np.sum(np.abs(meshes)))
+        facets = SOLIDS * (self.facets[0] * np.sum(np.abs(terms[1:-2])) + self.facets[1] * np.sum(np.abs(terms[-2:])))
+        off = np.sum(terms) - (drive - sum(shafts) - np.sum(drag))
+        assert abs(off) <= rounding + facets, f"momentum about the axle is off by {off} N.m: {terms} {drive} {shafts}"
+        if not self.imposed["carrier_drive"]:
+            wave = 1.0
+            if self.on["effects.final_drive"]:
+                teeth = self.whole("final_drive.ring_teeth")
+                wave += one.get("final_drive.amplitude") * np.sin(teeth * one.get("carrier.angle"))
+            wanted = one.get("carrier.torque_command") * wave
+        elif not any(self.on[name] for name in RUBBING) and one.get("lock.command") == 0.0:
+            wanted = np.sum(terms[:-2]) + np.sum(meshes) + drag[0]
+        else:
+            wanted = drive
+        # sin zθ of an angle of many turns is not known to more than its rounding
+        assert abs(drive - wanted) <= rounding + facets + 1e-9 * abs(wanted), f"drive gives {drive} N.m, not {wanted}"
+        for s, side in enumerate(SIDES):
+            if self.twists[s] and not self.imposed[f"{side}_drive"] and one.get(f"{side}.brake_torque") == 0.0:
+                needed = self.ends[s] * one.get(f"der({side}.end_speed)") + one.get(f"{side}.load_torque")
+                assert abs(shafts[s] - needed) <= rounding + INSTANT * abs(needed), f"the end at the {side} is off"
+
+    def now(self):
+        """Momentum with the ends, and the magnitudes of its parts."""
+        speeds = np.array(self.opened.read(self.bodies))
+        ends = [self.opened.get(f"{s}.end_speed" if twists else f"{s}.speed") for s, twists in zip(SIDES, self.twists)]
+        parts = np.append(self.weights() * speeds, np.array(self.ends) * ends)
+        return np.sum(parts), np.sum(np.abs(parts))
+
+    def commands(self):
+        """External torques, where commands alone tell all of them."""
+        if (self.on["effects.bearing_drag"] or self.on["effects.final_drive"] or any(self.imposed.values())
+                or any(self.opened.read(["left.brake_torque", "right.brake_torque"]))):
+            return None
+        return np.array(self.opened.read(["carrier.torque_command", "left.load_torque", "right.load_torque"]))
+
+    def before_step(self):
+        """Inputs may have been set since the last step."""
+        self.momentum, self.external = self.now(), self.commands()
+
+    def after_step(self, size):
+        """Asserts the balance at the end of a step of `size`, and that over all steps."""
+        self.check()
+        external, now = self.commands(), self.now()
+        if external is None or self.external is None or np.any(external != self.external):
+            return
+        self.gained += now[0] - self.momentum[0]
+        self.given += size * (external[0] - external[1] - external[2])
+        self.turned_over += size * np.sum(np.abs(external))
+        whole = self.turned_over + now[1]
+        allowed = RUN * self.opened.get("solver.relative_tolerance") * whole
+        assert abs(self.gained - self.given) <= allowed, f"momentum of the run: {self.gained}, not {self.given} N.m.s"
