@@ -11,4 +11,4 @@ pub mod balance;
 pub mod solids;
 pub mod space;
 
-pub use balance::{Differential, Tally};
+pub use balance::Differential;

@@ -2,7 +2,8 @@
 
 use bevel_differential::model::Simulation;
 
-use crate::angular_momentum::{Differential, Tally};
+use crate::angular_momentum::Differential;
+use crate::angular_momentum::balance::Tally;
 use crate::scenes::{Case, driven, imposed};
 
 /// Of all terms of an instant: rounding of forces that follow from angles near a radian.
