@@ -48,6 +48,11 @@ impl Rainflow {
         Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
     }
 
+    /// Whether nothing was added yet.
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
+    }
+
     /// Adds a value and calls `visit` with each cycle that it closes. Values that are no numbers are ignored.
     pub fn push(&mut self, value: f64, mut visit: impl FnMut(LoadCycle)) {
         if !value.is_finite() {
