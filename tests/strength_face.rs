@@ -6,7 +6,8 @@ mod strength_loads;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::detailed::{Detailed, KnownSlice, Slice};
-use bevel_differential::contact::errors::ToothErrorSpec;
+use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothErrors};
+use bevel_differential::contact::pairs::Flank;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation, readings};
 use bevel_differential::strength::RootStress;
@@ -174,4 +175,31 @@ fn an_application_factor_multiplies_the_load() {
     // slopes of the S–N curves from the life factors 2.5 at 10³ of 3·10⁶ cycles and 1.6 at 10⁵ of 5·10⁷
     close(harms[0] / harm[0], 1.3f64.powf(3000f64.ln() / 2.5f64.ln()), 1e-9);
     close(harms[1] / harm[1], 1.3f64.powf(0.5 * 500f64.ln() / 1.6f64.ln()), 1e-9);
+}
+
+#[test]
+fn openings_are_parabolas_over_the_face_so_that_their_largest_load_is_found() {
+    let spec = ToothErrorSpec {
+        accuracy_grade: 7,
+        seed: 11,
+        runout_by_grade: true,
+        planet_tip_relief: 15e-6,
+        side_tip_relief: 10e-6,
+        crowning: 6e-6,
+        shaft_angle_error: 2e-4,
+        planet_axial_offset: 20e-6,
+        side_axial_offset: -30e-6,
+        axis_offset: 15e-6,
+        ..ToothErrorSpec::default()
+    };
+    let pair = Pair::new(&GearSpec::default());
+    let errors = ToothErrors::new(&spec, &pair, 2).unwrap();
+    for (planet, side, flank) in [(0, 0, Flank::Drive), (1, 1, Flank::Coast)] {
+        for s in [-0.15, 0.0, 0.2] {
+            let teeth = PairId { planet_tooth: 4, side_tooth: 7, flank };
+            let e = |k: f64| errors.gap(MeshId { planet, side }, teeth, pair.inner_cone + 6e-3 * k, s);
+            let third = e(3.0) - 3.0 * e(2.0) + 3.0 * e(1.0) - e(0.0);
+            assert!(e(1.0).abs() > 1e-7 && third.abs() < 1e-18, "{third:e}");
+        }
+    }
 }

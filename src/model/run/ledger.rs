@@ -171,6 +171,8 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const WITH_EFFE
         }
     }
     let time = records.begin + step.time;
-    let rolled = RolledStep { time, spin: &spin, roll, mesh: &loads, members: &members };
+    // of three planets that differ there is a fourth group, without members
+    let groups = ..model.ideal.plan.groups().len();
+    let rolled = RolledStep { time, spin: &spin[groups], roll, mesh: &loads[groups], members: &members[groups] };
     strength.count(records.fatigue, &rolled);
 }
