@@ -135,7 +135,9 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
     // what the gate hides takes nothing from the first range, upward or downward
     for sign in [1.0, -1.0] {
         let (mut start, mut ranges) = (Rainflow::new(1.0), Vec::new());
-        [10.0, 9.3, 10.2, 50.0].map(|x| start.push(sign * x, |_| unreachable!()));
+        for x in [10.0, 9.3, 10.2, 50.0] {
+            start.push(sign * x, |_| unreachable!());
+        }
         start.rest(|c| ranges.push((c.range, c.mean, c.count)));
         assert_eq!(ranges, [(50.0 - 9.3, sign * (50.0 + 9.3) / 2.0, 0.5)]);
     }
