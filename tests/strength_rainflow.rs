@@ -132,6 +132,15 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
     }
     history.rest(|_| seen += 1);
     assert_eq!(seen, 0);
+    // what the gate hides takes nothing from the first range, upward or downward
+    for sign in [1.0, -1.0] {
+        let (mut start, mut ranges) = (Rainflow::new(1.0), Vec::new());
+        for x in [10.0, 9.3, 10.2, 50.0] {
+            start.push(sign * x, |_| unreachable!());
+        }
+        start.rest(|c| ranges.push((c.range, c.mean, c.count)));
+        assert_eq!(ranges, [(50.0 - 9.3, sign * (50.0 + 9.3) / 2.0, 0.5)]);
+    }
     let mut text = serde_json::to_value(history).unwrap();
     assert_eq!(serde_json::from_value::<Rainflow>(text.clone()).unwrap(), history);
     for length in [0, 1, 31, 32, 1_000_000] {

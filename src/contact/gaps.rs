@@ -56,6 +56,18 @@ impl FlankGaps {
         )
     }
 
+    /// Gap e [m] of a pair of teeth in `mesh` at any cone distance `r` [m]; on both sides of [`Self::edge`] a polynomial of
+    /// second degree in it.
+    pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64, s: f64) -> f64 {
+        let errors = self.errors.as_ref().map_or(0.0, |errors| errors.gap(mesh, pair, r, s));
+        errors + self.chip.as_ref().map_or(0.0, |chip| chip.gap(mesh, pair, r))
+    }
+
+    /// Cone distance [m] beyond which a tooth of the pair is broken, if one is.
+    pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<f64> {
+        self.chip.as_ref().and_then(|chip| chip.edge(mesh, pair))
+    }
+
     /// Numbers of the teeth of a pair: the planet's and the side gear's.
     pub fn teeth(&self, name: PairName) -> [usize; 2] {
         let (_, pair) = self.ids(name);

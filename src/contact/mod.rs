@@ -13,6 +13,7 @@ pub mod impact;
 mod kinks;
 pub mod law;
 pub mod mesh;
+pub mod pair_load;
 pub mod pairs;
 pub mod solid;
 mod spec;

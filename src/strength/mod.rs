@@ -1,11 +1,12 @@
 //! Strength of the teeth: contact pressure, root stress, and the damage that both do as the gears turn.
 //!
 //! Formulas of forces and angles without model state: a simulation passes the values of each accepted step. [`Rating`] holds
-//! the constants of a pair of gears, [`ToothDamage`] the accumulated damage; [`Rainflow`] counts load cycles of teeth that
-//! stand still in mesh.
+//! the constants of a pair of gears, [`ToothDamage`] the damage of teeth that roll, [`StandingTeeth`] that of teeth that stand
+//! still in mesh, whose load cycles [`Rainflow`] counts.
 
 pub mod counting;
 mod damage;
+pub mod face_load;
 pub mod hertz;
 pub mod material;
 pub mod mean_stress;
@@ -13,6 +14,7 @@ pub mod miner;
 pub mod rainflow;
 mod rating;
 pub mod root_stress;
+mod standing;
 pub mod tooth_form;
 
 pub use counting::{Rolling, loaded_flank};
@@ -23,5 +25,6 @@ pub use mean_stress::pulsating_range;
 pub use miner::Damage;
 pub use rainflow::{LoadCycle, Rainflow};
 pub use rating::Rating;
-pub use root_stress::{LoadFactors, RootStress};
+pub use root_stress::RootStress;
+pub use standing::StandingTeeth;
 pub use tooth_form::{Profile, ToothForm};

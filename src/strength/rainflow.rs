@@ -34,7 +34,8 @@ pub struct Rainflow {
     points: [f64; CAPACITY],
     /// How many.
     length: usize,
-    /// Last value in the present direction: the next turning point, if the direction changes.
+    /// Last value in the present direction: the next turning point, if the direction changes. While none is known, the highest
+    /// value so far, the starting point being the lowest.
     candidate: f64,
     /// Direction: 1 rising, −1 falling, 0 not known yet.
     direction: i8,
@@ -46,6 +47,11 @@ impl Rainflow {
     /// Empty history in which reversals up to `gate` (unit of the history) are ignored; 0 counts all.
     pub fn new(gate: f64) -> Self {
         Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
+    }
+
+    /// Whether nothing was added yet.
+    pub fn is_empty(&self) -> bool {
+        self.length == 0
     }
 
     /// Adds a value and calls `visit` with each cycle that it closes. Values that are no numbers are ignored.
@@ -63,16 +69,26 @@ impl Rainflow {
         }
         let onward = (value - self.candidate) * f64::from(self.direction);
         if self.direction == 0 {
-            if (value - self.candidate).abs() > self.gate {
-                self.direction = if value > self.candidate { 1 } else { -1 };
-                self.candidate = value;
-            }
+            self.set_out(value);
         } else if onward >= 0.0 {
             self.candidate = value;
         } else if onward < -self.gate {
             self.turn(&mut visit);
             self.direction = -self.direction;
             self.candidate = value;
+        }
+    }
+
+    /// Takes a value while no direction is known. The history starts at the lowest value before it rises and at the highest
+    /// before it falls, so that the gate takes nothing from the first range.
+    fn set_out(&mut self, value: f64) {
+        let (low, high) = (self.points[0], self.candidate);
+        if value - low > self.gate {
+            (self.direction, self.candidate) = (1, value);
+        } else if high - value > self.gate {
+            (self.points[0], self.direction, self.candidate) = (high, -1, value);
+        } else {
+            (self.points[0], self.candidate) = (low.min(value), high.max(value));
         }
     }
 

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::face_load;
 use super::hertz::LineContact;
 use super::material::{Material, SnCurve};
-use super::root_stress::{LoadFactors, RootStress};
+use super::root_stress::RootStress;
 use crate::geometry::Pair;
 
 /// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).
@@ -18,6 +19,10 @@ pub struct Rating {
     pub bending: [SnCurve; 2],
     /// S–N curve of the flanks.
     pub pitting: SnCurve,
+    /// Sensitivity of the roots to mean stress M.
+    pub sensitivity: f64,
+    /// Exponent N_F from the face load factor to that of the root.
+    pub face_exponent: f64,
     /// Angles between teeth [rad].
     pub pitch: [f64; 2],
 }
@@ -30,13 +35,14 @@ impl Rating {
         (young_modulus, poisson_ratio): (f64, f64),
         material: &Material,
         tool_radius: f64,
-        factors: &LoadFactors,
     ) -> Option<Self> {
         Some(Self {
             contact: LineContact::new(pair, young_modulus, poisson_ratio),
-            root: [RootStress::new(pair, 0, tool_radius, factors)?, RootStress::new(pair, 1, tool_radius, factors)?],
+            root: [RootStress::new(pair, 0, tool_radius)?, RootStress::new(pair, 1, tool_radius)?],
             bending: [material.idler_bending(), material.bending],
             pitting: material.pitting,
+            sensitivity: material.mean_stress_sensitivity(),
+            face_exponent: face_load::exponent_of(pair),
             pitch: pair.gears.map(|g| g.tooth_pitch()),
         })
     }

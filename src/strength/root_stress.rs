@@ -4,8 +4,12 @@
 //! σ_F = F_mt/(b m_m) · Y_Fa Y_Sa Y_ε Y_K Y_LS · K_A K_v K_Fβ K_Fα,      F_mt = F_n cosα at R_m
 //! ```
 //!
-//! F_n is the normal force of the whole mesh. The tooth form is that of load at the tip; Y_ε brings it to the outer
-//! point of single contact, where one pair carries all: Y_ε = 0.25 + 0.75/ε_vα, not below 0.625.
+//! F_n is the normal force of the whole mesh, handed over with the load factors in it: a simulated force contains the dynamic
+//! part (K_v = 1) and the sharing among pairs (K_Fα = 1); whoever hands it over multiplies it by K_A and K_Fβ
+//! ([`super::face_load`]).
+//!
+//! The tooth form is that of load at the tip; Y_ε brings it to the outer point of single contact, where one pair carries
+//! all: Y_ε = 0.25 + 0.75/ε_vα, not below 0.625.
 //! Y_K = ¼ (1 + l/b)² b/l accounts for a middle line of contact shorter than the face, l = 2 b √(ε_vα − 1)/ε_vα for
 //! straight teeth. Y_LS = 1 for contact ratios up to 2. The 2014 edition has Y_BS in the place of Y_K.
 //! The tooth is as thin as its backlash makes it; the standard would take the nominal one (0.8 % less stress here).
@@ -17,33 +21,6 @@ use serde::{Deserialize, Serialize};
 use super::tooth_form::{Profile, ToothForm};
 use crate::geometry::{Pair, Tredgold};
 use crate::numeric::{cos, sqrt};
-
-/// Factors by which the load on a tooth exceeds the nominal one; 1 where a simulation delivers the load itself.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LoadFactors {
-    /// Application factor K_A: 1, the simulated torque is the real one.
-    pub application: f64,
-    /// Dynamic factor K_v: 1, the simulated force contains it.
-    pub dynamic: f64,
-    /// Face load factor K_Fβ: uneven load over the face, 1 for aligned shafts.
-    pub face: f64,
-    /// Transverse load factor K_Fα: uneven sharing among pairs, 1.
-    pub transverse: f64,
-}
-
-impl Default for LoadFactors {
-    /// All 1: the force is the tooth's.
-    fn default() -> Self {
-        Self { application: 1.0, dynamic: 1.0, face: 1.0, transverse: 1.0 }
-    }
-}
-
-impl LoadFactors {
-    /// K_A K_v K_Fβ K_Fα.
-    pub fn product(&self) -> f64 {
-        self.application * self.dynamic * self.face * self.transverse
-    }
-}
 
 /// Least contact ratio for Y_K: its line of contact would shrink to a point at 1.
 const LEAST_RATIO: f64 = 1.05;
@@ -71,7 +48,7 @@ pub struct RootStress {
 impl RootStress {
     /// Gear `i` of `pair` (0 planet, 1 side gear) whose root a tool of tip radius `tool_radius` modules has cut; `None`
     /// if the tooth has no valid root section.
-    pub fn new(pair: &Pair, i: usize, tool_radius: f64, factors: &LoadFactors) -> Option<Self> {
+    pub fn new(pair: &Pair, i: usize, tool_radius: f64) -> Option<Self> {
         let profile = Profile::of(pair, i, tool_radius);
         let mate = Profile::of(pair, 1 - i.min(1), tool_radius);
         let tip = ToothForm::new(&profile, profile.tip_diameter())?;
@@ -81,14 +58,14 @@ impl RootStress {
         let (bevel, load_sharing) = (bevel_factor(ratio), 1.0);
         let mean_module = pair.module * pair.mean_cone / pair.outer_cone;
         let face_width = pair.outer_cone - pair.inner_cone;
-        let nominal = cos(pair.pressure_angle) / (face_width * mean_module) * factors.product();
+        let nominal = cos(pair.pressure_angle) / (face_width * mean_module);
         let per_force = nominal * tip.product() * contact_ratio * bevel * load_sharing;
         let per_single_force = nominal * single.product() * bevel * load_sharing;
         let sound = per_force > 0.0 && per_force.is_finite();
         sound.then_some(Self { tip, single, contact_ratio, bevel, load_sharing, per_force, per_single_force })
     }
 
-    /// Stress [Pa] under the normal force of the mesh [N]; 0 without force.
+    /// Stress [Pa] under the normal force of the mesh [N], load factors included; 0 without force.
     pub fn stress(&self, force: f64) -> f64 {
         if force > 0.0 && force.is_finite() { self.per_force * force } else { 0.0 }
     }

@@ -23,7 +23,7 @@ pub struct Detailed<S> {
     /// Friction along the flanks.
     pub friction: Option<ToothFriction>,
     directions: Directions,
-    whole: f64,
+    pub(super) whole: f64,
     /// Cone distance of the resultant of error-free teeth [m]: damping is that of the whole face, distributed over the slices.
     resultant: f64,
 }

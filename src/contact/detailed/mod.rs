@@ -7,9 +7,11 @@
 //! opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the travels of both flanks
 //! along the line of action.
 
+mod face;
 mod forces;
 mod loads;
 mod mesh;
 
+pub use face::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, PairName, Slice, SliceLoad};
 pub use mesh::Detailed;

@@ -52,7 +52,7 @@ impl ToothErrors {
     }
 
     /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of contact
-    /// or past its ends: the sum of all errors.
+    /// or past its ends: the sum of all errors, each a polynomial of at most second degree in `r`.
     #[inline]
     pub fn gap<T: Scalar>(&self, mesh: MeshId, pair: PairId, r: f64, s: T) -> T {
         let (mesh, pair) = self.in_range(mesh, pair);

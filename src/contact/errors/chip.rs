@@ -63,6 +63,11 @@ impl Chip {
         if r > self.from { self.depth } else { 0.0 }
     }
 
+    /// Cone distance [m] beyond which material is missing on the pair, if it is.
+    pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<f64> {
+        self.is_in(mesh, pair).then_some(self.from)
+    }
+
     /// Gap [m] of a pair at cone distance `r` [m] after the piece broke off.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64) -> f64 {

@@ -14,10 +14,9 @@
 
 use std::ops::RangeInclusive;
 
-use nalgebra::Vector3;
-
 use super::candidates::Candidates;
 use super::flank::Flanks;
+pub use super::loads::SolidLoad;
 use super::overlap::{FlankSection, Softness};
 use super::pose::{Displacement, Placement};
 use crate::contact::damping::Damping;
@@ -62,50 +61,19 @@ const SOFTNESS: f64 = 1.25;
 /// Upper bound of a flank's length [rad].
 const LONGEST: f64 = 1.0;
 
-/// A loaded section of one pair.
-#[derive(Clone, Copy, Debug)]
-pub struct SolidLoad {
-    /// Flank of the planet.
-    pub flank: Flank,
-    /// Number of the pair, as tooth pairs on the path of contact are counted.
-    pub number: i64,
-    /// Place by the planet's rotation [rad].
-    pub s: f64,
-    /// The section.
-    pub slice: SolidSlice,
-    /// Its overlap as an arc [rad].
-    pub depth: f64,
-    /// Force.
-    pub force: Force,
-    /// Where on the flank: unit vector in parts along the planet's axis, the side gear's and across.
-    pub point: [f64; 3],
-    /// Polar angles of that place on planet and side gear, each about its own axis as it stands [rad].
-    pub polar: [f64; 2],
-    /// Normal into the side gear, in the same parts.
-    pub normal: [f64; 3],
-}
-
-impl SolidLoad {
-    /// Parts of the normal that act on bearings: along the planet's axis and the side gear's, away from the apex, and along
-    /// the rotation.
-    pub fn parts(&self) -> [f64; 3] {
-        // the planet is pushed back, the side gear forward
-        let [planet, side, across] = self.normal;
-        [-planet, side, across]
-    }
-}
-
 /// A mesh of solid teeth.
 #[derive(Clone, Debug)]
 pub struct SolidMesh {
-    elastic: Impact,
+    pub(super) elastic: Impact,
     /// Damping.
     pub damping: Damping,
-    cone: f64,
+    pub(super) cone: f64,
     flanks: Flanks,
     candidates: Candidates,
-    soft: Softness,
-    slices: Vec<SolidSlice>,
+    pub(super) soft: Softness,
+    pub(super) slices: Vec<SolidSlice>,
+    /// Sections without a share, at which the load is only looked at.
+    pub edges: Vec<SolidSlice>,
     /// Drive and mirrored coast flank of each planet with each side.
     placements: Vec<[[Placement; 2]; 2]>,
     half_backlash: f64,
@@ -136,6 +104,7 @@ impl SolidMesh {
             flanks,
             soft,
             slices: spec.slices.clone(),
+            edges: Vec::new(),
             placements,
             half_backlash: pair.normal_backlash / 2.0,
             base_pitch: pair.base_pitch,
@@ -149,10 +118,11 @@ impl SolidMesh {
         self.slices.len()
     }
 
-    /// Visits each section of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
+    /// Visits each of `slices` of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
     #[inline]
-    fn sections<T: Smooth>(
+    pub(super) fn sections<T: Smooth>(
         &self,
+        slices: &[SolidSlice],
         which: [usize; 2],
         [q, x]: [f64; 2],
         variable: impl Fn(f64, usize, f64) -> T,
@@ -181,7 +151,7 @@ impl SolidMesh {
                     k,
                 };
                 let poses = placement.poses(tq, tx, k);
-                for slice in &self.slices {
+                for slice in slices {
                     if let Some(depth) = self.section(&near, slice).depth(&poses, &self.soft) {
                         visit(&near, slice, depth);
                     }
@@ -190,7 +160,7 @@ impl SolidMesh {
         }
     }
 
-    fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
+    pub(super) fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
         let [planet, side] = &self.flanks.rays;
         FlankSection {
             rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],
@@ -201,7 +171,7 @@ impl SolidMesh {
     }
 
     /// Force of a section that overlaps by `depth` [rad], as if the whole face were in its state.
-    fn respond(&self, depth: f64, rate: f64) -> Force {
+    pub(super) fn respond(&self, depth: f64, rate: f64) -> Force {
         let d = self.cone * depth;
         let elastic = self.elastic.force(d, 0.0);
         self.damping.apply(elastic.elastic, elastic.by_depth, d, self.cone * rate)
@@ -211,7 +181,7 @@ impl SolidMesh {
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         let [dq, dx] = state.rate;
-        self.sections(state.which, state.position, slope, |_, slice, p: Dual<2>| {
+        self.sections(&self.slices, state.which, state.position, slope, |_, slice, p: Dual<2>| {
             if p.v > 0.0 {
                 let rate = p.d[0] * dq + p.d[1] * dx;
                 let force = self.respond(p.v, rate);
@@ -228,7 +198,7 @@ impl SolidMesh {
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
         let [dq, dx] = state.rate;
-        self.sections(state.which, state.position, curve, |_, slice, p: Curved| {
+        self.sections(&self.slices, state.which, state.position, curve, |_, slice, p: Curved| {
             if p.v <= 0.0 {
                 return;
             }
@@ -254,6 +224,7 @@ impl SolidMesh {
     pub fn energy(&self, which: [usize; 2], position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
         self.sections(
+            &self.slices,
             which,
             position,
             |v, _, _| v,
@@ -265,56 +236,23 @@ impl SolidMesh {
         );
         energy
     }
-
-    /// Calls `visit` with every loaded section.
-    pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
-        let [dq, dx] = state.rate;
-        self.sections(state.which, state.position, slope, |near, slice, p: Dual<2>| {
-            if p.v <= 0.0 {
-                return;
-            }
-            let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
-            let share = slice.share * self.cone / slice.cone;
-            let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
-            let poses = near.placement.poses(near.q, near.x, near.k);
-            if let Some(patch) = self.section(near, slice).patch(&poses, &self.soft) {
-                let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
-                let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
-                let parts = |w: [f64; 3]| {
-                    let [planet, side, across] = near.placement.parts(w);
-                    [planet, side, sign * across]
-                };
-                visit(&SolidLoad {
-                    flank: near.flank,
-                    number: near.number,
-                    s: near.s,
-                    slice: *slice,
-                    depth: p.v,
-                    force,
-                    point: parts(point.into()),
-                    polar: near.placement.polars(point, slice.cone),
-                    normal: parts(patch.normal),
-                });
-            }
-        });
-    }
 }
 
 /// A pair of flanks near each other, in the mirror image in which it is a drive flank.
-struct FlankPair<'a> {
-    flank: Flank,
-    placement: &'a Placement,
+pub(super) struct FlankPair<'a> {
+    pub(super) flank: Flank,
+    pub(super) placement: &'a Placement,
     /// Rays of planet and side gear.
-    rays: [RangeInclusive<usize>; 2],
-    number: i64,
-    s: f64,
-    q: f64,
-    x: f64,
-    k: i32,
+    pub(super) rays: [RangeInclusive<usize>; 2],
+    pub(super) number: i64,
+    pub(super) s: f64,
+    pub(super) q: f64,
+    pub(super) x: f64,
+    pub(super) k: i32,
 }
 
 /// Variable `i` with its slope.
-fn slope(v: f64, i: usize, slope: f64) -> Dual<2> {
+pub(super) fn slope(v: f64, i: usize, slope: f64) -> Dual<2> {
     let mut dual = Dual { v, d: [0.0; 2] };
     dual.d[i] = slope;
     dual

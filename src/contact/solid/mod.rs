@@ -8,6 +8,7 @@
 mod candidates;
 mod exponential;
 pub mod flank;
+mod loads;
 pub mod mesh;
 pub mod overlap;
 mod polygon;

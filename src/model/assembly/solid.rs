@@ -17,15 +17,18 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
     let displaced = displaced(&errors, p.geometry.planet_count);
     let width = pair.outer_cone - pair.inner_cone;
     let alike = errors.crowning == 0.0 && displaced.iter().flatten().all(|d| d.along == [0.0; 2] && d.across == 0.0);
-    let slices = if alike {
-        vec![SolidSlice { cone: pair.mean_cone, share: 1.0, width, relief: 0.0 }]
+    let slice = |(cone, part): (f64, f64)| {
+        let x = (cone - pair.mean_cone) / (0.5 * width);
+        let share = part * cone / (width * pair.mean_cone);
+        SolidSlice { cone, share, width: part, relief: errors.crowning * x * x }
+    };
+    let (slices, edges) = if alike {
+        (vec![slice((pair.mean_cone, width))], Vec::new())
     } else {
-        let slice = |s: crate::contact::detailed::Slice| {
-            let x = (s.cone - pair.mean_cone) / (0.5 * width);
-            let share = s.width * s.cone / (width * pair.mean_cone);
-            SolidSlice { cone: s.cone, share, width: s.width, relief: errors.crowning * x * x }
-        };
-        gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(slice).collect()
+        let sections = gauss_slices(pair.inner_cone, pair.outer_cone).into_iter().map(|s| slice((s.cone, s.width)));
+        // the load is also looked at where it can be the largest: at both ends, and where crowning leaves the most
+        let edges = [pair.inner_cone, pair.mean_cone, pair.outer_cone].map(|cone| slice((cone, 0.0)));
+        (sections.collect(), edges.to_vec())
     };
     let spec = SolidSpec {
         fillet: p.geometry.root_fillet * pair.module / pair.outer_cone,
@@ -38,7 +41,9 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
         + errors.side_axial_offset.abs()
         + 2.0 * errors.axis_offset.abs()
         + pair.outer_cone * errors.shaft_angle_error.abs();
-    SolidMesh::new(pair, &spec, elastic, damping, slack)
+    let mut mesh = SolidMesh::new(pair, &spec, elastic, damping, slack);
+    mesh.edges = edges;
+    mesh
 }
 
 /// Whether planets stand differently before their side gears.

@@ -12,6 +12,7 @@ pub mod jacobian;
 mod linearised;
 mod loads;
 mod motion;
+mod pair_loads;
 pub mod power;
 pub mod rigid_equations;
 mod rigid_friction;

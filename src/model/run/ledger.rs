@@ -167,10 +167,12 @@ fn count_fatigue<const N: usize, const G: usize, const P: usize, const WITH_EFFE
     let members: [f64; G] = std::array::from_fn(|g| equations.teeth.layout.members[g]);
     for g in 0..G {
         for s in 0..2 {
-            equations.tooth_loads(&model.pair, step.end, g, s, |load| strength.add_load(&mut loads[g][s], load));
+            equations.pair_loads(&model.pair, step.end, g, s, |load| strength.add_load(&mut loads[g][s], load));
         }
     }
     let time = records.begin + step.time;
-    let rolled = RolledStep { time, spin: &spin, roll, mesh: &loads, members: &members };
+    // of three planets that differ there is a fourth group, without members
+    let groups = ..model.ideal.plan.groups().len();
+    let rolled = RolledStep { time, spin: &spin[groups], roll, mesh: &loads[groups], members: &members[groups] };
     strength.count(records.fatigue, &rolled);
 }

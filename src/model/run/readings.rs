@@ -123,8 +123,8 @@ impl Simulation {
     pub fn ledger(&self) -> LedgerReadings {
         let s = &self.state.statistics;
         let mut readings = [0.0; READINGS];
-        if self.model.strength.is_some() {
-            self.state.fatigue.read(&mut readings[places_of("strength")]);
+        if let Some(strength) = &self.model.strength {
+            strength.read_damage(&self.state.fatigue, &mut readings[places_of("strength")]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = self.state.friction[range].iter();

@@ -1,24 +1,25 @@
 //! Stress and fatigue of the gears, evaluated after each accepted step.
 
 use super::fatigue::Fatigue;
-use super::mesh_load::MeshLoad;
+use super::mesh_load::{FlankLoad, MeshLoad};
 use super::overload::{Overload, Stressed};
 use super::spec::StrengthSpec;
-use crate::contact::pairs::Flank;
-use crate::contact::tooth_load::ToothLoad;
+use crate::contact::pair_load::PairLoad;
 use crate::model::effect_kinds::effect::Setting;
 use crate::problem::Problem;
-use crate::strength::{Load, LoadCycle, LoadFactors, Rainflow, Rating, loaded_flank, pulsating_range};
+use crate::strength::face_load::root_factor;
+use crate::strength::{Load, Rating, loaded_flank};
 
-/// Reversals of stress up to this part of the strength are no cycles.
-const GATE: f64 = 0.01;
+/// Readings of stress, which stand before those of damage.
+const STRESSES: usize = 4;
 
 /// Constants of the strength of planet and side gear.
 #[derive(Clone, Copy, Debug)]
 pub struct GearStrength {
-    pub(super) rating: Rating,
-    sensitivity: f64,
-    pub(super) mean_cone: f64,
+    rating: Rating,
+    /// Application factor K_A, by which the load on the teeth exceeds the simulated one.
+    application: f64,
+    mean_cone: f64,
 }
 
 /// An accepted step of teeth that roll under load.
@@ -41,7 +42,7 @@ impl GearStrength {
     pub fn new(spec: &StrengthSpec, setting: &Setting) -> Result<Self, Problem> {
         let material = spec.material();
         let elastic = (setting.material.young_modulus, setting.material.poisson_ratio);
-        let rating = Rating::new(setting.pair, elastic, &material, spec.tool_radius, &LoadFactors::default());
+        let rating = Rating::new(setting.pair, elastic, &material, spec.tool_radius);
         let Some(rating) = rating else {
             return Err(Problem::new(
                 "strength.tool_radius",
@@ -51,27 +52,30 @@ impl GearStrength {
                 ),
             ));
         };
-        let sensitivity = material.mean_stress_sensitivity();
-        Ok(Self { rating, sensitivity, mean_cone: setting.pair.mean_cone })
+        Ok(Self { rating, application: spec.application_factor, mean_cone: setting.pair.mean_cone })
     }
 
     /// Adds the load of a pair to that of its mesh.
-    pub fn add_load(&self, mesh: &mut MeshLoad, load: &ToothLoad) {
+    pub fn add_load(&self, mesh: &mut MeshLoad, load: &PairLoad) {
         // referred to the mean cone distance, as in the formulas of strength
-        mesh.normal += load.normal * load.cone / self.mean_cone;
-        mesh.driving = load.flank == Flank::Drive;
-        let pressure = self.rating.contact.pressure_at(load.line_load, load.cone, load.s);
-        mesh.pressure = mesh.pressure.max(pressure.unwrap_or(0.0));
+        let force = self.application * load.moment / self.mean_cone;
+        let flank = mesh.flank(load.flank);
+        flank.normal += force;
+        flank.pressing += force * load.face_factor;
+        flank.bending += force * root_factor(load.face_factor, self.rating.face_exponent);
+        let line_load = self.application * load.steepest * self.mean_cone;
+        let pressure = self.rating.contact.pressure_at(line_load, self.mean_cone, load.s);
+        flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
     }
 
     /// Sets the readings of stress from the loads of all meshes at an instant.
     pub fn read_stresses(&self, meshes: impl Iterator<Item = MeshLoad>, readings: &mut [f64]) {
         for mesh in meshes {
-            let stresses = [
-                mesh.pressure,
-                self.rating.contact.pressure(mesh.normal, 0.0).unwrap_or(0.0),
-                self.rating.root[0].stress(mesh.normal),
-                self.rating.root[1].stress(mesh.normal),
+            let stresses: [f64; STRESSES] = [
+                mesh.largest(|flank| flank.pressure),
+                mesh.largest(|flank| self.rating.contact.pressure(flank.normal, 0.0).unwrap_or(0.0)),
+                mesh.largest(|flank| self.rating.root[0].stress(flank.bending)),
+                mesh.largest(|flank| self.rating.root[1].stress(flank.bending)),
             ];
             for (reading, stress) in readings.iter_mut().zip(stresses) {
                 *reading = reading.max(stress);
@@ -79,19 +83,35 @@ impl GearStrength {
         }
     }
 
+    /// Sets the readings of damage.
+    pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
+        readings[STRESSES..].copy_from_slice(&fatigue.sums(&self.rating));
+    }
+
+    /// Pressure by which pitting of a flank is rated [Pa].
+    fn rated_pressure(&self, flank: &FlankLoad) -> f64 {
+        self.rating.contact.rated_pressure(flank.pressing).unwrap_or(0.0)
+    }
+
     /// Counts an accepted step.
     pub fn count(&self, fatigue: &mut Fatigue, step: &RolledStep) {
         let RolledStep { spin, roll, mesh, members, .. } = *step;
         self.watch(fatigue, step);
         let rating = &self.rating;
-        let load = |i: usize, far: bool, m: &MeshLoad| Load {
-            flank: loaded_flank(far, m.driving),
-            root: rating.root[i].stress(m.normal),
-            pressure: rating.contact.rated_pressure(m.normal).unwrap_or(0.0),
+        let load = |i: usize, far: bool, mesh: &MeshLoad| {
+            [true, false].map(|driving| {
+                let flank = &mesh.flanks()[usize::from(!driving)];
+                Load {
+                    flank: loaded_flank(far, driving),
+                    root: rating.root[i].stress(flank.bending),
+                    pressure: self.rated_pressure(flank),
+                }
+            })
         };
         for (g, both) in mesh.iter().enumerate() {
             let loads = [load(0, false, &both[0]), load(0, true, &both[1])];
-            fatigue.planets[g].add((&rating.bending[0], &rating.pitting), spin[g], rating.pitch[0], loads);
+            let curves = (&rating.bending[0], &rating.pitting);
+            fatigue.planets[g].add(curves, spin[g], rating.pitch[0], loads.into_iter().flatten());
         }
         for s in 0..2 {
             let side = &mut fatigue.sides[s];
@@ -100,9 +120,14 @@ impl GearStrength {
                 .iter()
                 .zip(members)
                 .flat_map(|(both, members)| std::iter::repeat_n(load(1, false, &both[s]), *members as usize));
-            side.add((&rating.bending[1], &rating.pitting), roll[s], rating.pitch[1], loads);
-            let heaviest = mesh.iter().map(|both| both[s]).reduce(|a, b| if b.normal > a.normal { b } else { a });
-            self.stand(fatigue, s, &heaviest.unwrap_or_default(), rolled);
+            side.add((&rating.bending[1], &rating.pitting), roll[s], rating.pitch[1], loads.flatten());
+            let forces = mesh.iter().map(|both| both[s].bending());
+            let heaviest = forces.reduce(|a, b| if b.abs() > a.abs() { b } else { a });
+            let teeth = &mut fatigue.standing[s];
+            if rolled {
+                teeth.change(rating);
+            }
+            teeth.bend(rating, heaviest.unwrap_or_default());
         }
     }
 
@@ -114,32 +139,13 @@ impl GearStrength {
             let rolls = (planet.place + step.spin[g]).abs() > 0.5 * rating.pitch[0];
             for (side, load) in both.iter().enumerate() {
                 let at = |stress: f64, strength: f64| Overload { time: step.time, stress, strength, group: g, side };
-                let root = |i: usize| rating.root[i].stress(load.normal);
-                let pressure = rating.contact.rated_pressure(load.normal).unwrap_or(0.0);
+                let root = |i: usize| load.largest(|flank| rating.root[i].stress(flank.bending));
+                let pressure = load.largest(|flank| self.rated_pressure(flank));
                 let overloads = &mut fatigue.overloads;
                 overloads.watch(Stressed::PlanetRoot, at(root(0), rating.bending[usize::from(!rolls)].strength));
                 overloads.watch(Stressed::SideRoot, at(root(1), rating.bending[1].strength));
                 overloads.watch(Stressed::Flanks, at(pressure, rating.pitting.strength));
             }
         }
-    }
-
-    /// Rainflow of the force on the teeth that stand in the heaviest mesh of side `s`, for the roots of both gears.
-    fn stand(&self, fatigue: &mut Fatigue, s: usize, mesh: &MeshLoad, rolled: bool) {
-        let rating = &self.rating;
-        let (flow, damage) = (&mut fatigue.standing[s], &mut fatigue.stood[s]);
-        let mut add = |cycle: LoadCycle| {
-            // each tooth stands on one flank: the planet's idler strength is for teeth that roll
-            let range = pulsating_range(&cycle, self.sensitivity);
-            for (i, damage) in damage.iter_mut().enumerate() {
-                damage.add(&rating.bending[1], rating.root[i].stress(range), cycle.count);
-            }
-        };
-        if rolled {
-            flow.rest(&mut add);
-            let weakest = rating.root[0].per_force.max(rating.root[1].per_force);
-            *flow = Rainflow::new(GATE * rating.bending[1].strength / weakest);
-        }
-        flow.push(if mesh.driving { mesh.normal } else { -mesh.normal }, &mut add);
     }
 }

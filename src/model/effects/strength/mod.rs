@@ -1,7 +1,7 @@
 //! Stress and fatigue of the teeth: declaration, load of a mesh, rating of a step, damage, and stresses above the strength.
 //!
 //! Damage of rolling teeth is counted by relative revolutions (`strength::counting`). Teeth that stay in mesh are loaded by
-//! the torque alone: their root stress is counted by rainflow until they roll on.
+//! the torque alone: the stress of their roots is counted by rainflow until they roll on (`strength::StandingTeeth`).
 
 mod fatigue;
 mod gear_strength;

@@ -13,6 +13,8 @@ use crate::strength::{Material, SnCurve};
 pub struct StrengthSpec {
     /// Tip radius of the tool that cuts the roots, in modules.
     pub tool_radius: f64,
+    /// Application factor K_A: load on the teeth over the simulated load.
+    pub application_factor: f64,
     /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
     pub bending_strength: f64,
     /// Cycles at the knee of bending.
@@ -33,6 +35,7 @@ impl Default for StrengthSpec {
     fn default() -> Self {
         Self {
             tool_radius: 0.25,
+            application_factor: 1.0,
             bending_strength: 1e9,
             bending_cycles: 3e6,
             bending_life_factor: 2.5,
@@ -140,6 +143,14 @@ impl Declare for StrengthSpec {
                 (1.05, 10.0),
                 |p| &mut p.contact_life_factor,
                 "Life factor of pitting at 1e5 cycles (ISO 6336-2)",
+            ),
+            real(
+                "strength.application_factor",
+                units::ONE,
+                None,
+                (0.1, 10.0),
+                |p| &mut p.application_factor,
+                "Application factor: load on the teeth over the simulated one, for what the scene does not contain",
             ),
         ]
     }

@@ -1,0 +1,105 @@
+//! Loads of single sections of solid teeth, and how evenly a pair carries over its face.
+
+use nalgebra::Vector3;
+
+use super::mesh::{SolidMesh, SolidSlice, slope};
+use crate::contact::impact::Force;
+use crate::contact::pairs::Flank;
+use crate::contact::state::MeshState;
+use crate::numeric::Dual;
+
+/// A loaded section of one pair.
+#[derive(Clone, Copy, Debug)]
+pub struct SolidLoad {
+    /// Flank of the planet.
+    pub flank: Flank,
+    /// Number of the pair, as tooth pairs on the path of contact are counted.
+    pub number: i64,
+    /// Place by the planet's rotation [rad].
+    pub s: f64,
+    /// The section.
+    pub slice: SolidSlice,
+    /// Its overlap as an arc [rad].
+    pub depth: f64,
+    /// Force.
+    pub force: Force,
+    /// Where on the flank: unit vector in parts along the planet's axis, the side gear's and across.
+    pub point: [f64; 3],
+    /// Polar angles of that place on planet and side gear, each about its own axis as it stands [rad].
+    pub polar: [f64; 2],
+    /// Normal into the side gear, in the same parts.
+    pub normal: [f64; 3],
+}
+
+impl SolidLoad {
+    /// Parts of the normal that act on bearings: along the planet's axis and the side gear's, away from the apex, and along
+    /// the rotation.
+    pub fn parts(&self) -> [f64; 3] {
+        // the planet is pushed back, the side gear forward
+        let [planet, side, across] = self.normal;
+        [-planet, side, across]
+    }
+}
+
+impl SolidMesh {
+    /// Face load factor K_Hβ of the pair of `flank` at place `s`: the largest load per width, be it of a section or at an edge,
+    /// over its mean with the weight R, which is that of the torque. Loads of sections follow their overlaps alone, and
+    /// aligned solids carry evenly.
+    pub fn face_load_factor(&self, state: &MeshState, flank: Flank, s: f64) -> f64 {
+        if self.slices.len() == 1 {
+            return 1.0;
+        }
+        let (mut largest, mut mean) = (0.0f64, 0.0);
+        for slices in [&self.slices, &self.edges] {
+            self.sections(
+                slices,
+                state.which,
+                state.position,
+                |v, _, _| v,
+                |near, slice, p: f64| {
+                    if p > 0.0 && near.flank == flank && near.s == s {
+                        let load = self.elastic.force(self.cone * p, 0.0).elastic;
+                        largest = largest.max(load);
+                        mean += slice.share * load;
+                    }
+                },
+            );
+        }
+        let factor = largest / mean;
+        // written so that NaN gives 1
+        if factor > 1.0 && factor.is_finite() { factor } else { 1.0 }
+    }
+
+    /// Calls `visit` with every loaded section.
+    pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
+        let [dq, dx] = state.rate;
+        self.sections(&self.slices, state.which, state.position, slope, |near, slice, p: Dual<2>| {
+            if p.v <= 0.0 {
+                return;
+            }
+            let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
+            let share = slice.share * self.cone / slice.cone;
+            let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
+            let poses = near.placement.poses(near.q, near.x, near.k);
+            if let Some(patch) = self.section(near, slice).patch(&poses, &self.soft) {
+                let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
+                let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
+                let parts = |w: [f64; 3]| {
+                    let [planet, side, across] = near.placement.parts(w);
+                    [planet, side, sign * across]
+                };
+                visit(&SolidLoad {
+                    flank: near.flank,
+                    number: near.number,
+                    s: near.s,
+                    slice: *slice,
+                    depth: p.v,
+                    force,
+                    point: parts(point.into()),
+                    polar: near.placement.polars(point, slice.cone),
+                    normal: parts(patch.normal),
+                });
+            }
+        });
+    }
+}

@@ -1,0 +1,71 @@
+//! Loads of whole tooth pairs at an instant, with how evenly each is spread over its face.
+
+use crate::contact::detailed::KnownSlice;
+use crate::contact::errors::{MeshId, PairId};
+use crate::contact::mesh::Law;
+use crate::contact::pair_load::PairLoad;
+use crate::contact::tooth_load::ToothLoad;
+use crate::geometry::Pair;
+use crate::integrate::Point;
+use crate::model::dynamics::equations::Equations;
+use crate::numeric::{cos, sin};
+
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+    /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
+    pub fn pair_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&PairLoad)) {
+        // slices of a pair come one after the other
+        let mut open: Option<([usize; 2], PairLoad)> = None;
+        let mut close = |load: &mut PairLoad| {
+            let detailed = &self.teeth.additions.detailed;
+            if self.is_sliced() {
+                // the pressure where the load is the largest, be it between slices or at an end
+                let mean = load.moment / detailed.moment_of_face();
+                load.steepest = load.steepest.max(load.face_factor * mean);
+            }
+            visit(load);
+        };
+        self.tooth_loads(pair, at, g, s, |slice| match &mut open {
+            Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
+            _ => {
+                let next = PairLoad::new(slice, self.face_load_factor(pair, at, g, slice));
+                if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
+                    close(&mut load);
+                }
+            }
+        });
+        if let Some((_, mut load)) = open {
+            close(&mut load);
+        }
+    }
+
+    /// Whether meshes are summed slice by slice over the face.
+    fn is_sliced(&self) -> bool {
+        let additions = &self.teeth.additions;
+        WITH_EFFECTS && additions.in_detail && additions.detailed.slices.len() > 1
+    }
+
+    /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
+    fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
+        let additions = &self.teeth.additions;
+        if let (false, Law::Solid(solid)) = (additions.in_detail, &self.teeth.mesh.law) {
+            return solid.face_load_factor(&self.mesh_state(at, g, slice.side), slice.flank, slice.s);
+        }
+        if !self.is_sliced() {
+            return 1.0;
+        }
+        let mesh = MeshId { planet: slice.planet, side: slice.side };
+        let [planet_tooth, side_tooth] = slice.teeth;
+        let teeth = PairId { planet_tooth, side_tooth, flank: slice.flank };
+        let gaps = self.gaps();
+        let displaced = if P > 0 {
+            at.q[Self::SEAT + slice.side] * cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - slice.s)
+        } else {
+            0.0
+        };
+        let opening = |r: f64| displaced + gaps.map_or(0.0, |gaps| gaps.gap(mesh, teeth, r, slice.s));
+        let [inner, outer] = [pair.inner_cone, pair.outer_cone];
+        let edge = gaps.and_then(|gaps| gaps.edge(mesh, teeth)).unwrap_or(outer).clamp(inner, outer);
+        let known = KnownSlice { cone: slice.cone, arc: slice.depth / slice.cone, s: slice.s };
+        additions.detailed.face_load_factor(&known, opening, &[[inner, edge], [edge, outer]])
+    }
+}
