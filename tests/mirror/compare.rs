@@ -1,0 +1,108 @@
+//! Compares a course with that of an image, as long as a twin that is disturbed by 1e-15 stays close.
+
+use bevel_differential::variables::Variable;
+
+use crate::scene::{Course, Scene, output, outputs};
+use crate::table::{line_of, lines};
+
+/// Part of its scale to which an output is compared, and where dry friction switches.
+pub const CLOSE: f64 = 1e-9;
+pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
+/// Part of that within which the twin stays.
+const TWIN: f64 = 0.1;
+/// Units whose quantities are measured by the largest among them; others are by their entry in the table.
+const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
+
+/// What was found.
+#[derive(Default)]
+pub struct Findings {
+    /// Values compared, and values there were, by line of the table.
+    pub compared: Vec<[usize; 2]>,
+    /// Values compared that are not 0, by line of the table.
+    pub telling: Vec<usize>,
+    /// What does not map.
+    pub wrong: Vec<String>,
+    /// Largest deviation that was allowed.
+    pub largest: f64,
+}
+
+impl Findings {
+    pub fn new() -> Self {
+        Self { compared: vec![[0; 2]; lines().len()], telling: vec![0; lines().len()], ..Self::default() }
+    }
+
+    /// Part of all values that was compared.
+    pub fn share(&self) -> f64 {
+        let [compared, all] = self.compared.iter().fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        compared as f64 / all.max(1) as f64
+    }
+
+    pub fn add(&mut self, other: Self) {
+        for i in 0..self.compared.len() {
+            self.telling[i] += other.telling[i];
+            (0..2).for_each(|k| self.compared[i][k] += other.compared[i][k]);
+        }
+        self.wrong.extend(other.wrong);
+        self.largest = self.largest.max(other.largest);
+    }
+}
+
+/// Kind of quantity of an output: its unit, or its entry in the table.
+fn kind(row: &Variable) -> &'static str {
+    let unit = row.unit.map_or("", |unit| unit.name);
+    let shared = SHARED.iter().find(|&&shared| shared == unit);
+    shared.copied().unwrap_or_else(|| line_of(row.name).map_or("", |line| lines()[line].pattern))
+}
+
+/// Largest magnitude over the run of the kind of quantity of each output.
+fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
+    let largest = |i: usize| course.values.iter().fold(0.0f64, |most, values| most.max(values[i].abs()));
+    let kinds: Vec<&str> = outputs().iter().map(|row| kind(row)).collect();
+    // energies are measured by what is turned over, and by what the carrier carries
+    let power = [output("power.in"), output("power.out")];
+    let turned: f64 = (1..course.times.len())
+        .map(|k| (course.times[k] - course.times[k - 1]) * power.map(|i| course.values[k][i].abs()).iter().sum::<f64>())
+        .sum();
+    let carried = 0.5 * scene.parameters.inertia.carrier * largest(output("carrier.speed")).powi(2);
+    (0..kinds.len())
+        .map(|i| {
+            let of_kind = (0..kinds.len()).filter(|&j| kinds[j] == kinds[i]).map(largest).fold(0.0, f64::max);
+            if kinds[i] == "J" { of_kind.max(turned + carried) } else { of_kind }
+        })
+        .collect()
+}
+
+/// Compares the image of `base` with what it must be by `map`, to `close` of its scale.
+pub fn compare(scene: &Scene, [base, twin, image]: [&Course; 3], map: &[(usize, f64, f64)], close: f64) -> Findings {
+    let mut found = Findings::new();
+    let scales = scales(scene, base);
+    let steps = base.values.len();
+    let same_end = twin.values.len() == steps;
+    if same_end && image.values.len() != steps {
+        found.wrong.push(format!("ends at {:?}, not at {:?}", image.times.last(), base.times.last()));
+    }
+    let steps_of_all = steps.min(twin.values.len()).min(image.values.len());
+    for (i, row) in outputs().iter().enumerate() {
+        let Some(line) = line_of(row.name) else { continue };
+        let (to, sign, added) = map[i];
+        let scale = scales[i].max(f64::MIN_POSITIVE);
+        let strays = |k: usize| (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close * scale;
+        let window = (0..steps_of_all).find(|&k| strays(k)).unwrap_or(steps_of_all);
+        found.compared[line][0] += window;
+        found.compared[line][1] += steps;
+        for k in 0..window {
+            let (expected, actual) = (sign * base.values[k][i] + added, image.values[k][to]);
+            found.telling[line] += usize::from(base.values[k][i] != 0.0);
+            let deviation = (actual - expected).abs() / scale;
+            if deviation > close || deviation.is_nan() {
+                found.wrong.push(format!(
+                    "{} at {:.5} s: {actual:e} in place of {expected:e}, {deviation:.1e} of its scale",
+                    row.name, base.times[k]
+                ));
+                break;
+            }
+            found.largest = found.largest.max(deviation);
+        }
+    }
+    found
+}
