@@ -2,6 +2,7 @@
 
 use bevel_differential::variables::Variable;
 
+use crate::image::Mapped;
 use crate::scene::{Course, Scene, output, outputs};
 use crate::table::{line_of, lines};
 
@@ -16,14 +17,16 @@ const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
 /// What was found.
 #[derive(Default)]
 pub struct Findings {
+    /// Scenes compared.
+    pub scenes: usize,
     /// Values compared, and values there were, by line of the table.
     pub compared: Vec<[usize; 2]>,
     /// Values compared that are not 0, by line of the table.
     pub telling: Vec<usize>,
     /// What does not map.
     pub wrong: Vec<String>,
-    /// Largest deviation that was allowed.
-    pub largest: f64,
+    /// Largest deviations that were allowed, without switches of dry friction and with them.
+    pub largest: [f64; 2],
 }
 
 impl Findings {
@@ -42,8 +45,9 @@ impl Findings {
             self.telling[i] += other.telling[i];
             (0..2).for_each(|k| self.compared[i][k] += other.compared[i][k]);
         }
+        self.scenes += other.scenes;
         self.wrong.extend(other.wrong);
-        self.largest = self.largest.max(other.largest);
+        (0..2).for_each(|k| self.largest[k] = self.largest[k].max(other.largest[k]));
     }
 }
 
@@ -72,36 +76,43 @@ fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
         .collect()
 }
 
-/// Compares the image of `base` with what it must be by `map`, to `close` of its scale.
-pub fn compare(scene: &Scene, [base, twin, image]: [&Course; 3], map: &[(usize, f64, f64)], close: f64) -> Findings {
-    let mut found = Findings::new();
+/// Compares the image of `base` with what it must be by `map`, where the twins stay close.
+pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, map: &[Mapped]) -> Findings {
+    let mut found = Findings { scenes: 1, ..Findings::new() };
     let scales = scales(scene, base);
     let steps = base.values.len();
-    let same_end = twin.values.len() == steps;
+    let reached = twins.iter().map(|twin| twin.values.len()).fold(steps, usize::min);
+    let same_end = twins.iter().all(|twin| twin.values.len() == steps);
     if same_end && image.values.len() != steps {
         found.wrong.push(format!("ends at {:?}, not at {:?}", image.times.last(), base.times.last()));
     }
-    let steps_of_all = steps.min(twin.values.len()).min(image.values.len());
+    let reached = reached.min(image.values.len());
+    let close = |k: usize| if k < base.switched { CLOSE } else { CLOSE_AT_SWITCHES };
     for (i, row) in outputs().iter().enumerate() {
         let Some(line) = line_of(row.name) else { continue };
-        let (to, sign, added) = map[i];
+        let Mapped { output: to, factor, added, magnitude } = map[i];
+        // a mesh that carries next to nothing has no certain number of pairs
+        let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
+        let certain = |k: usize| load.is_none_or(|load| base.values[k][load] > close(k) * scales[load]);
         let scale = scales[i].max(f64::MIN_POSITIVE);
-        let strays = |k: usize| (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close * scale;
-        let window = (0..steps_of_all).find(|&k| strays(k)).unwrap_or(steps_of_all);
+        let far = |k: usize, twin: &Course| (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close(k) * scale;
+        let window = (0..reached).find(|&k| twins.iter().any(|twin| far(k, twin))).unwrap_or(reached);
         found.compared[line][0] += window;
         found.compared[line][1] += steps;
-        for k in 0..window {
-            let (expected, actual) = (sign * base.values[k][i] + added, image.values[k][to]);
+        for k in (0..window).filter(|&k| certain(k)) {
+            let (expected, actual) = (factor * base.values[k][i] + added, image.values[k][to]);
+            let actual = if magnitude { actual.abs() } else { actual };
             found.telling[line] += usize::from(base.values[k][i] != 0.0);
-            let deviation = (actual - expected).abs() / scale;
-            if deviation > close || deviation.is_nan() {
+            let deviation = (actual - expected).abs() / (factor.abs() * scale);
+            if deviation > close(k) || deviation.is_nan() {
                 found.wrong.push(format!(
                     "{} at {:.5} s: {actual:e} in place of {expected:e}, {deviation:.1e} of its scale",
                     row.name, base.times[k]
                 ));
                 break;
             }
-            found.largest = found.largest.max(deviation);
+            let at = usize::from(k >= base.switched);
+            found.largest[at] = found.largest[at].max(deviation);
         }
     }
     found

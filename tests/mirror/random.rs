@@ -66,7 +66,7 @@ pub fn scene(index: u64) -> Option<Scene> {
     effects(d, &mut p);
     solver(d, &mut p);
     let inputs = inputs(d, &p);
-    let duration = d.between(4e-3, 12e-3);
+    let duration = d.between(3e-3, 8e-3);
     let steps = steps(d, &p, inputs, duration);
     Scene::new(p, inputs, steps).ok()
 }
@@ -83,12 +83,8 @@ fn gears(d: &mut Draw, p: &mut Parameters) {
     let cone = 0.5 * g.module * f64::from(g.planet_teeth) * (1.0 + ratio * ratio).sqrt();
     g.face_width = cone * d.between(0.15, 0.33);
     g.backlash = g.module * d.between(0.0, 0.04);
-    g.addendum_system = d.of(&[
-        AddendumSystem::Standard,
-        AddendumSystem::Gleason,
-        AddendumSystem::Iso23509,
-        AddendumSystem::Explicit,
-    ]);
+    g.addendum_system =
+        d.of(&[AddendumSystem::Standard, AddendumSystem::Gleason, AddendumSystem::Iso23509, AddendumSystem::Explicit]);
     g.root_fillet = d.between(0.1, 0.4);
     p.effects.backlash = d.chance(0.9);
     p.effects.corner_contact = d.chance(0.9);

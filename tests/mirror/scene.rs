@@ -1,17 +1,12 @@
-//! A scene, its course in time, and its images.
+//! A scene, and its course in time.
 
 use std::sync::OnceLock;
 
-use bevel_differential::contact::errors::{FaultyGear, GearTeeth, ToothErrors};
+use bevel_differential::contact::errors::{GearTeeth, ToothErrors};
 use bevel_differential::geometry::Pair;
-use bevel_differential::model::{
-    CarrierDrive, GearContact, InputDerivatives, Inputs, Parameters, Simulation, State,
-};
+use bevel_differential::model::{GearContact, InputDerivatives, Inputs, Layout, Parameters, Simulation, State};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, table};
-
-use crate::table::{Parity, line_of, lines};
-use crate::teeth::{self, View};
 
 /// A communication step.
 #[derive(Clone, Copy, Debug)]
@@ -31,14 +26,19 @@ pub struct Scene {
     pub teeth: Option<Vec<GearTeeth>>,
     /// Where it goes on from, instead of starting.
     pub from: Option<State>,
+    /// Angle by which gears are displaced at the start [rad].
+    pub nudge: f64,
 }
 
 /// Values of all outputs at the start and after each step.
 pub struct Course {
     pub times: Vec<f64>,
     pub values: Vec<Vec<f64>>,
-    /// State at the start.
+    /// State at the start, and where its bodies stand in it.
     pub start: State,
+    pub layout: Layout,
+    /// Number of the first values after dry friction has switched.
+    pub switched: usize,
     /// Why it ended before its time.
     pub failure: Option<String>,
 }
@@ -57,7 +57,7 @@ pub fn output(name: &str) -> usize {
 impl Scene {
     /// A scene whose teeth, where they differ, are listed one by one.
     pub fn new(parameters: Parameters, inputs: Inputs, steps: Vec<Step>) -> Result<Self, Vec<Problem>> {
-        let mut scene = Self { parameters, inputs, steps, teeth: None, from: None };
+        let mut scene = Self { parameters, inputs, steps, teeth: None, from: None, nudge: 0.0 };
         if parameters.effects.tooth_errors && parameters.scene.gear_contact == GearContact::Tooth {
             let count = usize::try_from(parameters.geometry.planet_count).unwrap_or(0);
             let errors = ToothErrors::new(&parameters.specs.tooth_errors, &scene.pair(), count);
@@ -81,12 +81,21 @@ impl Scene {
             Some(state) => Simulation::resume_with(p, i, state, given)?,
             None => Simulation::start_with(p, i, 0.0, given)?,
         };
+        if self.nudge != 0.0 {
+            let (mut state, layout) = (*simulation.state(), simulation.plan().layout());
+            for (k, i) in (0..2).chain((0..layout.groups).map(|g| layout.planet(g))).enumerate() {
+                state.q[i] += if k % 3 == 1 { -self.nudge } else { self.nudge };
+            }
+            simulation = Simulation::resume_with(p, i, state, given)?;
+        }
         let read = |simulation: &mut Simulation| -> Vec<f64> {
-            let value = |row: &&Variable| if let Access::Output(of) = row.access { of.read(simulation) } else { f64::NAN };
+            let value =
+                |row: &&Variable| if let Access::Output(of) = row.access { of.read(simulation) } else { f64::NAN };
             outputs().iter().map(value).collect()
         };
-        let start = *simulation.state();
-        let mut course = Course { times: vec![0.0], values: vec![read(&mut simulation)], start, failure: None };
+        let (start, layout) = (*simulation.state(), simulation.plan().layout());
+        let values = vec![read(&mut simulation)];
+        let mut course = Course { times: vec![0.0], values, start, layout, switched: usize::MAX, failure: None };
         let mut time = 0.0;
         for step in &self.steps {
             simulation.set_inputs(&step.inputs);
@@ -96,18 +105,23 @@ impl Scene {
                 course.failure = Some(failure.message);
                 break;
             }
+            let state = simulation.state();
+            let modes = state.friction.iter().zip(&start.friction).all(|(now, then)| now.mode == then.mode);
+            if !modes || state.statistics.rejected_switch > 0 {
+                course.switched = course.switched.min(course.times.len());
+            }
             course.times.push(time);
             course.values.push(read(&mut simulation));
         }
         Ok(course)
     }
 
-    /// The same scene disturbed by 1e-15 of itself: its inputs, and the pressure angle, by which positions round differently.
-    pub fn disturbed(&self) -> Self {
+    /// The same scene disturbed by 1e-15, up or down (`sign` = ±1): its inputs and the pressure angle by that part of
+    /// themselves, the angles of its gears at the start by that of a radian. Rounding in an image is of that size.
+    pub fn disturbed(&self, mut sign: f64) -> Self {
         const BY: f64 = 1e-15;
-        let mut twin = self.clone();
-        twin.parameters.geometry.pressure_angle *= 1.0 + BY;
-        let mut sign = 1.0;
+        let mut twin = Self { nudge: sign * BY, ..self.clone() };
+        twin.parameters.geometry.pressure_angle *= 1.0 + sign * BY;
         let mut inputs = vec![&mut twin.inputs];
         inputs.extend(twin.steps.iter_mut().map(|step| &mut step.inputs));
         for inputs in inputs {
@@ -121,110 +135,4 @@ impl Scene {
         }
         twin
     }
-
-    /// The scene in the image `view`, by the table.
-    pub fn image(&self, view: View) -> Self {
-        let mut image = self.clone();
-        image.inputs = self.image_of_inputs(view, &self.inputs);
-        for step in &mut image.steps {
-            step.inputs = self.image_of_inputs(view, &step.inputs);
-            if let Some(derivatives) = &mut step.derivatives {
-                derivatives.rates = derivatives.rates.map(|rate| self.image_of_inputs(view, &rate));
-            }
-        }
-        let (mut from, to) = (self.parameters, &mut image.parameters);
-        for row in &table().rows {
-            let there = same(&self.name(view, row.name));
-            let sign = self.sign(view, row.name);
-            match (row.access, there.access) {
-                (Access::Real(here), Access::Real(there)) => *there(to) = sign * *here(&mut from),
-                (Access::Integer(here), Access::Integer(there)) => *there(to) = *here(&mut from),
-                (Access::Boolean(here), Access::Boolean(there)) => *there(to) = *here(&mut from),
-                (Access::Enumeration(_, get, _), Access::Enumeration(_, _, set)) => set(to, get(&from)),
-                _ => {}
-            }
-        }
-        let spec = &self.parameters.geometry;
-        let fault = &mut image.parameters.specs.tooth_fault;
-        let (first, teeth) = match fault.gear {
-            FaultyGear::Planet => (2, spec.planet_teeth),
-            _ => (0, spec.side_teeth),
-        };
-        let broken = teeth::renumbered(view, spec, first + fault.index as usize);
-        fault.index = (broken.gear - first) as i32;
-        fault.tooth = broken.tooth(i64::from(fault.tooth)).rem_euclid(i64::from(teeth)) as i32;
-        image.teeth = self.teeth.as_ref().map(|teeth| teeth::image(view, spec, teeth));
-        image
-    }
-
-    fn image_of_inputs(&self, view: View, inputs: &Inputs) -> Inputs {
-        let (mut from, mut image) = (*inputs, Inputs::ZERO);
-        for row in &table().rows {
-            if let (Access::Input(here), Access::Input(there)) = (row.access, same(&self.name(view, row.name)).access) {
-                *there(&mut image) = self.sign(view, row.name) * *here(&mut from);
-            }
-        }
-        image
-    }
-
-    /// How a variable maps.
-    fn parity(&self, view: View, name: &str) -> Parity {
-        let line = &lines()[line_of(name).unwrap_or_else(|| panic!("{name} is in no table"))];
-        match view {
-            View::Reversed => line.parity[0],
-            View::Swapped => line.parity[1],
-            View::Renumbered | View::Shifted => Parity::Even,
-        }
-    }
-
-    /// Factor of a variable in the image.
-    fn sign(&self, view: View, name: &str) -> f64 {
-        let by_torque = self.parameters.scene.carrier_drive == CarrierDrive::Torque;
-        match self.parity(view, name) {
-            Parity::Odd | Parity::Lash => -1.0,
-            Parity::Wave if by_torque => -1.0,
-            _ => 1.0,
-        }
-    }
-
-    /// Name of a variable in the image.
-    fn name(&self, view: View, name: &str) -> String {
-        let n = self.planets();
-        match (view, planet_of(name)) {
-            (View::Swapped, _) => {
-                name.replace("left", "LEFT").replace("right", "left").replace("LEFT", "right")
-            }
-            (View::Reversed | View::Renumbered, Some(i)) if i <= n => {
-                let to = teeth::renumbered(view, &self.parameters.geometry, 1 + i).gear - 1;
-                name.replace(&format!("planet[{i}]"), &format!("planet[{to}]"))
-            }
-            _ => name.into(),
-        }
-    }
-
-    /// For each output its index in the image, its factor, and what is added there.
-    pub fn map(&self, view: View) -> Vec<(usize, f64, f64)> {
-        let pair = self.pair();
-        let lash = pair.normal_backlash * pair.mean_cone;
-        outputs()
-            .iter()
-            .map(|row| {
-                // planets that there are not have no lash, nor have gears without teeth
-                let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
-                let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
-                let added = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
-                (output(&self.name(view, row.name)), self.sign(view, row.name), added)
-            })
-            .collect()
-    }
-}
-
-/// Number of the planet in a name, from 1.
-fn planet_of(name: &str) -> Option<usize> {
-    let at = name.find("planet[")? + "planet[".len();
-    name[at..at + 1].parse().ok()
-}
-
-fn same(name: &str) -> &'static Variable {
-    table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}"))
 }

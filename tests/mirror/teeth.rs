@@ -48,9 +48,7 @@ pub fn renumbered(view: View, spec: &GearSpec, gear: Number) -> Renumbered {
     match (view, gear) {
         (View::Reversed, 0) => Renumbered { gear, backward: true, first: -1 },
         (View::Reversed, 1) => Renumbered { gear, backward: true, first: -1 - z_p % 2 },
-        (View::Reversed, _) => {
-            Renumbered { gear: 2 + ((n - planet) % n) as usize, backward: true, first: -shifted }
-        }
+        (View::Reversed, _) => Renumbered { gear: 2 + ((n - planet) % n) as usize, backward: true, first: -shifted },
         (View::Swapped, 0 | 1) => Renumbered { gear: 1 - gear, backward: false, first: 0 },
         (View::Swapped, _) => Renumbered { gear, backward: true, first: z_p / 2 - shifted },
         (View::Renumbered, 0 | 1) => Renumbered { gear, backward: false, first: z_s / n },

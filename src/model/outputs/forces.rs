@@ -1,6 +1,7 @@
 //! Forces, torques and powers of a differential, and the ratios that follow from them.
 
 use super::mesh_forces::MeshForces;
+use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::scene::layout::MAX_PLANETS;
 use crate::model::setup::effect_outputs::READINGS;
 
@@ -49,20 +50,23 @@ pub struct Forces {
 /// The fast side is the one ahead in the sense in which the torques act, (ω_L − ω_R)(T_L + T_R) > 0 for the left one,
 /// forward or backward, in drive or overrun, and whether or not the carrier turns. Friction turns the power
 /// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat, so that it always takes torque from that side: a bias by friction is 1 or more.
-/// Where both turn alike, the side that carries less is the one that would be ahead if it slipped.
+/// Where both turn alike, as far as dry friction tells speeds apart, the side that carries less is the fast one: it would
+/// be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
     if sum == 0.0 {
         return (1.0, 0.0);
     }
     let ahead = (speed[0] - speed[1]) * sum.signum();
-    let is_left_fast = if ahead != 0.0 { ahead > 0.0 } else { torque[0].abs() < torque[1].abs() };
+    let is_left_fast = if ahead.abs() > ALIKE { ahead > 0.0 } else { torque[0].abs() < torque[1].abs() };
     let [slow, fast] = if is_left_fast { [torque[1], torque[0]] } else { torque };
     // a fast side without torque would make the ratio infinite
     let ratio = if fast != 0.0 { (slow / fast).clamp(-MOST_BIAS, MOST_BIAS) } else { MOST_BIAS };
     (ratio, (torque[0] - torque[1]).abs() / sum.abs())
 }
 
+/// Difference of speeds up to which sides turn alike [rad/s].
+const ALIKE: f64 = SPEED_TOLERANCE;
 /// Largest magnitude of the torque bias ratio.
 const MOST_BIAS: f64 = 1e6;
 
@@ -107,7 +111,10 @@ mod tests {
     #[test]
     fn sides_that_turn_alike_have_the_ratio_of_the_larger_to_the_smaller_torque() {
         for torque in [[900.0, 100.0], [100.0, 900.0], [-900.0, -100.0], [-100.0, -900.0]] {
-            assert_eq!(bias(torque, [3.0, 3.0]), (9.0, 0.8));
+            // a locked differential trembles
+            for apart in [0.0, 1e-9, -1e-9] {
+                assert_eq!(bias(torque, [3.0 + apart, 3.0]), (9.0, 0.8));
+            }
         }
     }
 
