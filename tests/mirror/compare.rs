@@ -10,7 +10,7 @@ use crate::table::{line_of, lines};
 pub const CLOSE: f64 = 1e-9;
 pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
 /// Part of that within which the twin stays.
-const TWIN: f64 = 0.1;
+const TWIN: f64 = 0.05;
 /// Units whose quantities are measured by the largest among them; others are by their entry in the table.
 const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
 
@@ -51,10 +51,13 @@ impl Findings {
     }
 }
 
+fn unit(row: &Variable) -> &'static str {
+    row.unit.map_or("", |unit| unit.name)
+}
+
 /// Kind of quantity of an output: its unit, or its entry in the table.
 fn kind(row: &Variable) -> &'static str {
-    let unit = row.unit.map_or("", |unit| unit.name);
-    let shared = SHARED.iter().find(|&&shared| shared == unit);
+    let shared = SHARED.iter().find(|&&shared| shared == unit(row));
     shared.copied().unwrap_or_else(|| line_of(row.name).map_or("", |line| lines()[line].pattern))
 }
 
@@ -87,7 +90,15 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
         found.wrong.push(format!("ends at {:?}, not at {:?}", image.times.last(), base.times.last()));
     }
     let reached = reached.min(image.values.len());
-    let close = |k: usize| if k < base.switched { CLOSE } else { CLOSE_AT_SWITCHES };
+    let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
+    let close = |k: usize| if k < switched { CLOSE } else { CLOSE_AT_SWITCHES };
+    // the time in which the twins stay close in an output
+    let near = |i: usize| {
+        let far = |k: usize, twin: &Course| {
+            (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close(k) * scales[i].max(f64::MIN_POSITIVE)
+        };
+        (0..reached).find(|&k| twins.iter().any(|twin| far(k, twin))).unwrap_or(reached)
+    };
     for (i, row) in outputs().iter().enumerate() {
         let Some(line) = line_of(row.name) else { continue };
         let Mapped { output: to, factor, added, magnitude } = map[i];
@@ -95,8 +106,9 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
         let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
         let certain = |k: usize| load.is_none_or(|load| base.values[k][load] > close(k) * scales[load]);
         let scale = scales[i].max(f64::MIN_POSITIVE);
-        let far = |k: usize, twin: &Course| (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close(k) * scale;
-        let window = (0..reached).find(|&k| twins.iter().any(|twin| far(k, twin))).unwrap_or(reached);
+        // counts of steps say nothing before they differ; their size does
+        let window =
+            if row.name.starts_with("solver.") { near(i).min(near(output("solver.step_size"))) } else { near(i) };
         found.compared[line][0] += window;
         found.compared[line][1] += steps;
         for k in (0..window).filter(|&k| certain(k)) {
@@ -111,7 +123,7 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
                 ));
                 break;
             }
-            let at = usize::from(k >= base.switched);
+            let at = usize::from(k >= switched);
             found.largest[at] = found.largest[at].max(deviation);
         }
     }

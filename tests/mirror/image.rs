@@ -79,27 +79,26 @@ impl Scene {
             return None;
         }
         let mut image = *start;
-        let [sides, seats, ends] = [[0, 1], [layout.seat(0), layout.seat(1)], [layout.end(0), layout.end(1)]];
-        if view == View::Swapped {
-            image.q.swap(sides[0], sides[1]);
-            image.v.swap(sides[0], sides[1]);
-            for [left, right] in
-                [seats, ends].into_iter().zip([layout.pins, layout.ends]).filter_map(|(b, on)| on.then_some(b))
-            {
-                image.q.swap(left, right);
-                image.v.swap(left, right);
+        if view == View::Shifted {
+            // whole pitches are counted
+            for (i, pitches) in [(0, 1), (1, -1)].into_iter().chain((0..layout.groups).map(|g| (layout.planet(g), 1))) {
+                image.turns[i] += pitches;
             }
-            image.friction.swap(0, 1);
-            image.friction.swap(WHEELS, WHEELS + 1);
+            return Some(image);
         }
+        image.q.swap(0, 1);
+        image.v.swap(0, 1);
+        let [seats, ends] = [[layout.seat(0), layout.seat(1)], [layout.end(0), layout.end(1)]];
+        for ([left, right], _) in [(seats, layout.pins), (ends, layout.ends)].into_iter().filter(|(_, are)| *are) {
+            image.q.swap(left, right);
+            image.v.swap(left, right);
+        }
+        image.friction.swap(0, 1);
+        image.friction.swap(WHEELS, WHEELS + 1);
         for g in 0..layout.groups {
             let (i, friction) = (layout.planet(g), &mut image.friction[PLANETS + g]);
-            if view == View::Swapped {
-                (image.q[i], image.v[i]) = (-image.q[i], -image.v[i]);
-                (friction.anchor, friction.mode) = (-friction.anchor, friction.mode.reversed());
-            }
-            image.q[i] += ahead[0];
-            friction.anchor += ahead[0];
+            (image.q[i], image.v[i]) = (ahead[0] - image.q[i], -image.v[i]);
+            (friction.anchor, friction.mode) = (ahead[0] - friction.anchor, friction.mode.reversed());
         }
         for s in 0..2 {
             image.q[s] += ahead[1 + s];

@@ -4,7 +4,9 @@ use std::sync::OnceLock;
 
 use bevel_differential::contact::errors::{GearTeeth, ToothErrors};
 use bevel_differential::geometry::Pair;
-use bevel_differential::model::{GearContact, InputDerivatives, Inputs, Layout, Parameters, Simulation, State};
+use bevel_differential::model::{
+    BODIES, Body, GearContact, InputDerivatives, Inputs, Layout, Parameters, Simulation, State,
+};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, table};
 
@@ -26,7 +28,7 @@ pub struct Scene {
     pub teeth: Option<Vec<GearTeeth>>,
     /// Where it goes on from, instead of starting.
     pub from: Option<State>,
-    /// Angle by which gears are displaced at the start [rad].
+    /// Angle by which gears are displaced before every step [rad].
     pub nudge: f64,
 }
 
@@ -81,13 +83,6 @@ impl Scene {
             Some(state) => Simulation::resume_with(p, i, state, given)?,
             None => Simulation::start_with(p, i, 0.0, given)?,
         };
-        if self.nudge != 0.0 {
-            let (mut state, layout) = (*simulation.state(), simulation.plan().layout());
-            for (k, i) in (0..2).chain((0..layout.groups).map(|g| layout.planet(g))).enumerate() {
-                state.q[i] += if k % 3 == 1 { -self.nudge } else { self.nudge };
-            }
-            simulation = Simulation::resume_with(p, i, state, given)?;
-        }
         let read = |simulation: &mut Simulation| -> Vec<f64> {
             let value =
                 |row: &&Variable| if let Access::Output(of) = row.access { of.read(simulation) } else { f64::NAN };
@@ -96,6 +91,7 @@ impl Scene {
         let (start, layout) = (*simulation.state(), simulation.plan().layout());
         let values = vec![read(&mut simulation)];
         let mut course = Course { times: vec![0.0], values, start, layout, switched: usize::MAX, failure: None };
+        self.nudge(&mut simulation);
         let mut time = 0.0;
         for step in &self.steps {
             simulation.set_inputs(&step.inputs);
@@ -112,12 +108,27 @@ impl Scene {
             }
             course.times.push(time);
             course.values.push(read(&mut simulation));
+            self.nudge(&mut simulation);
         }
         Ok(course)
     }
 
+    /// Displaces side gears and planets to and fro.
+    fn nudge(&self, simulation: &mut Simulation) {
+        if self.nudge == 0.0 {
+            return;
+        }
+        let mut states = simulation.states();
+        for (k, body) in BODIES.iter().enumerate() {
+            if matches!(body, Body::Side(_) | Body::Planet(_)) {
+                states[k] += if k % 3 == 1 { -self.nudge } else { self.nudge };
+            }
+        }
+        simulation.set_states(&states);
+    }
+
     /// The same scene disturbed by 1e-15, up or down (`sign` = ±1): its inputs and the pressure angle by that part of
-    /// themselves, the angles of its gears at the start by that of a radian. Rounding in an image is of that size.
+    /// themselves, the angles of its gears before every step by that of a radian. Rounding in an image is of that size.
     pub fn disturbed(&self, mut sign: f64) -> Self {
         const BY: f64 = 1e-15;
         let mut twin = Self { nudge: sign * BY, ..self.clone() };
