@@ -10,7 +10,7 @@ use crate::table::{line_of, lines};
 pub const CLOSE: f64 = 1e-9;
 pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
 /// Part of that within which the twin stays.
-const TWIN: f64 = 0.05;
+const TWIN: f64 = 0.01;
 /// Units whose quantities are measured by the largest among them; others are by their entry in the table.
 const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
 

@@ -23,7 +23,7 @@ const REVERSED: usize = 100;
 const OTHERWISE: usize = 20;
 /// Least part of all values that twins let compare, and of the values of any one output.
 const SHARE: f64 = 0.7;
-const SHARE_OF_ONE: f64 = 0.25;
+const SHARE_OF_ONE: f64 = 0.2;
 
 /// Compares a scene with its image; `None` if there is no such scene.
 fn compared(scene: &Scene, view: View) -> Option<Findings> {

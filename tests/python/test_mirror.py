@@ -21,8 +21,8 @@ from driving import BIAS, GIVEN, STEADY_TURN, TURN, UNLOADED
 from symmetry import Image
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-# of the scale, the largest of all quantities of a unit; and where dry friction switches. Twins stay within a twentieth of it.
-CLOSE, CLOSE_AT_SWITCHES, TWIN = 1e-9, 1e-6, 0.05
+# of the scale, the largest of all quantities of a unit; and where dry friction switches. Twins stay within a hundredth of it.
+CLOSE, CLOSE_AT_SWITCHES, TWIN = 1e-9, 1e-6, 0.01
 DISTURBANCE = 1e-15
 SHARED = {"rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"}
 STEPS = [(1e-3, {})] * 15
