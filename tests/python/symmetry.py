@@ -65,7 +65,9 @@ class Image:
 
     def factor(self, name):
         parity = self.parity(name)
-        wave = parity == "wave" and self.start["scene.carrier_drive"] == BY_TORQUE
+        # the FMU takes no negative amplitude: one that does nothing stays
+        driven = self.start["effects.final_drive"] and self.start["scene.carrier_drive"] == BY_TORQUE
+        wave = parity == "wave" and driven
         return -1.0 if parity in ("-", "lash") or wave else 1.0
 
     def name(self, name):

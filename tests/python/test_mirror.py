@@ -18,6 +18,7 @@ import test_solid
 import test_steps
 from braking import BRAKED, brakes, drive_torque
 from driving import BIAS, GIVEN, STEADY_TURN, TURN, UNLOADED
+from fmpy.fmi1 import FMICallException
 from symmetry import Image
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
@@ -45,7 +46,7 @@ NAMED = {
     **{f"steps {name}": scene for name, scene in test_steps.SCENES.items()},
     **{f"{name} turn": TURN | change for name, change in test_hard_stiffness.CHANGES.items()},
 }
-RANDOM, SEED = 24, 7
+RANDOM, SEED = 10, 7
 
 
 def ready(path):
@@ -81,13 +82,20 @@ def plausible(description, index):
     return scene
 
 
+class Refused(Exception):
+    """A scene that does not start."""
+
+
 class Course:
     """All outputs at all communication points, until a step fails."""
 
     def __init__(self, instance, scene):
         for name, value in scene["start"].items():
             instance.set(name, value)
-        instance.initialise()
+        try:
+            instance.initialise()
+        except FMICallException as refused:
+            raise Refused("; ".join(instance.log)) from refused
         self.names = [name for name, v in instance.variables.items() if v.causality == "output"]
         self.times, rows = [0.0], [instance.read(self.names)]
         for size, inputs in scene["steps"]:
@@ -95,8 +103,7 @@ class Course:
                 instance.set(name, value)
             try:
                 instance.fmu.doStep(self.times[-1], size)
-            except Exception as failure:  # noqa: BLE001
-                self.failure = failure
+            except FMICallException:
                 break
             self.times.append(self.times[-1] + size)
             rows.append(instance.read(self.names))
@@ -134,12 +141,16 @@ def differences(image, base, twins, mirrored):
     switches = image.start["effects.thrust_friction"] or image.start["effects.limited_slip"] or np.any(stuck != stuck[0])
     close = CLOSE_AT_SWITCHES if switches or image.start["effects.wheel_brake"] else CLOSE
     reached = min(len(course.times) for course in (base, mirrored, *twins))
-    wrong, compared, whole = [], 0, 0
-    for name in base.names:
+    wrong, compared, whole, windows = [], 0, 0, {}
+    for name in sorted(base.names, key=lambda name: name != "solver.step_size"):
         room = close * scale[name]
         far = [np.abs(twin.values[name][:reached] - base.values[name][:reached]) > TWIN * room for twin in twins]
         strays = np.flatnonzero(np.logical_or(*far))
         window = strays[0] if len(strays) else reached
+        # counts of steps say nothing before they differ; their size does
+        windows[name] = window
+        if name in ("solver.steps", "solver.rejected", "solver.rhs_calls"):
+            window = min(window, windows["solver.step_size"])
         compared, whole = compared + window, whole + len(base.times)
         there = image.name(name)
         off = np.abs(mirrored.values[there][:window] - expected[there][:window])
@@ -194,8 +205,7 @@ def test_the_reversed_images_of_random_scenes_do_the_same(compare, description):
     for index in range(RANDOM):
         try:
             wrong, share = compare(plausible(description, index), "reversed")
-        except Exception as refused:  # noqa: BLE001
-            assert "fmi2ExitInitializationMode" in str(refused) or "EnterInitializationMode" in str(refused), refused
+        except Refused:
             continue
         shares.append(share)
         found += [f"scene {index}: {what}" for what in wrong]
@@ -235,4 +245,5 @@ def test_a_steady_turn_repeats_itself_after_a_tooth_cycle(drive):
     units = np.array([scene.opened.variables[name].unit or "" for name in names])
     for column, name in enumerate(names):
         scale = np.max(np.abs(one[:, units == units[column]]))
-        assert np.max(np.abs(other[:, column] - one[:, column])) <= 1e-6 * scale, name
+        # a speed's error of 1e-9 in a step, times 7.8 kHz at which meshes ring, is 1e-5 of the accelerations
+        assert np.max(np.abs(other[:, column] - one[:, column])) <= 1e-5 * scale, name
