@@ -75,7 +75,8 @@ impl Scene {
     /// Where the image goes on from, if it does not start as a scene does.
     pub fn image_of_start(&self, view: View, start: &State, layout: &Layout) -> Option<State> {
         let ahead = self.ahead(view);
-        if ahead == [0.0; 3] {
+        // of two equal wells a start takes the one of positive spin, which in a swapped image is the other one
+        if ahead == [0.0; 3] && view != View::Swapped {
             return None;
         }
         let mut image = *start;

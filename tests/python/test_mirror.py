@@ -46,6 +46,8 @@ NAMED = {
     **{f"steps {name}": scene for name, scene in test_steps.SCENES.items()},
     **{f"{name} turn": TURN | change for name, change in test_hard_stiffness.CHANGES.items()},
 }
+# stands between two equal wells, of which a start takes that of positive spin: in the swapped image it is the other one
+TIED = ["exchange solid"]
 RANDOM, SEED = 10, 7
 
 
@@ -186,8 +188,8 @@ def compare(open_fmu, description):
 @pytest.mark.parametrize("name", NAMED)
 def test_the_image_of_a_scene_of_these_tests_does_the_same(compare, name, way):
     # with an odd number of planet teeth the sides stand half a pitch apart at the start (tests/mirror)
-    if way == "swapped" and NAMED[name].get("geometry.planet_teeth", 10) % 2:
-        pytest.skip("sides half a pitch apart")
+    if way == "swapped" and (NAMED[name].get("geometry.planet_teeth", 10) % 2 or name in TIED):
+        pytest.skip("the image starts elsewhere")
     wrong, share = compare({"start": NAMED[name], "steps": STEPS}, way)
     assert not wrong, "\n".join(wrong)
     assert share > 0.2
