@@ -34,7 +34,7 @@ pub use run::{
 };
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
-    CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Material, Method, ORDERS, Plan,
+    CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,
     PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use setup::Parameters;

@@ -179,7 +179,7 @@ pub fn rows() -> Vec<Output> {
             "torque_bias_ratio",
             units::ONE,
             |f| f.torque_bias_ratio,
-            "Torque of the slow over the fast half-shaft, over the last whole mesh cycle where shafts twist; 1 at zero torque",
+            "Torque of the slow over the fast half-shaft, in the sense of the torques, over the last whole mesh cycle where shafts twist; 1 at zero torque",
         ),
         forces(
             "locking_value",

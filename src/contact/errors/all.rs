@@ -14,12 +14,12 @@ use crate::problem::Problem;
 /// Deviations and modifications of all teeth of a differential.
 #[derive(Clone, Debug)]
 pub struct ToothErrors {
-    planets: usize,
+    pub(super) planets: usize,
     teeth: [usize; 2],
     per_mean_cone: f64,
     normals: ContactNormals,
-    pitch: Option<PitchDeviations>,
-    runout: Option<Runout>,
+    pub(super) pitch: Option<PitchDeviations>,
+    pub(super) runout: Option<Runout>,
     relief: Option<TipRelief>,
     crowning: Option<Crowning>,
     misalignment: Option<Misalignment>,

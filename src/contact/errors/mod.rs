@@ -8,6 +8,7 @@
 mod all;
 mod chip;
 mod crowning;
+mod individual;
 mod misalignment;
 mod normals;
 pub mod pitch;
@@ -18,6 +19,7 @@ mod spec;
 
 pub use all::ToothErrors;
 pub use chip::Chip;
+pub use individual::GearTeeth;
 pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
 
 use super::pairs::Flank;

@@ -14,10 +14,11 @@
 //! An error of position is a rotation of the flank about the gear's axis: the normal distance that it opens grows with R.
 
 use super::random::Random;
-use super::{MeshId, PairId};
+use super::{GearTeeth, MeshId, PairId};
 use crate::contact::pairs::Flank;
 use crate::geometry::Pair;
 use crate::numeric::{cos, pow};
+use crate::problem::Problem;
 
 /// Tolerances of one gear [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,6 +127,25 @@ impl PitchDeviations {
             };
             Self { gears: (0..2 + planets).map(gear).collect() }
         })
+    }
+
+    /// Positions of the flanks of gear `number`, in range, as in [`GearTeeth`].
+    pub fn of(&self, number: usize) -> [Vec<f64>; 2] {
+        self.gears[number].clone().map(Vec::from)
+    }
+
+    /// Takes the positions of `gears`, as many as there are, or says why they cannot be taken.
+    pub fn replace(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
+        for (own, given) in self.gears.iter_mut().zip(gears) {
+            for (own, given) in own.iter_mut().zip(&given.positions) {
+                if own.len() != given.len() || !given.iter().all(|position| position.is_finite()) {
+                    let what = format!("{} positions of teeth are given, some not finite or too few", given.len());
+                    return Err(Problem::new("tooth_errors.accuracy_grade", what));
+                }
+                own.copy_from_slice(given);
+            }
+        }
+        Ok(())
     }
 
     /// Gap [m] at R_m of a pair, its indices in range.

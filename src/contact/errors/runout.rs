@@ -13,9 +13,10 @@
 
 use super::normals::{Normal, push};
 use super::random::Random;
-use super::{MeshId, PairId};
+use super::{GearTeeth, MeshId, PairId};
 use crate::geometry::Pair;
 use crate::numeric::{Scalar, TAU};
+use crate::problem::Problem;
 
 /// Eccentricity of all gears.
 #[derive(Clone, Debug)]
@@ -48,6 +49,23 @@ impl Runout {
     /// 0 in the direction in which teeth are counted [rad].
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {
         [self.eccentricity[gear], self.direction[gear][index]]
+    }
+
+    /// Azimuth of ê on gear `number`, in range: side gears left and right, then planets.
+    pub fn azimuth(&self, number: usize) -> f64 {
+        if number < 2 { self.direction[1][number] } else { self.direction[0][number - 2] }
+    }
+
+    /// Takes the azimuths of `gears`, as many as there are.
+    pub fn turn(&mut self, gears: &[GearTeeth]) -> Result<(), Problem> {
+        let [planets, sides] = &mut self.direction;
+        for (azimuth, gear) in sides.iter_mut().chain(planets.iter_mut()).zip(gears) {
+            if !gear.azimuth.is_finite() {
+                return Err(Problem::new("tooth_errors.planet_runout", "an azimuth that is given is not finite"));
+            }
+            *azimuth = gear.azimuth;
+        }
+        Ok(())
     }
 
     /// Gap [m] of a pair, its indices in range, at `s` where the normal is `n`.

@@ -11,6 +11,7 @@ use super::solid;
 use super::teeth::Teeth;
 use crate::contact::ContactLaw;
 use crate::contact::detailed::Detailed;
+use crate::contact::errors::GearTeeth;
 use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::Mesh;
 use crate::geometry::{Pair, checks};
@@ -54,8 +55,9 @@ pub struct Model {
 }
 
 impl Model {
-    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
-    pub fn new(parameters: &Parameters) -> Result<Self, Vec<Problem>> {
+    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface. `given` are
+    /// the teeth of all gears in place of those that the seed of tooth errors gives.
+    pub fn new(parameters: &Parameters, given: Option<&[GearTeeth]>) -> Result<Self, Vec<Problem>> {
         let spec = parameters.gears();
         if let Some(problem) = checks::shaft_angle(&spec) {
             return Err(vec![problem]);
@@ -66,7 +68,8 @@ impl Model {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let effects = parameters.scene_effects(&pair);
+        let mut effects = parameters.scene_effects(&pair);
+        effects.setting.teeth = given;
         let setting = effects.setting;
         let tooth = tooth_effects(parameters, &effects).map_err(|p| vec![p])?;
         let requests = effects.requests();

@@ -2,40 +2,38 @@
 
 use crate::model::dynamics::bias::Bias;
 
-/// Detects the boundaries of mesh cycles, and keeps the means of shaft torques over whole ones.
+/// Counts mesh cycles from the start on, and keeps the means of shaft torques over whole ones.
 ///
-/// Wrapping takes out whole pitches, so that the boundaries of cycles stay where they are.
+/// Cycles begin where the motion began, and at whole pitches from there. Rolling forward or backward thus divides time in
+/// the same way, and so does a differential whose sides are exchanged.
 pub struct Cycle {
-    /// Pitch of the planet [rad].
+    /// Pitch of a side gear [rad].
     pub pitch: f64,
 }
 
-/// Cycles that separate a completed one from a return to its beginning.
-const HALF: f64 = 0.5;
-
 impl Cycle {
-    /// Adds the impulses `torque` [N·m·s] of a step of size `h` in which the planet went from one position to another.
-    pub fn add(&self, bias: &mut Bias, position: [f64; 2], h: f64, torque: [f64; 2]) {
-        let place = position.map(|q| q / self.pitch);
-        let cycle = place.map(libm::floor);
+    /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s] in which the left and the right side gear turned by
+    /// `turned` [rad] against the carrier. Half the difference is rolling: deflections of the teeth are not in it.
+    pub fn add(&self, bias: &mut Bias, turned: [f64; 2], h: f64, torque: [f64; 2]) {
+        let by = 0.5 * (turned[0] - turned[1]) / self.pitch;
+        let rolled = bias.rolled + by;
+        let whole = libm::trunc(rolled);
+        // where one ends, and where rolling returns past the beginning, another begins
+        let begins = whole != 0.0 || rolled * bias.rolled < 0.0;
         let mut left = 1.0;
-        if cycle[0] != cycle[1] {
-            // the part of the step before the boundary belongs to the cycle that ends
-            let boundary = cycle[0].max(cycle[1]);
-            let part = ((boundary - place[0]) / (place[1] - place[0])).clamp(0.0, 1.0);
-            let time = bias.time + part * h;
-            let sum = [0, 1].map(|s| bias.sum[s] + part * torque[s]);
-            // a planet that returns to where the cycle began has not completed it
-            if bias.whole && (bias.rolled + boundary - place[0]).abs() > HALF {
-                bias.last = Some((sum.map(|x| x / time), time));
+        if begins {
+            let before = ((whole - bias.rolled) / by).clamp(0.0, 1.0);
+            left = 1.0 - before;
+            let time = bias.time + before * h;
+            if whole != 0.0 {
+                let mean = [0, 1].map(|s| (bias.sum[s] + before * torque[s]) / time);
+                (bias.last, bias.since) = (Some((mean, time)), -before * h);
             }
-            *bias = Bias { whole: true, last: bias.last, ..Bias::default() };
-            bias.rolled = place[1] - boundary;
-            left = 1.0 - part;
-        } else {
-            bias.rolled += place[1] - place[0];
+            *bias = Bias { last: bias.last, since: bias.since, ..Bias::default() };
         }
+        bias.rolled = rolled - whole;
         bias.time += left * h;
+        bias.since += h;
         for s in 0..2 {
             bias.sum[s] += left * torque[s];
         }
@@ -46,29 +44,62 @@ impl Cycle {
 mod tests {
     use super::*;
 
-    /// Rolls from place to place in steps of 0.1 s under the torques `torque`.
-    fn rolled(places: &[f64], torque: [f64; 2]) -> Bias {
-        let (cycle, mut bias) = (Cycle { pitch: 1.0 }, Bias::default());
+    /// Rolls from place to place, counted in cycles, in steps of 0.1 s; the torques are `torque` of the places between.
+    fn rolled(places: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> Bias {
+        let (cycle, mut bias) = (Cycle { pitch: 2.0 }, Bias::default());
         for pair in places.windows(2) {
-            cycle.add(&mut bias, [pair[0], pair[1]], 0.1, torque.map(|t| 0.1 * t));
+            let by = 2.0 * (pair[1] - pair[0]);
+            cycle.add(&mut bias, [by, -by], 0.1, torque(0.5 * (pair[0] + pair[1])).map(|t| 0.1 * t));
         }
         bias
     }
 
     #[test]
-    fn a_whole_cycle_either_way_gives_its_means() {
-        for sign in [1.0, -1.0] {
-            let places: Vec<f64> = (0..30).map(|i| sign * (0.05 + 0.1 * f64::from(i))).collect();
-            let ([left, right], took) = rolled(&places, [7.0, 3.0]).last.unwrap();
+    fn a_whole_cycle_either_way_and_from_anywhere_gives_its_means() {
+        for (sign, begin) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.37), (-1.0, 0.37)] {
+            let places: Vec<f64> = (0..30).map(|i| sign * (begin + 0.1 * f64::from(i))).collect();
+            let ([left, right], took) = rolled(&places, |_| [7.0, 3.0]).last.unwrap();
             assert!((left - 7.0).abs() < 1e-12 && (right - 3.0).abs() < 1e-12 && (took - 1.0).abs() < 1e-12);
         }
     }
 
     #[test]
+    fn rolling_backward_is_counted_as_rolling_forward_is() {
+        // uneven steps, a ripple that the means depend on, and a return past the beginning
+        let steps = (0..80).map(|i| if i < 9 { -0.03 } else { 0.04 + 0.01 * f64::from(i % 7) });
+        let places: Vec<f64> = steps.scan(0.0, |at, by| Some(std::mem::replace(at, *at + by))).collect();
+        let mirrored: Vec<f64> = places.iter().map(|x| -x).collect();
+        let ripple = |x: f64| [5.0 + (7.0 * x).sin(), 4.0 + (5.0 * x).cos()];
+        let (forward, backward) = (rolled(&places, ripple), rolled(&mirrored, |x| ripple(-x)));
+        assert!(forward.last.is_some());
+        assert_eq!(backward, Bias { rolled: -forward.rolled, ..forward });
+    }
+
+    #[test]
+    fn a_step_over_several_cycles_gives_their_common_mean() {
+        let bias = rolled(&[0.0, 0.25, 3.25], |x| if x < 0.2 { [8.0, 0.0] } else { [2.0, 0.0] });
+        let ([left, _], took) = bias.last.unwrap();
+        // 0.1 s to 0.25, and 2.75 of 3 parts of another 0.1 s to 3
+        let second = 0.1 * 2.75 / 3.0;
+        assert!((took - (0.1 + second)).abs() < 1e-15);
+        assert!((left - (0.1 * 8.0 + second * 2.0) / took).abs() < 1e-12);
+        assert!((bias.rolled - 0.25).abs() < 1e-15 && (bias.time - (0.1 - second)).abs() < 1e-15);
+    }
+
+    #[test]
     fn trembling_about_a_boundary_is_no_cycle() {
         let places: Vec<f64> = (0..30).map(|i| if i % 2 == 0 { 1e-9 } else { -1e-9 }).collect();
-        assert_eq!(rolled(&places, [7.0, 3.0]).last, None);
-        // nor is a way out and back again that ends where it began
-        assert_eq!(rolled(&[-0.1, 0.1, 0.5, 0.9, 0.5, 0.1, -0.1], [7.0, 3.0]).last, None);
+        assert_eq!(rolled(&places, |_| [7.0, 3.0]).last, None);
+        // nor is a way out and back again that ends where it began, and no further
+        assert_eq!(rolled(&[-0.1, 0.1, 0.5, 0.8, 0.5, 0.1, -0.1], |_| [7.0, 3.0]).last, None);
+    }
+
+    #[test]
+    fn means_are_kept_until_rolling_has_nearly_stopped() {
+        let mut places = vec![0.0, 0.5, 1.0, 1.5, 2.0, 2.1];
+        assert!(rolled(&places, |_| [7.0, 3.0]).mean().is_some());
+        // to and fro about the end of the last cycle does not renew them
+        places.extend((0..5).map(|i| if i % 2 == 0 { 1.9 } else { 2.1 }));
+        assert_eq!(rolled(&places, |_| [7.0, 3.0]).mean(), None);
     }
 }

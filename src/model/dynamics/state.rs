@@ -132,8 +132,15 @@ impl State {
 
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
-        let numbers =
-            [self.time, self.work, self.energy_at_start, self.control.last_error, self.bias.time, self.carrier_command];
+        let numbers = [
+            self.time,
+            self.work,
+            self.energy_at_start,
+            self.control.last_error,
+            self.bias.time,
+            self.bias.since,
+            self.carrier_command,
+        ];
         // 0 times a number is 0 unless the number is not finite
         let zero = |numbers: &[f64]| numbers.iter().map(|x| 0.0 * x).sum::<f64>();
         let anchors: f64 = self.friction.iter().map(|f| 0.0 * f.anchor).sum();

@@ -16,7 +16,7 @@ pub const DAMPING_TIME: f64 = 1e-4;
 /// How closely a step ends at the limit torque, relative to it.
 const LIMIT_TOLERANCE: f64 = 1e-5;
 /// How closely a step ends at zero speed [rad/s].
-const SPEED_TOLERANCE: f64 = 1e-6;
+pub const SPEED_TOLERANCE: f64 = 1e-6;
 /// Limit torque below which friction is none [N·m].
 const NOTHING: f64 = 1e-9;
 /// Parts of a step within which a switch is looked for.

@@ -8,6 +8,7 @@ use super::body_effect::{Bodies, BodyEffect};
 use super::friction_source::FrictionSource;
 use super::teeth::{FlankFriction, ToothEffects};
 use crate::contact::ContactSpec;
+use crate::contact::errors::GearTeeth;
 use crate::declaration::units::{DisplayUnit, Unit};
 use crate::declaration::{Parameter, Row};
 use crate::geometry::{GearSpec, Pair};
@@ -79,6 +80,8 @@ pub struct Setting<'a> {
     pub inertia: &'a InertiaSpec,
     /// Contact law.
     pub contact: &'a ContactSpec,
+    /// Teeth of all gears, where they are given one by one.
+    pub teeth: Option<&'a [GearTeeth]>,
     /// Whether the effect is switched on.
     pub on: bool,
     /// Index of the effect's heat in the ledger.

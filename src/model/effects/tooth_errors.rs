@@ -153,7 +153,10 @@ impl Effect for ToothErrorSpec {
 
     fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         let (pair, count) = (setting.pair, setting.geometry.planet_count);
-        let errors = ToothErrors::new(self, pair, usize::try_from(count).unwrap_or(1))?;
+        let mut errors = ToothErrors::new(self, pair, usize::try_from(count).unwrap_or(1))?;
+        if let Some(given) = setting.teeth {
+            errors = errors.with_teeth(given)?;
+        }
         teeth.individual |= errors.is_individual();
         teeth.sliced |= !errors.is_uniform_over_face();
         let mut gaps = FlankGaps::perfect(pair, count, Vec::new());

@@ -1,6 +1,7 @@
 //! Forces, torques and powers of a differential, and the ratios that follow from them.
 
 use super::mesh_forces::MeshForces;
+use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::scene::layout::MAX_PLANETS;
 use crate::model::setup::effect_outputs::READINGS;
 
@@ -35,7 +36,8 @@ pub struct Forces {
     pub power_out: f64,
     /// Power turned into heat within the differential [W].
     pub power_loss: f64,
-    /// Signed torque bias ratio T_slow/T_fast, over the last whole mesh cycle where shafts twist; 1 at zero torque.
+    /// Signed torque bias ratio T_slow/T_fast, slow and fast in the sense of the torques, over the last whole mesh cycle
+    /// where shafts twist; 1 at zero torque.
     pub torque_bias_ratio: f64,
     /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 at zero torque.
     pub locking_value: f64,
@@ -44,17 +46,27 @@ pub struct Forces {
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds.
+///
+/// The fast side is the one ahead in the sense in which the torques act, (ω_L − ω_R)(T_L + T_R) > 0 for the left one,
+/// forward or backward, in drive or overrun, and whether or not the carrier turns. Friction turns the power
+/// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat, so that it always takes torque from that side: a bias by friction is 1 or more.
+/// Where both turn alike, as far as dry friction tells speeds apart, the side that carries less is the fast one: it would
+/// be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
-    let [slow, fast] = if speed[0] <= speed[1] { torque } else { [torque[1], torque[0]] };
-    let sum = (torque[0] + torque[1]).abs();
+    let sum = torque[0] + torque[1];
     if sum == 0.0 {
         return (1.0, 0.0);
     }
+    let ahead = (speed[0] - speed[1]) * sum.signum();
+    let is_left_fast = if ahead.abs() > ALIKE { ahead > 0.0 } else { torque[0].abs() < torque[1].abs() };
+    let [slow, fast] = if is_left_fast { [torque[1], torque[0]] } else { torque };
     // a fast side without torque would make the ratio infinite
-    let ratio = if fast != 0.0 { (slow / fast).clamp(-MOST_BIAS, MOST_BIAS) } else { MOST_BIAS * slow.signum() };
-    (ratio, (torque[0] - torque[1]).abs() / sum)
+    let ratio = if fast != 0.0 { (slow / fast).clamp(-MOST_BIAS, MOST_BIAS) } else { MOST_BIAS };
+    (ratio, (torque[0] - torque[1]).abs() / sum.abs())
 }
 
+/// Difference of speeds up to which sides turn alike [rad/s].
+const ALIKE: f64 = SPEED_TOLERANCE;
 /// Largest magnitude of the torque bias ratio.
 const MOST_BIAS: f64 = 1e6;
 
@@ -63,4 +75,53 @@ const MOST_BIAS: f64 = 1e6;
 pub fn efficiency(forces: &Forces) -> f64 {
     let fed = forces.power_in.max(0.0) + (-forces.power_out).max(0.0);
     if fed > 0.0 { (1.0 - forces.power_loss / fed).max(0.0) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bias;
+
+    #[test]
+    fn a_bias_by_friction_is_the_same_in_drive_and_overrun_forward_and_backward_and_from_side_to_side() {
+        // the wheels share 1000 N·m; friction takes 55 N·m from the one that is ahead and gives it to the other
+        for torque in [1000.0, -1000.0] {
+            for carrier in [50.0, -50.0, 0.0] {
+                for spin in [2.5, -2.5] {
+                    let speed = [carrier + spin, carrier - spin];
+                    let moved = 27.5 * f64::signum(spin);
+                    let (ratio, locking) = bias([0.5 * torque - moved, 0.5 * torque + moved], speed);
+                    assert!((locking - 0.055).abs() < 1e-15, "{locking}");
+                    assert!(
+                        (ratio - (1.0 + 0.055) / (1.0 - 0.055)).abs() < 1e-14,
+                        "{torque} {carrier} {spin}: {ratio}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_bias_against_friction_is_below_one_and_torques_of_opposite_signs_have_a_negative_one() {
+        assert_eq!(bias([600.0, 400.0], [2.0, 1.0]).0, 400.0 / 600.0);
+        assert_eq!(bias([-600.0, -400.0], [-2.0, -1.0]).0, 400.0 / 600.0);
+        assert_eq!(bias([-100.0, 400.0], [2.0, 1.0]).0, -4.0);
+        assert_eq!(bias([100.0, -400.0], [-2.0, -1.0]).0, -4.0);
+    }
+
+    #[test]
+    fn sides_that_turn_alike_have_the_ratio_of_the_larger_to_the_smaller_torque() {
+        for torque in [[900.0, 100.0], [100.0, 900.0], [-900.0, -100.0], [-100.0, -900.0]] {
+            // a locked differential trembles
+            for apart in [0.0, 1e-9, -1e-9] {
+                assert_eq!(bias(torque, [3.0 + apart, 3.0]), (9.0, 0.8));
+            }
+        }
+    }
+
+    #[test]
+    fn no_torque_is_no_bias_and_a_side_without_torque_has_the_largest() {
+        assert_eq!(bias([0.0, 0.0], [1.0, 2.0]), (1.0, 0.0));
+        assert_eq!(bias([0.0, 5.0], [2.0, 1.0]), (super::MOST_BIAS, 1.0));
+        assert_eq!(bias([0.0, -5.0], [-2.0, -1.0]), (super::MOST_BIAS, 1.0));
+    }
 }

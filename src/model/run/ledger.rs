@@ -10,7 +10,7 @@ use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
 use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledStep};
-use crate::model::scene::layout::FRICTION_BODIES;
+use crate::model::scene::layout::{FRICTION_BODIES, LEFT};
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
 /// Sums that accepted steps add to.
@@ -82,10 +82,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
             records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
         if WITH_EFFECTS && Self::ENDS {
-            let i = Self::PLANET;
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
-            let cycle = Cycle { pitch: model.periods[teeth.layout.planet(0)] };
-            cycle.add(records.bias, [step.start.q[i], step.end.q[i]], step.h, torque);
+            let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
+            Cycle { pitch: model.periods[LEFT] }.add(records.bias, turned, step.h, torque);
         }
         if let (true, Some(strength)) = (WITH_EFFECTS, &model.strength) {
             count_fatigue(self, model, strength, step, records);

@@ -135,7 +135,8 @@ impl Simulation {
             readings,
             held: [
                 held(0..FRICTION_PLANETS),
-                held(FRICTION_PLANETS..FRICTION_WHEELS),
+                // three planets leave a fourth group without members
+                held(FRICTION_PLANETS..FRICTION_PLANETS + self.model.ideal.plan.groups().len()),
                 held(FRICTION_WHEELS..FRICTION_BODIES),
             ],
             energy_residual: self.energy() - self.state.energy_at_start - self.state.work

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::events::{break_tooth, end_of_stretch, update_friction};
 use super::failure::StepFailure;
 use super::{imposed, start, stretch};
+use crate::contact::errors::GearTeeth;
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::{by_size, with_equations};
@@ -32,7 +33,17 @@ pub struct Simulation {
 impl Simulation {
     /// Starts a simulation at `time` [s]; values must be within the ranges of the interface.
     pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
-        let mut simulation = Self::resume(parameters, inputs, State::at_rest(time, FIRST_STEP))?;
+        Self::start_with(parameters, inputs, time, None)
+    }
+
+    /// The same with the teeth `given` of all gears in place of those that the seed of tooth errors gives.
+    pub fn start_with(
+        parameters: &Parameters,
+        inputs: &Inputs,
+        time: f64,
+        given: Option<&[GearTeeth]>,
+    ) -> Result<Self, Vec<Problem>> {
+        let mut simulation = Self::resume_with(parameters, inputs, State::at_rest(time, FIRST_STEP), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
         if parameters.scene.start == Start::Equilibrium {
@@ -55,7 +66,17 @@ impl Simulation {
 
     /// A simulation of `parameters` that continues from `state`.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        let model = Arc::new(Model::new(parameters)?);
+        Self::resume_with(parameters, inputs, state, None)
+    }
+
+    /// The same with the teeth `given` of all gears.
+    pub fn resume_with(
+        parameters: &Parameters,
+        inputs: &Inputs,
+        state: State,
+        given: Option<&[GearTeeth]>,
+    ) -> Result<Self, Vec<Problem>> {
+        let model = Arc::new(Model::new(parameters, given)?);
         Ok(Self { model, state, inputs: *inputs, forces: None, accepted: None })
     }
 

@@ -85,6 +85,7 @@ impl Parameters {
             material: &self.material,
             inertia: &self.inertia,
             contact: &self.contact,
+            teeth: None,
             on: false,
             heat: 0,
         };

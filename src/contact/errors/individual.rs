@@ -1,0 +1,73 @@
+//! What distinguishes the teeth of a gear from each other: drawn from a seed, or given, as they were measured.
+
+use super::ToothErrors;
+use crate::problem::Problem;
+
+/// The teeth of one gear, counted as in [`super::PairId`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GearTeeth {
+    /// Positions of the flanks along the line of action at R_m [m], tooth by tooth: of those that face the direction in
+    /// which teeth are counted, and of the others. Empty without pitch deviations.
+    pub positions: [Vec<f64>; 2],
+    /// Azimuth of the eccentricity from the centre of tooth 0, in the direction in which teeth are counted [rad].
+    pub azimuth: f64,
+}
+
+impl ToothErrors {
+    /// The teeth of all gears: side gears left and right, then planets.
+    pub fn teeth(&self) -> Vec<GearTeeth> {
+        (0..2 + self.planets)
+            .map(|gear| GearTeeth {
+                positions: self.pitch.as_ref().map(|pitch| pitch.of(gear)).unwrap_or_default(),
+                azimuth: self.runout.as_ref().map_or(0.0, |runout| runout.azimuth(gear)),
+            })
+            .collect()
+    }
+
+    /// The same errors with other teeth of all gears, in the order of [`Self::teeth`]; what is not modelled has no effect.
+    pub fn with_teeth(mut self, gears: &[GearTeeth]) -> Result<Self, Problem> {
+        if gears.len() != 2 + self.planets {
+            return Err(Problem::new(
+                "tooth_errors.accuracy_grade",
+                format!("teeth of {} gears are given; there are {}", gears.len(), 2 + self.planets),
+            ));
+        }
+        if let Some(runout) = &mut self.runout {
+            runout.turn(gears)?;
+        }
+        if let Some(pitch) = &mut self.pitch {
+            pitch.replace(gears)?;
+        }
+        Ok(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::contact::errors::{ToothErrorSpec, ToothErrors};
+    use crate::geometry::{GearSpec, Pair};
+
+    fn errors(seed: i32) -> ToothErrors {
+        let spec = ToothErrorSpec { accuracy_grade: 7, runout_by_grade: true, seed, ..ToothErrorSpec::default() };
+        ToothErrors::new(&spec, &Pair::new(&GearSpec::default()), 2).unwrap()
+    }
+
+    #[test]
+    fn teeth_that_are_given_take_the_place_of_those_drawn() {
+        let (one, other) = (errors(1), errors(2));
+        assert_ne!(one.teeth(), other.teeth());
+        assert_eq!(one.with_teeth(&other.teeth()).unwrap().teeth(), other.teeth());
+    }
+
+    #[test]
+    fn teeth_that_do_not_fit_the_gears_are_refused() {
+        let teeth = errors(1).teeth();
+        assert!(errors(1).with_teeth(&teeth[1..]).is_err());
+        let mut missing = teeth.clone();
+        missing[3].positions[0].pop();
+        assert!(errors(1).with_teeth(&missing).is_err());
+        let mut unknown = teeth;
+        unknown[0].azimuth = f64::NAN;
+        assert!(errors(1).with_teeth(&unknown).is_err());
+    }
+}

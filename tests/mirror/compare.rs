@@ -1,0 +1,131 @@
+//! Compares a course with that of an image, as long as a twin that is disturbed by 1e-15 stays close.
+
+use bevel_differential::variables::Variable;
+
+use crate::image::Mapped;
+use crate::scene::{Course, Scene, output, outputs};
+use crate::table::{line_of, lines};
+
+/// Part of its scale to which an output is compared, and where dry friction switches.
+pub const CLOSE: f64 = 1e-9;
+pub const CLOSE_AT_SWITCHES: f64 = 1e-6;
+/// Part of that within which the twin stays.
+const TWIN: f64 = 0.01;
+/// Units whose quantities are measured by the largest among them; others are by their entry in the table.
+const SHARED: [&str; 7] = ["rad/s", "rad/s2", "N", "N.m", "W", "J", "Pa"];
+
+/// What was found.
+#[derive(Default)]
+pub struct Findings {
+    /// Scenes compared.
+    pub scenes: usize,
+    /// Values compared, and values there were, by line of the table.
+    pub compared: Vec<[usize; 2]>,
+    /// Values compared that are not 0, by line of the table.
+    pub telling: Vec<usize>,
+    /// What does not map.
+    pub wrong: Vec<String>,
+    /// Largest deviations that were allowed, without switches of dry friction and with them.
+    pub largest: [f64; 2],
+}
+
+impl Findings {
+    pub fn new() -> Self {
+        Self { compared: vec![[0; 2]; lines().len()], telling: vec![0; lines().len()], ..Self::default() }
+    }
+
+    /// Part of all values that was compared.
+    pub fn share(&self) -> f64 {
+        let [compared, all] = self.compared.iter().fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+        compared as f64 / all.max(1) as f64
+    }
+
+    pub fn add(&mut self, other: Self) {
+        for i in 0..self.compared.len() {
+            self.telling[i] += other.telling[i];
+            (0..2).for_each(|k| self.compared[i][k] += other.compared[i][k]);
+        }
+        self.scenes += other.scenes;
+        self.wrong.extend(other.wrong);
+        (0..2).for_each(|k| self.largest[k] = self.largest[k].max(other.largest[k]));
+    }
+}
+
+fn unit(row: &Variable) -> &'static str {
+    row.unit.map_or("", |unit| unit.name)
+}
+
+/// Kind of quantity of an output: its unit, or its entry in the table.
+fn kind(row: &Variable) -> &'static str {
+    let shared = SHARED.iter().find(|&&shared| shared == unit(row));
+    shared.copied().unwrap_or_else(|| line_of(row.name).map_or("", |line| lines()[line].pattern))
+}
+
+/// Largest magnitude over the run of the kind of quantity of each output.
+fn scales(scene: &Scene, course: &Course) -> Vec<f64> {
+    let largest = |i: usize| course.values.iter().fold(0.0f64, |most, values| most.max(values[i].abs()));
+    let kinds: Vec<&str> = outputs().iter().map(|row| kind(row)).collect();
+    // energies are measured by what is turned over, and by what the carrier carries
+    let power = [output("power.in"), output("power.out")];
+    let turned: f64 = (1..course.times.len())
+        .map(|k| (course.times[k] - course.times[k - 1]) * power.map(|i| course.values[k][i].abs()).iter().sum::<f64>())
+        .sum();
+    let carried = 0.5 * scene.parameters.inertia.carrier * largest(output("carrier.speed")).powi(2);
+    (0..kinds.len())
+        .map(|i| {
+            let of_kind = (0..kinds.len()).filter(|&j| kinds[j] == kinds[i]).map(largest).fold(0.0, f64::max);
+            if kinds[i] == "J" { of_kind.max(turned + carried) } else { of_kind }
+        })
+        .collect()
+}
+
+/// Compares the image of `base` with what it must be by `map`, where the twins stay close.
+pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, map: &[Mapped]) -> Findings {
+    let mut found = Findings { scenes: 1, ..Findings::new() };
+    let scales = scales(scene, base);
+    let steps = base.values.len();
+    let reached = twins.iter().map(|twin| twin.values.len()).fold(steps, usize::min);
+    let same_end = twins.iter().all(|twin| twin.values.len() == steps);
+    if same_end && image.values.len() != steps {
+        found.wrong.push(format!("ends at {:?}, not at {:?}", image.times.last(), base.times.last()));
+    }
+    let reached = reached.min(image.values.len());
+    let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
+    let close = |k: usize| if k < switched { CLOSE } else { CLOSE_AT_SWITCHES };
+    // the time in which the twins stay close in an output
+    let near = |i: usize| {
+        let far = |k: usize, twin: &Course| {
+            (twin.values[k][i] - base.values[k][i]).abs() > TWIN * close(k) * scales[i].max(f64::MIN_POSITIVE)
+        };
+        (0..reached).find(|&k| twins.iter().any(|twin| far(k, twin))).unwrap_or(reached)
+    };
+    for (i, row) in outputs().iter().enumerate() {
+        let Some(line) = line_of(row.name) else { continue };
+        let Mapped { output: to, factor, added, magnitude } = map[i];
+        // a mesh that carries next to nothing has no certain number of pairs
+        let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
+        let certain = |k: usize| load.is_none_or(|load| base.values[k][load] > close(k) * scales[load]);
+        let scale = scales[i].max(f64::MIN_POSITIVE);
+        // counts of steps say nothing before they differ; their size does
+        let window =
+            if row.name.starts_with("solver.") { near(i).min(near(output("solver.step_size"))) } else { near(i) };
+        found.compared[line][0] += window;
+        found.compared[line][1] += steps;
+        for k in (0..window).filter(|&k| certain(k)) {
+            let (expected, actual) = (factor * base.values[k][i] + added, image.values[k][to]);
+            let actual = if magnitude { actual.abs() } else { actual };
+            found.telling[line] += usize::from(base.values[k][i] != 0.0);
+            let deviation = (actual - expected).abs() / (factor.abs() * scale);
+            if deviation > close(k) || deviation.is_nan() {
+                found.wrong.push(format!(
+                    "{} at {:.5} s: {actual:e} in place of {expected:e}, {deviation:.1e} of its scale",
+                    row.name, base.times[k]
+                ));
+                break;
+            }
+            let at = usize::from(k >= switched);
+            found.largest[at] = found.largest[at].max(deviation);
+        }
+    }
+    found
+}
