@@ -9,7 +9,7 @@
 //! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
 
 use super::pair::Pair;
-use crate::numeric::{Jet, Scalar, atan2, cos, sin, sqrt, tan};
+use crate::numeric::{Jet, Quintic, Scalar, atan2, cos, quintic, quintic_hermite, sin, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
 /// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
@@ -22,7 +22,7 @@ const SHIFT: u32 = 52 - CELLS_PER_OCTAVE.ilog2();
 
 /// A path clipped at a base circle ends this far before it, in base pitches (0.3 % of a contact ratio of one): on the
 /// circle itself the flank's curvature is infinite.
-pub(crate) const CLIP_MARGIN: f64 = 3e-3;
+const CLIP_MARGIN: f64 = 3e-3;
 /// Steps per base pitch, and their number, in the search for the end of the table.
 const SEARCH: (f64, i32) = (64.0, 256);
 
@@ -36,7 +36,7 @@ pub struct CornerGap {
     first: u64,
     /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
     pub spread: f64,
-    cells: Box<[[f64; 6]; CELLS]>,
+    cells: Box<[Quintic; CELLS]>,
 }
 
 /// Contact of a corner: gap with derivatives, and polar angles about both axes.
@@ -52,9 +52,11 @@ pub struct CornerContact {
     pub mate_polar: f64,
 }
 
+/// The closed form of a corner's way past the end of the path.
 #[derive(Clone, Copy, Debug)]
-struct ClosedForm {
-    end: f64,
+pub struct ClosedForm {
+    /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
+    pub end: f64,
     tip: f64,
     sin_base: f64,
     azimuth_at_end: f64,
@@ -64,7 +66,26 @@ struct ClosedForm {
 }
 
 impl ClosedForm {
-    fn at(&self, delta: f64) -> CornerContact {
+    /// Closed form of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`.
+    pub fn new(pair: &Pair, i: usize) -> Self {
+        let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
+        let natural = pair.tip_arc[i] - pair.pitch_arc[i];
+        let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN * pair.base_pitch);
+        let sin_base = sin(own.base);
+        let azimuth = |psi: f64| atan2(tan(psi), sin_base);
+        Self {
+            end,
+            tip: own.polar_at(pair.pitch_arc[i] + end),
+            sin_base,
+            azimuth_at_end: azimuth(pair.pitch_arc[i] + end) - azimuth(pair.pitch_arc[i]),
+            shaft_angle: pair.shaft_angle,
+            mate_base: mate.base,
+            mate_inv_pitch: mate.inv(mate.pitch),
+        }
+    }
+
+    /// Gap and point of contact at Δ = `delta` [rad].
+    pub fn at(&self, delta: f64) -> CornerContact {
         let delta = Jet::variable(delta);
         let chi = delta * (1.0 / self.sin_base) + Jet::constant(self.azimuth_at_end);
         let (st, ct) = (sin(self.tip), cos(self.tip));
@@ -85,20 +106,7 @@ impl CornerGap {
     /// Gap of the tip corner of gear `i` (0 planet, 1 side gear) of `pair`, tabled up to gaps of `reach` [rad] or four
     /// base pitches beyond the path's end, whichever comes first; it continues quadratically from there.
     pub fn new(pair: &Pair, i: usize, reach: f64) -> Self {
-        let (own, mate) = (&pair.gears[i], &pair.gears[1 - i]);
-        let natural = pair.tip_arc[i] - pair.pitch_arc[i];
-        let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN * pair.base_pitch);
-        let sin_base = sin(own.base);
-        let azimuth = |psi: f64| atan2(tan(psi), sin_base);
-        let exact = ClosedForm {
-            end,
-            tip: own.polar_at(pair.pitch_arc[i] + end),
-            sin_base,
-            azimuth_at_end: azimuth(pair.pitch_arc[i] + end) - azimuth(pair.pitch_arc[i]),
-            shaft_angle: pair.shaft_angle,
-            mate_base: mate.base,
-            mate_inv_pitch: mate.inv(mate.pitch),
-        };
+        let exact = ClosedForm::new(pair, i);
         // the table ends where the gap exceeds every approach the model admits
         let step = pair.base_pitch / SEARCH.0;
         let known = |j: &i32| exact.at(step * f64::from(*j)).gap.v.is_finite();
@@ -124,7 +132,7 @@ impl CornerGap {
             (from, left) = (to, right);
         }
         // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers values between knots
-        Self { end, exact, first, spread: 1.0 / (0.9 * least_curvature), cells }
+        Self { end: exact.end, exact, first, spread: 1.0 / (0.9 * least_curvature), cells }
     }
 
     /// Gap and derivatives by the closed form, with the point of contact.
@@ -147,13 +155,7 @@ impl CornerGap {
         let count = delta.to_bits() >> SHIFT;
         let j = ((count + 1).saturating_sub(self.first) as usize).min(CELLS - 1);
         let knot = if j == 0 { 0.0 } else { f64::from_bits((self.first + (j as u64 - 1)) << SHIFT) };
-        let x = delta - knot;
-        let c = &self.cells[j];
-        Jet {
-            v: c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))),
-            d: c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5]))),
-            dd: 2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5])),
-        }
+        quintic(&self.cells[j], delta - knot)
     }
 
     /// A Δ beyond which the gap exceeds `approach` [rad].
@@ -166,18 +168,6 @@ impl CornerGap {
 /// Quadratic continuation of `gap` by `x`.
 fn grow(gap: Jet, x: f64) -> Jet {
     Jet { v: gap.v + x * (gap.d + 0.5 * x * gap.dd), d: gap.d + x * gap.dd, dd: gap.dd }
-}
-
-/// Coefficients of the quintic in x ∈ [0, h] that takes value, slope and curvature of `a` at 0 and of `b` at h.
-fn quintic_hermite(a: Jet, b: Jet, h: f64) -> [f64; 6] {
-    let (c0, c1, c2) = (a.v, a.d, 0.5 * a.dd);
-    let e0 = (b.v - (c0 + h * (c1 + h * c2))) / (h * h * h);
-    let e1 = (b.d - (c1 + 2.0 * h * c2)) / (h * h);
-    let e2 = (b.dd - 2.0 * c2) / h;
-    let c3 = 10.0 * e0 - 4.0 * e1 + 0.5 * e2;
-    let c4 = (-15.0 * e0 + 7.0 * e1 - e2) / h;
-    let c5 = (6.0 * e0 - 3.0 * e1 + 0.5 * e2) / (h * h);
-    [c0, c1, c2, c3, c4, c5]
 }
 
 #[cfg(test)]

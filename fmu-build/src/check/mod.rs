@@ -1,9 +1,10 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts or other platforms.
+//! time, other hosts or other platforms; and one that looks for changes that no test notices.
 
 pub mod fuzz;
 pub mod hosts;
 pub mod memcheck;
+pub mod mutants;
 pub mod platforms;
 pub mod python_tests;
 pub mod real_time;
@@ -24,6 +25,7 @@ pub enum CheckCommand {
     Fuzz(fuzz::FuzzCommand),
     #[command(alias = "memory")]
     Memcheck(memcheck::MemcheckCommand),
+    Mutants(mutants::MutantsCommand),
     Hosts(hosts::HostsCommand),
     Platforms(platforms::PlatformsCommand),
 }
@@ -37,6 +39,7 @@ impl CheckCommand {
             Self::RealTime(command) => command.run(),
             Self::Fuzz(command) => command.run(),
             Self::Memcheck(command) => command.run(),
+            Self::Mutants(command) => command.run(),
             Self::Hosts(command) => command.run(),
             Self::Platforms(command) => command.run(),
         }

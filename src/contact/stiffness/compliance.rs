@@ -76,14 +76,18 @@ impl ToothSection {
             if end <= span.from {
                 break;
             }
-            let [b, s] = integrate(span.from, end, |u| {
-                let point = span.piece.at(u);
-                let (arm, chord) = (top - point.height, 2.0 * point.half_chord);
-                let slenderness = arm / chord;
-                [slenderness * slenderness / chord * point.rise, point.rise / chord]
-            });
-            bending += b;
-            shear += s;
+            let middle = 0.5 * (span.from + end);
+            // in two parts: a tip that is nearly pointed asks for it
+            for [from, to] in [[span.from, middle], [middle, end]] {
+                let [b, s] = integrate(from, to, |u| {
+                    let point = span.piece.at(u);
+                    let (arm, chord) = (top - point.height, 2.0 * point.half_chord);
+                    let slenderness = arm / chord;
+                    [slenderness * slenderness / chord * point.rise, point.rise / chord]
+                });
+                bending += b;
+                shear += s;
+            }
         }
         let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
         let slide = 2.4 * (1.0 + nu);
@@ -110,13 +114,25 @@ impl SectionPair {
 
     /// Compliances at `place` [m] under the load `line_load` [N/m].
     pub fn at(&self, place: f64, line_load: f64) -> PairCompliance {
-        let rolls = self.rolls(place);
+        self.at_rolls(self.rolls(place), line_load)
+    }
+
+    /// Compliances at roll lengths `rolls` [m] under the load `line_load` [N/m].
+    pub fn at_rolls(&self, rolls: [f64; 2], line_load: f64) -> PairCompliance {
         let gear = [0, 1].map(|i| self.sections[i].compliance(rolls[i], &self.elasticity));
+        PairCompliance {
+            gear,
+            local: self.local(rolls, line_load),
+            half_width: sqrt(self.half_width_squared(rolls, line_load)),
+        }
+    }
+
+    /// Hertz's q_H [1/Pa] at roll lengths `rolls` [m] under `line_load` [N/m].
+    pub fn local(&self, rolls: [f64; 2], line_load: f64) -> f64 {
         let depth = [0, 1].map(|i| self.sections[i].load(rolls[i]).depth);
         let b2 = self.half_width_squared(rolls, line_load);
         let nu = self.elasticity.poisson;
-        let local = self.elasticity.local() * (libm::log(4.0 * depth[0] * depth[1] / b2) - nu / (1.0 - nu));
-        PairCompliance { gear, local, half_width: sqrt(b2) }
+        self.elasticity.local() * (libm::log(4.0 * depth[0] * depth[1] / b2) - nu / (1.0 - nu))
     }
 
     /// b² [m²] at roll lengths `rolls` [m] under `line_load` [N/m].

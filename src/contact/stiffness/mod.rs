@@ -1,13 +1,18 @@
 //! Stiffness of a tooth pair from the geometry of its teeth and the elastic constants E and ν.
 //!
-//! `section` and `profile` describe the tooth, `compliance` loads it, `table` stores the result along the path of contact,
-//! `laws` make springs of it. Per unit of face width; slices are similar, so one section holds for all cone distances.
+//! `section` and `profile` describe the tooth; `compliance` loads it, on the path and past its ends by a tip `corner`, where
+//! both teeth are `beams`; `table` and `beyond` store the result, `laws` make springs of it. All per unit of face width;
+//! slices are similar, so one section holds for all cone distances.
 
+mod beams;
+mod beyond;
 mod compliance;
+mod corner;
 mod laws;
 mod profile;
 mod quadrature;
 mod section;
+mod spline;
 mod table;
 
 use std::sync::Arc;
@@ -18,23 +23,18 @@ pub use profile::{Piece, ProfilePoint, Span};
 pub use section::{FlankLoad, RootSpec, SectionSpec, ToothSection};
 
 use crate::geometry::Pair;
-use crate::geometry::corner::CLIP_MARGIN;
-use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
+use beams::DEDENDUM;
+use beyond::{Beyond, CornerPart};
+use corner::TipCorner;
 use table::ComplianceTable;
 
-/// Limits of the beam model. Least thickness of a tooth along the load [modules].
-const LEAST_DEPTH: f64 = 0.05;
-/// Largest angle of the load to the chord [rad].
-const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
-/// Largest distance below the root section at which the load crosses the tooth's middle [root chords].
-const BELOW_ROOT: f64 = 0.25;
-/// Steps of the search for the part of the path where both teeth are beams.
-const SEARCH: usize = 128;
-/// Least length of that part [base pitches].
-const LEAST_RANGE: f64 = 0.02;
-/// Past the ends the stiffness becomes constant within this many base pitches.
-const TAIL: f64 = 0.1;
+/// Where neither the path nor a corner on its mate's flank can carry, the stiffness becomes constant within this many base
+/// pitches.
+const LEVEL: f64 = 0.1;
+/// Base pitches past the path's end over which the slope of the compliance turns into that of a corner: a micrometre for
+/// teeth of a few millimetres, less than an edge is rounded.
+const TURN: f64 = 1e-4;
 /// Half the width of contact over the depth to the teeth's middles at the limit of Hertz's logarithm.
 const DEEPEST: f64 = 0.5;
 /// Intervals of Simpson's rule for the mean along the path.
@@ -45,8 +45,10 @@ const MEAN_INTERVALS: usize = 1024;
 pub struct PairStiffness {
     /// Tredgold sections at the outer cone distance: planet, side gear.
     pub teeth: SectionPair,
-    /// Places between which both teeth are beams [rad]; beyond, stiffness levels out.
+    /// Places on the path between which both teeth are beams [rad].
     pub range: [f64; 2],
+    /// How far past the lower and the upper end the stiffness is that of a tip corner [rad]; from there on it levels out.
+    pub corner_range: [f64; 2],
     /// Reference line load per cone distance ω = w/R [N/m²].
     pub reference: f64,
     /// Line load per cone distance ω₀ up to which Hertz's logarithm holds [N/m²].
@@ -57,6 +59,8 @@ pub struct PairStiffness {
     outer_cone: f64,
     base_pitch: f64,
     path: [f64; 2],
+    /// Corners at the lower end, the side gear's, and the upper end, the planet's.
+    corners: [TipCorner; 2],
 }
 
 impl PairStiffness {
@@ -78,34 +82,59 @@ impl PairStiffness {
         let section = |i: usize| SectionSpec::of_gear(pair, i).with_fillet(root.fillet * pair.module, DEDENDUM[i]);
         let elasticity = Elasticity { young, poisson };
         let teeth = SectionPair { sections: [section(0)?, section(1)?], elasticity };
-        let margin = CLIP_MARGIN * pair.base_pitch;
-        let path = [pair.path.low.max(margin - pair.pitch_arc[0]), pair.path.high.min(pair.pitch_arc[1] - margin)];
-        let outer_cone = pair.outer_cone;
-        let range = beams(&teeth, path, outer_cone, pair.base_pitch)?;
-        let limit = (0..=SEARCH)
-            .map(|j| between(range, j) * outer_cone)
-            .map(|place| limit_line_load(&teeth, place) / outer_cone)
+        let corners = [TipCorner::new(pair, &teeth, 1), TipCorner::new(pair, &teeth, 0)];
+        let path = [-corners[0].end(), corners[1].end()];
+        let (outer_cone, base_pitch) = (pair.outer_cone, pair.base_pitch);
+        let range = beams::beams(&teeth, path, outer_cone, base_pitch)?;
+        // the corner of a tooth that is no beam where it enters the path is none past it
+        let corner_range =
+            [0, 1].map(|i| if range[i] == path[i] { corners[i].length(&teeth, base_pitch) } else { 0.0 });
+        let limit = beams::places(range)
+            .map(|s| limit_line_load(&teeth, s * outer_cone) / outer_cone)
             .fold(f64::INFINITY, f64::min);
-        let table = ComplianceTable::new(range[0], range[1], TAIL * pair.base_pitch, |s| {
-            teeth.at(outer_cone * s, limit * outer_cone).total()
+        let on_path = |s: f64| teeth.at(outer_cone * s, limit * outer_cone).total();
+        let table = ComplianceTable::new(range[0], range[1], on_path, |i, end| {
+            if corner_range[i] == 0.0 {
+                return Beyond::level(end, LEVEL * base_pitch);
+            }
+            let (corner, own) = (&corners[i], 1 - i);
+            let arc = corner.mate_arc(0.0);
+            let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], bend: arc * arc };
+            // the own tooth carries at its tip all along
+            let tip = teeth.sections[own].compliance(corner.rolls(0.0)[own], &teeth.elasticity);
+            Beyond::corner(&part, end, LEVEL * base_pitch, |delta| {
+                let rolls = corner.rolls(delta);
+                let mate = teeth.sections[1 - own].compliance(rolls[1 - own], &teeth.elasticity);
+                tip + mate + teeth.local(rolls, limit * outer_cone)
+            })
         });
         let reference = line_load / pair.mean_cone;
         Ok(Self {
             teeth,
             range,
+            corner_range,
             reference,
             limit,
             table: Arc::new(table),
             outer_cone,
-            base_pitch: pair.base_pitch,
+            base_pitch,
             path,
+            corners,
         })
     }
 
-    /// Compliances and width of contact by the formulas at place `s` [rad] within the range, for a line load per cone
-    /// distance of `load` [N/m²]: at the outer cone distance. At R, b is R/R_e of it, the compliances are the same.
+    /// Compliances and width of contact by the formulas at place `s` [rad], on the path or past its ends where the corners'
+    /// are, for a line load per cone distance of `load` [N/m²]: at the outer cone distance. At R, b is R/R_e of it, the
+    /// compliances are the same.
     pub fn exact(&self, s: f64, load: f64) -> PairCompliance {
-        self.teeth.at(self.outer_cone * s, self.outer_cone * load)
+        let rolls = if s < self.path[0] {
+            self.corners[0].rolls(self.path[0] - s)
+        } else if s > self.path[1] {
+            self.corners[1].rolls(s - self.path[1])
+        } else {
+            self.teeth.rolls(self.outer_cone * s)
+        };
+        self.teeth.at_rolls(rolls, self.outer_cone * load)
     }
 
     /// The linear law.
@@ -141,77 +170,9 @@ impl PairStiffness {
     }
 }
 
-const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
-const ADDENDUM: [&str; 2] = ["geometry.planet_addendum", "geometry.side_addendum"];
-
-/// Step `j` of the search on `range`.
-fn between(range: [f64; 2], j: usize) -> f64 {
-    range[0] + (range[1] - range[0]) * j as f64 / SEARCH as f64
-}
-
 /// Line load [N/m] at the outer section at which b is `DEEPEST` of √(t₁t₂).
 fn limit_line_load(teeth: &SectionPair, place: f64) -> f64 {
     let rolls = teeth.rolls(place);
     let depth = |i: usize| teeth.sections[i].load(rolls[i]).depth;
     DEEPEST * DEEPEST * depth(0) * depth(1) / teeth.half_width_squared(rolls, 1.0)
-}
-
-/// The parameter to change if a tooth is not a beam at `place` [m].
-fn unfit(teeth: &SectionPair, place: f64) -> Option<&'static str> {
-    let rolls = teeth.rolls(place);
-    for (i, tooth) in teeth.sections.iter().enumerate() {
-        let load = tooth.load(rolls[i]);
-        if rolls[i] <= 0.0 {
-            return Some(ADDENDUM[1 - i]);
-        }
-        if load.depth < LEAST_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
-            return Some(ADDENDUM[i]);
-        }
-        if load.lever < -BELOW_ROOT * tooth.root_chord {
-            return Some(DEDENDUM[i]);
-        }
-    }
-    None
-}
-
-/// The longest part of `path` on which both teeth are beams.
-fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
-    let fits = |s: f64| unfit(teeth, s * outer_cone).is_none();
-    // where it changes between a place that fits and one that does not
-    let edge = |mut inside: f64, mut outside: f64| {
-        for _ in 0..50 {
-            let half = 0.5 * (inside + outside);
-            if fits(half) { inside = half } else { outside = half }
-        }
-        inside
-    };
-    let mut best = [0.0, 0.0];
-    let mut j = 0;
-    while j <= SEARCH {
-        if !fits(between(path, j)) {
-            j += 1;
-            continue;
-        }
-        let first = j;
-        while j < SEARCH && fits(between(path, j + 1)) {
-            j += 1;
-        }
-        let low = if first == 0 { path[0] } else { edge(between(path, first), between(path, first - 1)) };
-        let high = if j == SEARCH { path[1] } else { edge(between(path, j), between(path, j + 1)) };
-        if high - low > best[1] - best[0] {
-            best = [low, high];
-        }
-        j += 1;
-    }
-    if best[1] - best[0] < LEAST_RANGE * base_pitch {
-        let middle = between(path, SEARCH / 2) * outer_cone;
-        return Err(Problem::new(
-            unfit(teeth, middle).unwrap_or(ADDENDUM[0]),
-            format!(
-                "only {:.3} base pitches of the path load both teeth as beams: they are pointed, or touch at their roots",
-                (best[1] - best[0]) / base_pitch
-            ),
-        ));
-    }
-    Ok(best)
 }

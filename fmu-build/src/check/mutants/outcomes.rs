@@ -1,0 +1,107 @@
+//! What became of each change: cargo-mutants' outcomes.json.
+
+use std::fs;
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+use serde_json::Value;
+
+/// What the tests made of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// A test failed.
+    Noticed,
+    /// All tests passed.
+    Survived,
+    /// The tests did not come to an end in several times the usual time.
+    NoEnd,
+    /// It is no program: the compiler refuses it.
+    NoProgram,
+}
+
+/// A change of the source.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mutant {
+    /// The file, from the workspace on.
+    pub file: String,
+    /// What is changed, without the line: it stays when the file grows elsewhere.
+    pub change: String,
+    /// The line at the time of the run.
+    pub line: u64,
+    /// What became of it.
+    pub fate: Fate,
+}
+
+/// A run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Version of cargo-mutants.
+    pub version: String,
+    /// Changes in the order of their files.
+    pub mutants: Vec<Mutant>,
+}
+
+/// The run whose results are in `folder`.
+pub fn read(folder: &Path) -> Result<Run> {
+    let text = fs::read_to_string(folder.join("outcomes.json")).context("there is no run to report")?;
+    parsed(&serde_json::from_str(&text).context("outcomes.json is not JSON")?)
+}
+
+fn parsed(outcomes: &Value) -> Result<Run> {
+    let text = |value: &Value| value.as_str().map(str::to_owned);
+    let mut mutants = Vec::new();
+    for outcome in outcomes["outcomes"].as_array().context("outcomes.json has no outcomes")? {
+        let summary = outcome["summary"].as_str().context("an outcome without a summary")?;
+        let mutant = &outcome["scenario"]["Mutant"];
+        if mutant.is_null() {
+            ensure!(summary == "Success", "the tests fail without any change");
+            continue;
+        }
+        let name = text(&mutant["name"]).context("a change without a name")?;
+        mutants.push(Mutant {
+            file: text(&mutant["file"]).context("a change without a file")?,
+            change: without_place(&name).to_owned(),
+            line: mutant["span"]["start"]["line"].as_u64().context("a change without a line")?,
+            fate: match summary {
+                "CaughtMutant" => Fate::Noticed,
+                "MissedMutant" => Fate::Survived,
+                "Timeout" => Fate::NoEnd,
+                _ => Fate::NoProgram,
+            },
+        });
+    }
+    mutants.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
+    Ok(Run { version: text(&outcomes["cargo_mutants_version"]).unwrap_or_default(), mutants })
+}
+
+/// The change of a name like "src/a.rs:12:5: replace x with y in f".
+fn without_place(name: &str) -> &str {
+    name.split_once(": ").map_or(name, |(_, change)| change)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outcome(summary: &str, line: u64) -> Value {
+        let name = format!("src/friction/coulomb.rs:{line}:9: replace + with - in coefficient");
+        let span = serde_json::json!({"start": {"line": line, "column": 9}, "end": {"line": line, "column": 10}});
+        serde_json::json!({"summary": summary, "scenario": {"Mutant": {
+            "name": name, "file": "src/friction/coulomb.rs", "span": span}}})
+    }
+
+    #[test]
+    fn changes_keep_their_names_when_lines_move_and_failing_tests_are_no_run() {
+        let baseline = |summary: &str| serde_json::json!({"summary": summary, "scenario": "Baseline"});
+        let of = |base: Value| {
+            serde_json::json!({"cargo_mutants_version": "1.2.3", "outcomes":
+            [base, outcome("MissedMutant", 30), outcome("CaughtMutant", 12), outcome("Unviable", 40), outcome("Timeout", 50)]})
+        };
+        let run = parsed(&of(baseline("Success"))).expect("a run");
+        assert_eq!(run.version, "1.2.3");
+        let found: Vec<_> = run.mutants.iter().map(|m| (m.line, m.fate)).collect();
+        assert_eq!(found, [(12, Fate::Noticed), (30, Fate::Survived), (40, Fate::NoProgram), (50, Fate::NoEnd)]);
+        assert!(run.mutants.iter().all(|m| m.change == "replace + with - in coefficient"));
+        assert!(parsed(&of(baseline("Failure"))).is_err());
+    }
+}

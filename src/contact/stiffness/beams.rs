@@ -1,0 +1,95 @@
+//! Where the formulas of beams hold: the part of the path, and of a tip corner's way, on which both teeth are beams.
+
+use super::compliance::SectionPair;
+use crate::numeric::FRAC_PI_2;
+use crate::problem::Problem;
+
+/// Least thickness of a tooth along the load [modules].
+const LEAST_DEPTH: f64 = 0.05;
+/// Largest angle of the load to the chord [rad].
+const STEEPEST: f64 = FRAC_PI_2 * 2.0 / 3.0;
+/// Largest distance below the root section at which the load crosses the tooth's middle [root chords].
+const BELOW_ROOT: f64 = 0.25;
+/// Steps of the searches.
+const SEARCH: usize = 128;
+/// Least length of a part that is used [base pitches].
+pub const LEAST_RANGE: f64 = 0.02;
+
+/// Dedenda and addenda as the interface names them.
+pub const DEDENDUM: [&str; 2] = ["geometry.planet_dedendum", "geometry.side_dedendum"];
+const ADDENDUM: [&str; 2] = ["geometry.planet_addendum", "geometry.side_addendum"];
+
+/// The parameter to change if a tooth is not a beam under a load at the roll lengths `rolls` [m].
+fn unfit(teeth: &SectionPair, rolls: [f64; 2]) -> Option<&'static str> {
+    for (i, tooth) in teeth.sections.iter().enumerate() {
+        let load = tooth.load(rolls[i]);
+        if rolls[i] <= 0.0 {
+            return Some(ADDENDUM[1 - i]);
+        }
+        if load.depth < LEAST_DEPTH * tooth.module || load.angle.abs() > STEEPEST {
+            return Some(ADDENDUM[i]);
+        }
+        if load.lever < -BELOW_ROOT * tooth.root_chord {
+            return Some(DEDENDUM[i]);
+        }
+    }
+    None
+}
+
+/// Whether both teeth are beams under a load at the roll lengths `rolls` [m].
+pub fn fit(teeth: &SectionPair, rolls: [f64; 2]) -> bool {
+    unfit(teeth, rolls).is_none()
+}
+
+/// Step `j` of the search on `range`.
+fn between(range: [f64; 2], j: usize) -> f64 {
+    range[0] + (range[1] - range[0]) * j as f64 / SEARCH as f64
+}
+
+/// Even places on `range`, both ends included.
+pub fn places(range: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..=SEARCH).map(move |j| between(range, j))
+}
+
+/// The last place found to fit between one that does and one that does not.
+pub fn edge(mut inside: f64, mut outside: f64, fits: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..50 {
+        let half = 0.5 * (inside + outside);
+        if fits(half) { inside = half } else { outside = half }
+    }
+    inside
+}
+
+/// The longest part of `path` [rad] on which both teeth are beams.
+pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f64) -> Result<[f64; 2], Problem> {
+    let fits = |s: f64| fit(teeth, teeth.rolls(s * outer_cone));
+    let mut best = [0.0, 0.0];
+    let mut j = 0;
+    while j <= SEARCH {
+        if !fits(between(path, j)) {
+            j += 1;
+            continue;
+        }
+        let first = j;
+        while j < SEARCH && fits(between(path, j + 1)) {
+            j += 1;
+        }
+        let low = if first == 0 { path[0] } else { edge(between(path, first), between(path, first - 1), fits) };
+        let high = if j == SEARCH { path[1] } else { edge(between(path, j), between(path, j + 1), fits) };
+        if high - low > best[1] - best[0] {
+            best = [low, high];
+        }
+        j += 1;
+    }
+    if best[1] - best[0] < LEAST_RANGE * base_pitch {
+        let middle = between(path, SEARCH / 2) * outer_cone;
+        return Err(Problem::new(
+            unfit(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),
+            format!(
+                "only {:.3} base pitches of the path load both teeth as beams: they are pointed, or touch at their roots",
+                (best[1] - best[0]) / base_pitch
+            ),
+        ));
+    }
+    Ok(best)
+}

@@ -1,0 +1,248 @@
+//! Compliance past an end of the path, as a function of the distance from it: of a tip corner as far as one can touch,
+//! then level.
+//!
+//! The corner moves up its mate's flank from a roll length ρ₀ on, and ρ² grows evenly with the distance. Near a base circle
+//! Hertz's part bends within a distance of ρ₀², so that the nearer half has its knots even in the eighth root of the
+//! distance and ρ₀². In the farther half they close in quadratically on the end, as the mate's tooth is thin there.
+//!
+//! At the path's end the slope jumps: the own tooth's load stops at its tip, and the mate's turns back. A polynomial over a
+//! small distance takes the table from one slope to the other, so that it is twice continuously differentiable.
+
+use super::spline::{Cell, cells, cubic};
+use crate::numeric::{Jet, quintic_hermite, sqrt};
+
+/// Cells of each half.
+const CELLS: usize = 512;
+/// Largest change while levelling out as a share of the value, for each of slope and curvature.
+const LEVEL_CHANGE: f64 = 0.125;
+/// Step of the end slopes' differences as a share of the cell there.
+const END_STEP: f64 = 0.25;
+
+/// The part of a corner.
+#[derive(Clone, Copy, Debug)]
+pub struct CornerPart {
+    /// Distance over which the slope turns from that of the path to that of the corner [rad].
+    pub turn: f64,
+    /// Length of the part [rad].
+    pub length: f64,
+    /// ρ₀² per R_e²: the square of the mate's arc at the path's end [rad²].
+    pub bend: f64,
+}
+
+/// Continuation past an end.
+#[derive(Clone, Debug)]
+pub struct Beyond {
+    corner: Option<CornerTable>,
+    length: f64,
+    level: Level,
+}
+
+#[derive(Clone, Debug)]
+struct CornerTable {
+    turning: Turn,
+    /// Where the halves meet and where they end.
+    middle: f64,
+    length: f64,
+    bend: f64,
+    first: f64,
+    per_eighth_root: f64,
+    per_root: f64,
+    cells: Box<[Cell; 2 * CELLS]>,
+}
+
+/// Continuation with value, slope and curvature of an end that becomes constant.
+#[derive(Clone, Copy, Debug)]
+struct Level {
+    /// Value at the end with derivatives outward.
+    end: Jet,
+    /// Distance at which the function becomes constant.
+    length: f64,
+}
+
+impl Level {
+    fn new(end: Jet, length: f64) -> Self {
+        // at most half the slope and a twelfth of the curvature are added up, see `at`
+        let by_slope = 2.0 * LEVEL_CHANGE * end.v / end.d.abs();
+        let by_curvature = sqrt(12.0 * LEVEL_CHANGE * end.v / end.dd.abs());
+        Self { end, length: length.min(by_slope).min(by_curvature) }
+    }
+
+    fn at(&self, x: f64) -> Jet {
+        let (e, l) = (self.end, self.length);
+        let u = (x / l).min(1.0);
+        let v = 1.0 - u;
+        // f′ = (1−u)²(1+2u) carries the slope, u(1−u)² the curvature; both end flat
+        let slope = [u * (1.0 - u * u * (1.0 - 0.5 * u)), v * v * (1.0 + 2.0 * u), -6.0 * u * v];
+        let bend = [u * u * (0.5 - u * (2.0 / 3.0 - 0.25 * u)), u * v * v, v * (1.0 - 3.0 * u)];
+        Jet {
+            v: e.v + l * (e.d * slope[0] + l * e.dd * bend[0]),
+            d: e.d * slope[1] + l * e.dd * bend[1],
+            dd: e.d / l * slope[2] + e.dd * bend[2],
+        }
+    }
+}
+
+/// From value, slope and curvature at the path's end, where the third derivative is zero, to those of the corner.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    length: f64,
+    /// Coefficients of all powers but the third.
+    powers: [f64; 6],
+}
+
+impl Turn {
+    fn new(from: Jet, to: Jet, length: f64) -> Self {
+        let [c0, c1, c2, c3, c4, c5] = quintic_hermite(from, to, length);
+        // less c₃ x³ (1 − x/l)³, which changes nothing up to the curvature at either end
+        let per = c3 / length;
+        Self { length, powers: [c0, c1, c2, c4 + 3.0 * per, c5 - 3.0 * per / length, per / (length * length)] }
+    }
+
+    fn at(&self, x: f64) -> Jet {
+        let c = &self.powers;
+        let xx = x * x;
+        Jet {
+            v: c[0] + x * (c[1] + x * (c[2] + xx * (c[3] + x * (c[4] + x * c[5])))),
+            d: c[1] + x * (2.0 * c[2] + xx * (4.0 * c[3] + x * (5.0 * c[4] + x * 6.0 * c[5]))),
+            dd: 2.0 * c[2] + xx * (12.0 * c[3] + x * (20.0 * c[4] + x * 30.0 * c[5])),
+        }
+    }
+}
+
+impl CornerTable {
+    fn new(part: &CornerPart, end: Jet, f: impl Fn(f64) -> f64) -> Self {
+        let CornerPart { turn, length, bend } = *part;
+        let middle = 0.5 * (turn + length);
+        let (first, last) = (eighth_root(turn + bend), eighth_root(middle + bend));
+        let per_cell = (last - first) / CELLS as f64;
+        let share = |j: usize| j as f64 / CELLS as f64;
+        let near = (1..CELLS).map(|j| square(square(square(first + per_cell * j as f64))) - bend);
+        let far = (1..CELLS).map(|j| length - (length - middle) * square(1.0 - share(j)));
+        let knots: Vec<f64> = [turn].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
+        let values: Vec<f64> = knots.iter().map(|&x| f(x)).collect();
+        // one-sided differences of fourth order: the function ends here
+        let slope = |x: f64, step: f64| {
+            let sum = -25.0 * f(x) + 48.0 * f(x + step) - 36.0 * f(x + 2.0 * step) + 16.0 * f(x + 3.0 * step);
+            (sum - 3.0 * f(x + 4.0 * step)) / (12.0 * step)
+        };
+        let ends =
+            [slope(turn, END_STEP * (knots[1] - turn)), slope(length, -END_STEP * (length - knots[2 * CELLS - 1]))];
+        let cells = cells(&knots, &values, ends);
+        Self {
+            turning: Turn::new(end, cubic(&cells[0], turn), turn),
+            middle,
+            length,
+            bend,
+            first,
+            per_eighth_root: 1.0 / per_cell,
+            per_root: CELLS as f64 / sqrt(length - middle),
+            cells,
+        }
+    }
+
+    #[inline]
+    fn at(&self, x: f64) -> Jet {
+        if x < self.turning.length {
+            return self.turning.at(x);
+        }
+        let cell = if x < self.middle {
+            (self.per_eighth_root * (eighth_root(x + self.bend) - self.first)) as usize
+        } else {
+            2 * CELLS - 1 - (self.per_root * sqrt(self.length - x)) as usize
+        };
+        // rounding may name a neighbour, whose cubic is the same there
+        cubic(&self.cells[cell.min(2 * CELLS - 1)], x)
+    }
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}
+
+fn eighth_root(x: f64) -> f64 {
+    sqrt(sqrt(sqrt(x)))
+}
+
+impl Beyond {
+    /// The corner's positive compliance `f` along `part` from value and slopes `end` on, taken outward; constant from
+    /// `level` past its end on.
+    pub fn corner(part: &CornerPart, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
+        let table = CornerTable::new(part, end, f);
+        let last = cubic(&table.cells[2 * CELLS - 1], part.length);
+        Self { corner: Some(table), length: part.length, level: Level::new(last, level) }
+    }
+
+    /// No corner: from value and slopes `end`, taken outward, to a constant from `level` on.
+    pub fn level(end: Jet, level: f64) -> Self {
+        Self { corner: None, length: 0.0, level: Level::new(end, level) }
+    }
+
+    /// Value with derivatives outward at the distance `x` ≥ 0.
+    #[inline]
+    pub fn at(&self, x: f64) -> Jet {
+        match &self.corner {
+            Some(table) if x < self.length => table.at(x),
+            _ => self.level.at(x - self.length),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PART: CornerPart = CornerPart { turn: 3e-5, length: 0.3, bend: 0.03 };
+    const END: Jet = Jet { v: 6.7, d: 1.0, dd: -3.0 };
+
+    /// The compliance of a corner whose mate's arc grows as √(x + `bend`), with the pole of Hertz's logarithm where that is
+    /// zero and the pole of a pointed tooth a little past the end.
+    fn function(bend: f64) -> impl Fn(f64) -> f64 {
+        move |x: f64| 5.0 - 0.5 * libm::log(x + bend) - 0.1 * libm::log(0.302 - x) + crate::numeric::sin(4.0 * x)
+    }
+
+    #[test]
+    fn a_corner_far_from_and_near_to_its_mate_s_base_circle_is_met() {
+        for bend in [0.03, 2e-4, 8e-7] {
+            let (f, part) = (function(bend), CornerPart { bend, ..PART });
+            let beyond = Beyond::corner(&part, END, 0.1, &f);
+            let mut worst = 0f64;
+            for j in 0..=20_000 {
+                let share = 0.5 - 0.5 * (f64::from(j) * std::f64::consts::PI / 20_000.0).cos();
+                let x = part.turn + (part.length - part.turn) * share;
+                worst = worst.max((beyond.at(x).v / f(x) - 1.0).abs());
+            }
+            println!("{bend:e}: {worst:e}");
+            assert!(worst < 1e-9, "{bend:e}: {worst:e}");
+        }
+    }
+
+    #[test]
+    fn value_slope_and_curvature_have_no_jumps() {
+        let beyond = Beyond::corner(&PART, END, 0.1, function(PART.bend));
+        assert_eq!(beyond.at(0.0), END);
+        for x in [PART.turn, 0.5 * (PART.turn + PART.length), PART.length] {
+            let (a, b) = (beyond.at(x * (1.0 - 1e-14)), beyond.at(x));
+            assert!((a.v - b.v).abs() < 1e-12 && (a.d - b.d).abs() < 1e-9 * b.d.abs(), "{x}: {a:?} {b:?}");
+            assert!((a.dd - b.dd).abs() < 1e-5 * b.dd.abs(), "{x}: {a:?} {b:?}");
+        }
+        for (length, h) in [(PART.turn, 1e-9), (PART.length + 0.11, 1e-7)] {
+            for j in 0..2000 {
+                let x = length * (f64::from(j) + 0.5) / 2000.0;
+                let (m, c, p) = (beyond.at(x - h), beyond.at(x), beyond.at(x + h));
+                let scale = c.d.abs() + h * c.dd.abs() + 1.0;
+                assert!((c.d - (p.v - m.v) / (2.0 * h)).abs() < 1e-4 * scale, "{x}: {c:?} {m:?} {p:?}");
+                let scale = c.dd.abs() + c.d.abs() / length + 1.0;
+                assert!((c.dd - (p.d - m.d) / (2.0 * h)).abs() < 2e-3 * scale, "{x}: {c:?} {m:?} {p:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_corner_the_function_levels_out_within_the_given_distance() {
+        let beyond = Beyond::level(END, 0.1);
+        assert_eq!(beyond.at(0.0), END);
+        let (before, level) = (beyond.at(0.0999), beyond.at(0.1));
+        assert!(before.d != 0.0 && before.dd != 0.0);
+        assert_eq!((level.v, level.d, level.dd), (beyond.at(1e3).v, 0.0, 0.0));
+    }
+}

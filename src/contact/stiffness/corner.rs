@@ -1,0 +1,74 @@
+//! A tip corner past the end of the path: where it loads its own tooth and its mate's.
+//!
+//! Its own tooth carries at the tip. The mate carries where the corner stands, at a polar angle φ about the mate's axis,
+//! and with it at the arc ψ of the flank there, cosφ = cosδ_b cosψ. On the path a roll length on the section is that at
+//! the pitch point and R_e times the arc from there; the corner's are read the same way, so that both agree at the end.
+
+use super::beams::{LEAST_RANGE, edge, fit};
+use super::compliance::SectionPair;
+use crate::geometry::Pair;
+use crate::geometry::corner::ClosedForm;
+use crate::geometry::involute::Gear;
+
+/// Steps per base pitch, and their number, in the search for the end of the corner's way.
+const SEARCH: (f64, i32) = (64.0, 256);
+
+/// The corner of gear `own` on the flank of its mate.
+#[derive(Clone, Copy, Debug)]
+pub struct TipCorner {
+    own: usize,
+    way: ClosedForm,
+    mate: Gear,
+    outer_cone: f64,
+    /// Roll length of the own tooth at its tip [m].
+    tip_roll: f64,
+    /// Roll length [m] and arc [rad] of the mate at the pitch point, and its roll length at its tip [m].
+    mate_pitch: (f64, f64),
+    mate_tip: f64,
+}
+
+impl TipCorner {
+    /// The corner of gear `own` (0 planet, 1 side gear) of `pair`, whose sections are `teeth`.
+    pub fn new(pair: &Pair, teeth: &SectionPair, own: usize) -> Self {
+        let (way, mate) = (ClosedForm::new(pair, own), 1 - own);
+        let mate_pitch = (teeth.sections[mate].pitch_roll, pair.pitch_arc[mate]);
+        Self {
+            own,
+            way,
+            mate: pair.gears[mate],
+            outer_cone: pair.outer_cone,
+            tip_roll: teeth.sections[own].pitch_roll + pair.outer_cone * way.end,
+            mate_pitch,
+            mate_tip: mate_pitch.0 + pair.outer_cone * (pair.tip_arc[mate] - mate_pitch.1),
+        }
+    }
+
+    /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
+    pub fn end(&self) -> f64 {
+        self.way.end
+    }
+
+    /// Arc ψ of the mate's flank where the corner touches at Δ = `delta` [rad].
+    pub fn mate_arc(&self, delta: f64) -> f64 {
+        self.mate.action_arc(self.way.at(delta).mate_polar)
+    }
+
+    /// Roll lengths of both gears [m] at Δ = `delta` [rad].
+    pub fn rolls(&self, delta: f64) -> [f64; 2] {
+        let mate = self.mate_pitch.0 + self.outer_cone * (self.mate_arc(delta) - self.mate_pitch.1);
+        if self.own == 0 { [self.tip_roll, mate] } else { [mate, self.tip_roll] }
+    }
+
+    /// How far past the path's end [rad] the corner stays on its mate's flank and both teeth are beams; 0 if that is next
+    /// to nothing.
+    pub fn length(&self, teeth: &SectionPair, base_pitch: f64) -> f64 {
+        let fits = |delta: f64| {
+            let rolls = self.rolls(delta);
+            rolls[1 - self.own] < self.mate_tip && fit(teeth, rolls)
+        };
+        let step = |j: i32| base_pitch / SEARCH.0 * f64::from(j);
+        let last = (1..=SEARCH.1).take_while(|&j| fits(step(j))).last().unwrap_or(0);
+        let length = if last == SEARCH.1 { step(last) } else { edge(step(last), step(last + 1), fits) };
+        if length < LEAST_RANGE * base_pitch { 0.0 } else { length }
+    }
+}
