@@ -239,7 +239,7 @@ fn parameters_are_set_by_name_and_unit() -> Result<()> {
     assert!(text.contains("\nno warnings\n"), "{text}");
     // the start values are the study's gears, whose face is wide
     let text = text::text(&Design::new::<&str>(&[])?);
-    assert!(text.contains("\n1. geometry.face_width: 20.0 mm is 0.471 R_e"), "{text}");
+    assert!(text.contains("\n1. geometry.face_width: 20.00 mm is 0.471 R_e"), "{text}");
     Ok(())
 }
 
