@@ -36,12 +36,13 @@ pub enum Stretch {
     Path,
     /// Past the planet's end of the path.
     PlanetCorner,
-    /// Next to an end, where the slope of the stiffness turns within a micrometre: no place for differences.
+    /// Next to an end, where the slope of the stiffness turns within a micrometre and Hertz's part bends sharply if a base
+    /// circle is near: no place for differences.
     Turn,
 }
 
-/// Base pitches past an end of the path within which the slope of the stiffness turns, and a margin.
-const TURN: f64 = 1.01e-4;
+/// Length of that in base pitches: a hundred times the steps of differences.
+const TURN: f64 = 1e-3;
 
 /// The part in which a pair stands at `s` by the planet's rotation [rad].
 pub fn stretch(engagement: &Engagement, pair: &Pair, s: f64) -> Stretch {
