@@ -150,7 +150,7 @@ fn the_table_equals_the_formulas_within_a_millionth_on_the_path_and_past_its_end
         let base_pitch = Pair::new(spec).base_pitch;
         let ([low, high], corner) = (stiffness.range, stiffness.corner_range);
         // past the ends from where the slope has turned
-        let turned = 1e-4 * base_pitch;
+        let turned = 4e-3 * base_pitch;
         let parts = [[low, high], [low - corner[0], low - turned], [high + turned, high + corner[1]]];
         for j in 0..=6000 {
             let part = parts[j % 3];

@@ -9,7 +9,7 @@
 //! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
 
 use super::pair::Pair;
-use crate::numeric::{Jet, Quintic, Scalar, atan2, cos, quintic, quintic_hermite, sin, sqrt, tan};
+use crate::numeric::{Jet, Scalar, atan2, cos, sin, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
 /// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
@@ -36,7 +36,7 @@ pub struct CornerGap {
     first: u64,
     /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
     pub spread: f64,
-    cells: Box<[Quintic; CELLS]>,
+    cells: Box<[[f64; 6]; CELLS]>,
 }
 
 /// Contact of a corner: gap with derivatives, and polar angles about both axes.
@@ -155,7 +155,13 @@ impl CornerGap {
         let count = delta.to_bits() >> SHIFT;
         let j = ((count + 1).saturating_sub(self.first) as usize).min(CELLS - 1);
         let knot = if j == 0 { 0.0 } else { f64::from_bits((self.first + (j as u64 - 1)) << SHIFT) };
-        quintic(&self.cells[j], delta - knot)
+        let x = delta - knot;
+        let c = &self.cells[j];
+        Jet {
+            v: c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))),
+            d: c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5]))),
+            dd: 2.0 * c[2] + x * (6.0 * c[3] + x * (12.0 * c[4] + x * 20.0 * c[5])),
+        }
     }
 
     /// A Δ beyond which the gap exceeds `approach` [rad].
@@ -168,6 +174,18 @@ impl CornerGap {
 /// Quadratic continuation of `gap` by `x`.
 fn grow(gap: Jet, x: f64) -> Jet {
     Jet { v: gap.v + x * (gap.d + 0.5 * x * gap.dd), d: gap.d + x * gap.dd, dd: gap.dd }
+}
+
+/// Coefficients of the quintic in x ∈ [0, h] that takes value, slope and curvature of `a` at 0 and of `b` at h.
+fn quintic_hermite(a: Jet, b: Jet, h: f64) -> [f64; 6] {
+    let (c0, c1, c2) = (a.v, a.d, 0.5 * a.dd);
+    let e0 = (b.v - (c0 + h * (c1 + h * c2))) / (h * h * h);
+    let e1 = (b.d - (c1 + 2.0 * h * c2)) / (h * h);
+    let e2 = (b.dd - 2.0 * c2) / h;
+    let c3 = 10.0 * e0 - 4.0 * e1 + 0.5 * e2;
+    let c4 = (-15.0 * e0 + 7.0 * e1 - e2) / h;
+    let c5 = (6.0 * e0 - 3.0 * e1 + 0.5 * e2) / (h * h);
+    [c0, c1, c2, c3, c4, c5]
 }
 
 #[cfg(test)]

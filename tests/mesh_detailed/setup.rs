@@ -11,7 +11,7 @@ use bevel_differential::geometry::Pair;
 use bevel_differential::numeric::Scalar;
 
 use crate::mesh_explicit::Lcg;
-use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, Stretch, gears, stretch};
+use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, gears};
 
 pub const STATES: usize = 2000;
 
@@ -161,9 +161,9 @@ pub fn difference(state: &DetailedState<f64>, i: usize, h: f64, f: impl Fn(&Deta
 }
 
 /// A loaded slice as far as it must stay the same.
-pub type Loaded = (PairName, u64, Spot, Stretch, bool, bool);
+pub type Loaded = (PairName, u64, Spot, bool, bool);
 
-/// Loaded slices with their kind and stretch of contact, whether flanks are about to part, and whether damping is full: where this
+/// Loaded slices with their kind of contact, whether flanks are about to part, and whether damping is full: where this
 /// changes, derivatives jump or bend. Nothing if a slice is less than `least` deep [rad].
 pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>, least: f64) -> Option<Vec<Loaded>> {
     let mut pattern = Vec::new();
@@ -178,8 +178,7 @@ pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>,
         };
         shallow |= slice.arc < least;
         let full = slice.arc * slice.cone * PER_FULL_DEPTH >= 1.0;
-        let stretch = stretch(both.engagement(), &both.pair, slice.s);
-        pattern.push((slice.name, slice.cone.to_bits(), spot, stretch, slice.normal <= 0.0, full));
+        pattern.push((slice.name, slice.cone.to_bits(), spot, slice.normal <= 0.0, full));
     });
     (!shallow).then_some(pattern)
 }
@@ -188,13 +187,9 @@ pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>,
 pub fn smooth(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>, h: &[f64]) -> bool {
     let least = 30.0 * h[0];
     let Some(here) = pattern(both, gaps, state, least) else { return false };
-    let turns = here.iter().any(|&(_, _, _, stretch, _, _)| stretch == Stretch::Turn);
-    !turns
-        && (0..h.len()).all(|i| {
-            [-2.0, 2.0]
-                .iter()
-                .all(|k| pattern(both, gaps, &shifted(state, i, k * h[i]), 0.0).is_some_and(|p| p == here))
-        })
+    (0..h.len()).all(|i| {
+        [-2.0, 2.0].iter().all(|k| pattern(both, gaps, &shifted(state, i, k * h[i]), 0.0).is_some_and(|p| p == here))
+    })
 }
 
 pub fn coulomb(coefficient: f64, regularisation_speed: f64) -> ToothFriction {

@@ -9,7 +9,6 @@ use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::law::{Face, Lumped, Power};
 use bevel_differential::contact::mesh::{Law, Mesh};
-use bevel_differential::contact::pairs::Engagement;
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
@@ -25,34 +24,6 @@ pub const GEARS: [(i32, i32, f64, f64); 3] = [(10, 16, 1.5, 1e-4), (9, 14, 1.5, 
 
 pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> Pair {
     Pair::new(&GearSpec { planet_teeth, side_teeth, backlash, ..GearSpec::default() })
-}
-
-/// Part of a tooth pair's way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stretch {
-    /// Past the side gear's end of the path.
-    SideCorner,
-    /// On the path.
-    Path,
-    /// Past the planet's end of the path.
-    PlanetCorner,
-    /// Next to an end, where the slope of the stiffness turns within a micrometre and Hertz's part bends sharply if a base
-    /// circle is near: no place for differences.
-    Turn,
-}
-
-/// Length of that in base pitches: a hundred times the steps of differences.
-const TURN: f64 = 1e-3;
-
-/// The part in which a pair stands at `s` by the planet's rotation [rad].
-pub fn stretch(engagement: &Engagement, pair: &Pair, s: f64) -> Stretch {
-    let (turn, [high, low]) = (TURN * pair.base_pitch, [0, 1].map(|i| engagement.corner[i].end));
-    match (s - high, -low - s) {
-        (past, _) if past > turn => Stretch::PlanetCorner,
-        (_, past) if past > turn => Stretch::SideCorner,
-        (planet, side) if planet > 0.0 || side > 0.0 => Stretch::Turn,
-        _ => Stretch::Path,
-    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

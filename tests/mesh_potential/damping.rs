@@ -20,7 +20,7 @@ fn jacobian_equals_differences(meshes: &[(Mesh, Pair)]) -> usize {
             clipped += pattern(mesh, &state).iter().filter(|p| p.2).count();
             assert_eq!(load.force, mesh.force(&state).force, "{state:?}");
             for (of_rate, h, by) in [(false, h, jacobian.by_position), (true, 1e-3, jacobian.by_rate)] {
-                if !smooth(mesh, pair, &state, h, of_rate) {
+                if !smooth(mesh, &state, h, of_rate) {
                     continue;
                 }
                 compared += 1;
@@ -89,7 +89,7 @@ fn power_plus_heat_is_what_the_energy_loses(meshes: &[(Mesh, Pair)]) {
             let power = load.force[0] * state.rate[0] + load.force[1] * state.rate[1];
             let scale = mesh.force(&MeshState { rate: [0.0; 2], ..state }).force[0].abs() + load.force[0].abs();
             let off = (power + load.heat + gained).abs() / scale;
-            let steady = smooth(mesh, pair, &state, h, false);
+            let steady = smooth(mesh, &state, h, false);
             if steady {
                 worst = worst.max(off);
             }

@@ -20,7 +20,7 @@ fn force_is_minus_the_gradient(meshes: &[(Mesh, Pair)], has_pairs: bool) {
             let h = 1e-3 * depth;
             let force = mesh.force(&state).force;
             let scale = force[0].abs();
-            let allowed = if smooth(mesh, pair, &state, h, false) { 1e-8 } else { 1e-4 };
+            let allowed = if smooth(mesh, &state, h, false) { 1e-8 } else { 1e-4 };
             for axis in 0..2 {
                 let gradient = difference(&state, axis, h, false, |s| mesh.energy(s));
                 let off = (force[axis] + gradient).abs() / scale;

@@ -6,7 +6,7 @@ use bevel_differential::contact::pairs::{Flank, Spot, ToothPair};
 use bevel_differential::geometry::Pair;
 
 use crate::mesh_explicit::Lcg;
-use crate::mesh_laws::{Kind, PER_FULL_DEPTH, Stretch, meshes, stretch};
+use crate::mesh_laws::{Kind, PER_FULL_DEPTH, meshes};
 
 pub const STATES: usize = 4000;
 
@@ -77,17 +77,12 @@ pub fn difference(state: &MeshState, axis: usize, h: f64, of_rate: bool, f: impl
     (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)
 }
 
-/// Whether the pattern stays the same within two steps, no pair is about to leave, and none crosses an end of the path: at
-/// depth d ≫ h the fourth-order difference of d^e has an error of (h/d)⁴ only.
-pub fn smooth(mesh: &Mesh, pair: &Pair, state: &MeshState, h: f64, of_rate: bool) -> bool {
+/// Whether the pattern stays the same within two steps and no pair is about to leave: at depth d ≫ h the fourth-order
+/// difference of d^e has an error of (h/d)⁴ only.
+pub fn smooth(mesh: &Mesh, state: &MeshState, h: f64, of_rate: bool) -> bool {
     if !of_rate && loaded(mesh, state.position).iter().any(|p| p.depth < 30.0 * h) {
         return false;
     }
-    let stretches = |state: &MeshState| -> Vec<Stretch> {
-        loaded(mesh, state.position).iter().map(|p| stretch(&mesh.engagement, pair, p.s)).collect()
-    };
-    let here = (pattern(mesh, state), stretches(state));
-    let moved = |axis: usize, k: f64| shifted(state, axis, k * h, of_rate);
-    let same = |state: &MeshState| (pattern(mesh, state), stretches(state)) == here;
-    !here.1.contains(&Stretch::Turn) && (0..2).all(|axis| [-2.0, 2.0].iter().all(|&k| same(&moved(axis, k))))
+    let here = pattern(mesh, state);
+    (0..2).all(|axis| [-2.0, 2.0].iter().all(|k| pattern(mesh, &shifted(state, axis, k * h, of_rate)) == here))
 }

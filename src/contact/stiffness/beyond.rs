@@ -5,11 +5,11 @@
 //! Hertz's part bends within a distance of ρ₀², so that the nearer half has its knots even in the eighth root of the
 //! distance and ρ₀². In the farther half they close in quadratically on the end, as the mate's tooth is thin there.
 //!
-//! At the path's end the slope jumps: the own tooth's load stops at its tip, and the mate's turns back. A polynomial over a
-//! small distance takes the table from one slope to the other, so that it is twice continuously differentiable.
+//! At the path's end the slope jumps: the own tooth's load stops at its tip, and the mate's turns back. Over a small
+//! distance a smooth step takes the table from the path's parabola to the corner, with four continuous derivatives.
 
 use super::spline::{Cell, cells, cubic};
-use crate::numeric::{Jet, quintic_hermite, sqrt};
+use crate::numeric::{Jet, sqrt};
 
 /// Cells of each half.
 const CELLS: usize = 512;
@@ -39,7 +39,9 @@ pub struct Beyond {
 
 #[derive(Clone, Debug)]
 struct CornerTable {
-    turning: Turn,
+    /// The path's end, and how far its parabola counts.
+    end: Jet,
+    turn: f64,
     /// Where the halves meet and where they end.
     middle: f64,
     length: f64,
@@ -82,54 +84,39 @@ impl Level {
     }
 }
 
-/// From value, slope and curvature at the path's end, where the third derivative is zero, to those of the corner.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    length: f64,
-    /// Coefficients of all powers but the third.
-    powers: [f64; 6],
-}
-
-impl Turn {
-    fn new(from: Jet, to: Jet, length: f64) -> Self {
-        let [c0, c1, c2, c3, c4, c5] = quintic_hermite(from, to, length);
-        // less c₃ x³ (1 − x/l)³, which changes nothing up to the curvature at either end
-        let per = c3 / length;
-        Self { length, powers: [c0, c1, c2, c4 + 3.0 * per, c5 - 3.0 * per / length, per / (length * length)] }
-    }
-
-    fn at(&self, x: f64) -> Jet {
-        let c = &self.powers;
-        let xx = x * x;
-        Jet {
-            v: c[0] + x * (c[1] + x * (c[2] + xx * (c[3] + x * (c[4] + x * c[5])))),
-            d: c[1] + x * (2.0 * c[2] + xx * (4.0 * c[3] + x * (5.0 * c[4] + x * 6.0 * c[5]))),
-            dd: 2.0 * c[2] + xx * (12.0 * c[3] + x * (20.0 * c[4] + x * 30.0 * c[5])),
-        }
+/// The smooth step u⁵(126 − 420u + 540u² − 315u³ + 70u⁴) from 0 to 1, u = x/`length`.
+fn smooth_step(x: f64, length: f64) -> Jet {
+    let u = x / length;
+    let (v, uu) = (1.0 - u, u * u);
+    let steep = uu * v * v;
+    Jet {
+        v: uu * uu * u * (126.0 - u * (420.0 - u * (540.0 - u * (315.0 - 70.0 * u)))),
+        d: 630.0 * steep * steep / length,
+        dd: 2520.0 * steep * u * v * (v - u) / (length * length),
     }
 }
 
 impl CornerTable {
     fn new(part: &CornerPart, end: Jet, f: impl Fn(f64) -> f64) -> Self {
         let CornerPart { turn, length, bend } = *part;
-        let middle = 0.5 * (turn + length);
-        let (first, last) = (eighth_root(turn + bend), eighth_root(middle + bend));
+        let middle = 0.5 * length;
+        let (first, last) = (eighth_root(bend), eighth_root(middle + bend));
         let per_cell = (last - first) / CELLS as f64;
         let share = |j: usize| j as f64 / CELLS as f64;
         let near = (1..CELLS).map(|j| square(square(square(first + per_cell * j as f64))) - bend);
         let far = (1..CELLS).map(|j| length - (length - middle) * square(1.0 - share(j)));
-        let knots: Vec<f64> = [turn].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
+        let knots: Vec<f64> = [0.0].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
         let values: Vec<f64> = knots.iter().map(|&x| f(x)).collect();
         // one-sided differences of fourth order: the function ends here
         let slope = |x: f64, step: f64| {
             let sum = -25.0 * f(x) + 48.0 * f(x + step) - 36.0 * f(x + 2.0 * step) + 16.0 * f(x + 3.0 * step);
             (sum - 3.0 * f(x + 4.0 * step)) / (12.0 * step)
         };
-        let ends =
-            [slope(turn, END_STEP * (knots[1] - turn)), slope(length, -END_STEP * (length - knots[2 * CELLS - 1]))];
-        let cells = cells(&knots, &values, ends);
+        let steps = [knots[1], knots[2 * CELLS - 1] - length].map(|cell| END_STEP * cell);
+        let cells = cells(&knots, &values, [slope(0.0, steps[0]), slope(length, steps[1])]);
         Self {
-            turning: Turn::new(end, cubic(&cells[0], turn), turn),
+            end,
+            turn,
             middle,
             length,
             bend,
@@ -142,16 +129,26 @@ impl CornerTable {
 
     #[inline]
     fn at(&self, x: f64) -> Jet {
-        if x < self.turning.length {
-            return self.turning.at(x);
-        }
         let cell = if x < self.middle {
             (self.per_eighth_root * (eighth_root(x + self.bend) - self.first)) as usize
         } else {
             2 * CELLS - 1 - (self.per_root * sqrt(self.length - x)) as usize
         };
         // rounding may name a neighbour, whose cubic is the same there
-        cubic(&self.cells[cell.min(2 * CELLS - 1)], x)
+        let corner = cubic(&self.cells[cell.min(2 * CELLS - 1)], x);
+        if x < self.turn { self.turning(x, corner) } else { corner }
+    }
+
+    /// Between the path's parabola and the corner.
+    fn turning(&self, x: f64, corner: Jet) -> Jet {
+        let (end, step) = (&self.end, smooth_step(x, self.turn));
+        let path = Jet { v: end.v + x * (end.d + 0.5 * x * end.dd), d: end.d + x * end.dd, dd: end.dd };
+        let (v, d, dd) = (corner.v - path.v, corner.d - path.d, corner.dd - path.dd);
+        Jet {
+            v: path.v + v * step.v,
+            d: path.d + d * step.v + v * step.d,
+            dd: path.dd + dd * step.v + 2.0 * d * step.d + v * step.dd,
+        }
     }
 }
 
@@ -191,8 +188,9 @@ impl Beyond {
 mod tests {
     use super::*;
 
-    const PART: CornerPart = CornerPart { turn: 3e-5, length: 0.3, bend: 0.03 };
-    const END: Jet = Jet { v: 6.7, d: 1.0, dd: -3.0 };
+    const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, bend: 0.03 };
+    /// The end of a path that leads to the function below.
+    const END: Jet = Jet { v: 6.873, d: 1.0, dd: -3.0 };
 
     /// The compliance of a corner whose mate's arc grows as √(x + `bend`), with the pole of Hertz's logarithm where that is
     /// zero and the pole of a pointed tooth a little past the end.
@@ -225,7 +223,7 @@ mod tests {
             assert!((a.v - b.v).abs() < 1e-12 && (a.d - b.d).abs() < 1e-9 * b.d.abs(), "{x}: {a:?} {b:?}");
             assert!((a.dd - b.dd).abs() < 1e-5 * b.dd.abs(), "{x}: {a:?} {b:?}");
         }
-        for (length, h) in [(PART.turn, 1e-9), (PART.length + 0.11, 1e-7)] {
+        for (length, h) in [(PART.turn, 1e-8), (PART.length + 0.11, 1e-7)] {
             for j in 0..2000 {
                 let x = length * (f64::from(j) + 0.5) / 2000.0;
                 let (m, c, p) = (beyond.at(x - h), beyond.at(x), beyond.at(x + h));

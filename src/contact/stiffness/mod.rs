@@ -32,9 +32,9 @@ use table::ComplianceTable;
 /// Where neither the path nor a corner on its mate's flank can carry, the stiffness becomes constant within this many base
 /// pitches.
 const LEVEL: f64 = 0.1;
-/// Base pitches past the path's end over which the slope of the compliance turns into that of a corner: a micrometre for
-/// teeth of a few millimetres, less than an edge is rounded.
-const TURN: f64 = 1e-4;
+/// Base pitches past the path's end over which the slope of the compliance turns into that of a corner: a third of half the
+/// width of contact under load, over which the patch runs onto the edge.
+const TURN: f64 = 4e-3;
 /// Half the width of contact over the depth to the teeth's middles at the limit of Hertz's logarithm.
 const DEEPEST: f64 = 0.5;
 /// Intervals of Simpson's rule for the mean along the path.
