@@ -124,10 +124,14 @@ impl Fidelity {
     }
 }
 
+/// Inertia of a side gear and of a planet of the references in tests/data [kg·m²].
+const GIVEN: [f64; 2] = [9e-5, 2e-5];
+
 /// The study's turn, with inertias as given and not from solids, which other programs would have to take over.
 pub fn turn() -> (Parameters, Inputs) {
     let mut parameters = Parameters::default();
     parameters.inertia.from_geometry = false;
+    [parameters.inertia.side_gear, parameters.inertia.planet] = GIVEN;
     parameters.scene.planet_spin = PlanetSpin::Imposed;
     let inputs = Inputs {
         carrier_speed: published::CARRIER_SPEED[1].to_radians(),
