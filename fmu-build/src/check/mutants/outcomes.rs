@@ -6,6 +6,8 @@ use std::path::Path;
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
+use super::tool::SAMPLE;
+
 /// What the tests made of a change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
@@ -37,6 +39,8 @@ pub struct Mutant {
 pub struct Run {
     /// Version of cargo-mutants.
     pub version: String,
+    /// The part of all changes that was tried.
+    pub shard: String,
     /// Changes in the order of their files.
     pub mutants: Vec<Mutant>,
 }
@@ -44,10 +48,11 @@ pub struct Run {
 /// The run whose results are in `folder`.
 pub fn read(folder: &Path) -> Result<Run> {
     let text = fs::read_to_string(folder.join("outcomes.json")).context("there is no run to report")?;
-    parsed(&serde_json::from_str(&text).context("outcomes.json is not JSON")?)
+    let shard = fs::read_to_string(folder.join(SAMPLE)).context("the last run did not come to its end")?;
+    parsed(&serde_json::from_str(&text).context("outcomes.json is not JSON")?, shard.trim())
 }
 
-fn parsed(outcomes: &Value) -> Result<Run> {
+fn parsed(outcomes: &Value, shard: &str) -> Result<Run> {
     let text = |value: &Value| value.as_str().map(str::to_owned);
     let mut mutants = Vec::new();
     for outcome in outcomes["outcomes"].as_array().context("outcomes.json has no outcomes")? {
@@ -71,7 +76,8 @@ fn parsed(outcomes: &Value) -> Result<Run> {
         });
     }
     mutants.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
-    Ok(Run { version: text(&outcomes["cargo_mutants_version"]).unwrap_or_default(), mutants })
+    let version = text(&outcomes["cargo_mutants_version"]).unwrap_or_default();
+    Ok(Run { version, shard: shard.to_owned(), mutants })
 }
 
 /// The change of a name like "src/a.rs:12:5: replace x with y in f".
@@ -97,11 +103,11 @@ mod tests {
             serde_json::json!({"cargo_mutants_version": "1.2.3", "outcomes":
             [base, outcome("MissedMutant", 30), outcome("CaughtMutant", 12), outcome("Unviable", 40), outcome("Timeout", 50)]})
         };
-        let run = parsed(&of(baseline("Success"))).expect("a run");
-        assert_eq!(run.version, "1.2.3");
+        let run = parsed(&of(baseline("Success")), "1/9").expect("a run");
+        assert_eq!((run.version.as_str(), run.shard.as_str()), ("1.2.3", "1/9"));
         let found: Vec<_> = run.mutants.iter().map(|m| (m.line, m.fate)).collect();
         assert_eq!(found, [(12, Fate::Noticed), (30, Fate::Survived), (40, Fate::NoProgram), (50, Fate::NoEnd)]);
         assert!(run.mutants.iter().all(|m| m.change == "replace + with - in coefficient"));
-        assert!(parsed(&of(baseline("Failure"))).is_err());
+        assert!(parsed(&of(baseline("Failure")), "1/9").is_err());
     }
 }

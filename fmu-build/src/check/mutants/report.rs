@@ -61,7 +61,7 @@ pub fn page(run: &Run, explanations: &[Explanation]) -> String {
         row(format!("`{name}`"), &|mutant| room(&mutant.file) == *name);
     }
     row("all".to_owned(), &|_| true);
-    let mut out = format!("With cargo-mutants {}:\n\n{}", run.version, counts.markdown());
+    let mut out = format!("Shard {}, cargo-mutants {}:\n\n{}", run.shard, run.version, counts.markdown());
     let survivors: Vec<&Mutant> = run.mutants.iter().filter(|mutant| mutant.fate == Fate::Survived).collect();
     if !survivors.is_empty() {
         let mut table = Table::new(["survivor", "explanation"]).all_left();
@@ -95,7 +95,7 @@ mod tests {
             change: "replace a || b with a".into(),
             why: "b is a shortcut".into(),
         };
-        let text = page(&Run { version: "1".into(), mutants }, &[known]);
+        let text = page(&Run { version: "1".into(), shard: "0/1".into(), mutants }, &[known]);
         let has = |room: &str, counts: [&str; 5]| {
             text.lines().any(|line| {
                 let cells: Vec<&str> = line.split('|').map(str::trim).collect();

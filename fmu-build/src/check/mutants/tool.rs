@@ -1,5 +1,6 @@
 //! The program that makes the changes: cargo-mutants, installed into the target directory, and how it is run.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -15,6 +16,8 @@ const ROOMS: [&str; 4] =
     ["src/contact/**/*.rs", "src/model/dynamics/**/*.rs", "src/strength/**/*.rs", "src/friction/**/*.rs"];
 /// Exit codes of a completed run: all noticed, some not, some without an end.
 const COMPLETED: [i32; 3] = [0, 2, 3];
+/// The file beside the results that names the shard.
+pub const SAMPLE: &str = "shard.txt";
 /// A build per change: quick to build, and again after a change, is worth more than quick to run.
 const PROFILE: [(&str, &str); 4] = [
     ("CARGO_PROFILE_DEV_OPT_LEVEL", "1"),
@@ -66,7 +69,10 @@ pub fn run(program: &Path, shard: &str, files: &[String]) -> Result<()> {
         .status()
         .context("cargo-mutants did not start")?;
     match status.code() {
-        Some(code) if COMPLETED.contains(&code) => Ok(()),
+        Some(code) if COMPLETED.contains(&code) => {
+            let sample = results().join(SAMPLE);
+            fs::write(&sample, shard).with_context(|| format!("{} cannot be written", paths::shown(&sample)))
+        }
         _ => bail!("cargo-mutants stopped ({status}): see {}", paths::shown(&results())),
     }
 }
