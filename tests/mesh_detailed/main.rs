@@ -9,5 +9,6 @@ mod friction;
 mod mesh_explicit;
 #[path = "../mesh_laws/mod.rs"]
 mod mesh_laws;
+mod parts;
 mod plain;
 mod setup;

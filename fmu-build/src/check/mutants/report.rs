@@ -21,6 +21,7 @@ const OPEN: &str = "**not explained**";
 pub struct Explanation {
     file: String,
     change: String,
+    code: String,
     why: String,
 }
 
@@ -66,10 +67,10 @@ pub fn page(run: &Run, explanations: &[Explanation]) -> String {
     if !survivors.is_empty() {
         let mut table = Table::new(["survivor", "explanation"]).all_left();
         for mutant in survivors {
-            let why = explanations.iter().find(|e| e.file == mutant.file && e.change == mutant.change);
+            let same = |e: &&Explanation| e.file == mutant.file && e.change == mutant.change && e.code == mutant.code;
+            let why = explanations.iter().find(same);
             // a bar would end the cell
-            let change = mutant.change.replace('|', "\\|");
-            let name = format!("`{}`: {change}", mutant.file);
+            let name = format!("`{}`: {} at `{}`", mutant.file, mutant.change, mutant.code).replace('|', "\\|");
             table.push([name, why.map_or(OPEN.to_owned(), |e| e.why.trim().to_owned())]);
         }
         let _ = write!(out, "\n{}", table.markdown());
@@ -83,8 +84,13 @@ mod tests {
 
     #[test]
     fn rooms_are_counted_and_survivors_are_known_by_file_and_change() {
-        let mutant =
-            |file: &str, change: &str, fate| Mutant { file: file.into(), change: change.into(), line: 1, fate };
+        let mutant = |file: &str, change: &str, fate| Mutant {
+            file: file.into(),
+            change: change.into(),
+            code: "a || b".into(),
+            line: 1,
+            fate,
+        };
         let mutants = vec![
             mutant("src/contact/law.rs", "replace a || b with a", Fate::Survived),
             mutant("src/contact/errors/pitch.rs", "replace + with -", Fate::Noticed),
@@ -93,6 +99,7 @@ mod tests {
         let known = Explanation {
             file: "src/contact/law.rs".into(),
             change: "replace a || b with a".into(),
+            code: "a || b".into(),
             why: "b is a shortcut".into(),
         };
         let text = page(&Run { version: "1".into(), shard: "0/1".into(), mutants }, &[known]);
