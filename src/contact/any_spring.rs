@@ -7,36 +7,87 @@ use super::stiffness::{Line, LineWeber};
 /// Any elastic law of a tooth pair or of a mesh.
 #[derive(Clone, Debug)]
 pub enum AnySpring {
-    /// K dᵉ at a cone distance [m].
-    Power(Impact, f64),
-    /// A linear spring [N/m] at a cone distance [m].
-    Linear(f64, f64),
+    /// K dᵉ.
+    Power(Power),
+    /// A linear spring.
+    Linear(Linear),
     /// Stiffness of the teeth, per unit of ∫R² dR.
     Line(Line),
     /// The same with the Hertz part by load.
     LineWeber(LineWeber),
 }
 
-impl Spring for AnySpring {
-    #[inline]
-    fn at(&self, p: f64, s: f64) -> Elastic {
-        match self {
-            AnySpring::Line(law) => law.at(p, s),
-            AnySpring::LineWeber(law) => law.at(p, s),
-            AnySpring::Power(law, cone) => {
-                let d = p * cone;
-                let force = law.force(d, 0.0).elastic;
-                Elastic {
-                    energy: law.energy(d),
-                    torque: cone * force,
-                    stiffness: cone * cone * law.exponent * force / d,
-                    ..Elastic::default()
-                }
-            }
-            AnySpring::Linear(stiffness, cone) => {
-                let k = stiffness * cone * cone;
-                Elastic { energy: 0.5 * k * p * p, torque: k * p, stiffness: k, ..Elastic::default() }
-            }
+/// Evaluates an expression with `law` bound to the elastic law in use.
+macro_rules! with_spring {
+    ($of:expr, $law:ident => $body:expr) => {
+        match $of {
+            $crate::contact::any_spring::AnySpring::Power($law) => $body,
+            $crate::contact::any_spring::AnySpring::Linear($law) => $body,
+            $crate::contact::any_spring::AnySpring::Line($law) => $body,
+            $crate::contact::any_spring::AnySpring::LineWeber($law) => $body,
         }
+    };
+}
+pub(crate) use with_spring;
+
+impl AnySpring {
+    /// Response at penetration arc `p` > 0 [rad] and place `s` [rad].
+    pub fn at(&self, p: f64, s: f64) -> Elastic {
+        with_spring!(self, law => law.at(p, s))
+    }
+}
+
+/// K dᵉ of the penetration at a cone distance, whatever the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// The law; its damping is not used.
+    pub law: Impact,
+    /// Cone distance at which it acts [m].
+    pub cone: f64,
+}
+
+impl Spring for Power {
+    type Place = ();
+
+    #[inline(always)]
+    fn place(&self, _: f64) {}
+
+    #[inline(always)]
+    fn respond(&self, _: &(), p: f64) -> Elastic {
+        let d = p * self.cone;
+        let force = self.law.force(d, 0.0);
+        Elastic {
+            energy: self.law.energy(d),
+            torque: self.cone * force.elastic,
+            stiffness: self.cone * self.cone * force.by_depth,
+            ..Elastic::default()
+        }
+    }
+}
+
+/// A linear spring at a cone distance, whatever the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Stiffness about the pole of the plane of action [N·m/rad].
+    pub stiffness: f64,
+}
+
+impl Linear {
+    /// A spring of stiffness `k` [N/m] at the cone distance `cone` [m].
+    pub fn new(k: f64, cone: f64) -> Self {
+        Self { stiffness: k * cone * cone }
+    }
+}
+
+impl Spring for Linear {
+    type Place = ();
+
+    #[inline(always)]
+    fn place(&self, _: f64) {}
+
+    #[inline(always)]
+    fn respond(&self, _: &(), p: f64) -> Elastic {
+        let torque = self.stiffness * p;
+        Elastic { energy: 0.5 * torque * p, torque, stiffness: self.stiffness, ..Elastic::default() }
     }
 }

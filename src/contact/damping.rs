@@ -42,6 +42,17 @@ pub enum Damping {
 }
 
 impl Damping {
+    /// The same law for arcs, torques and rates about the pole of the plane of action, per unit of `weight`, of a face
+    /// whose force acts at the cone distance `cone` [m].
+    pub fn in_arcs(&self, cone: f64, weight: f64) -> Self {
+        match *self {
+            Damping::Step { coefficient, per_full_depth } => {
+                Damping::Step { coefficient: coefficient * cone * cone / weight, per_full_depth: per_full_depth * cone }
+            }
+            Damping::HuntCrossley { lambda } => Damping::HuntCrossley { lambda: lambda * cone },
+        }
+    }
+
     /// Force with derivatives from the elastic force `elastic` [N] and its stiffness ∂F_el/∂d [N/m] at penetration `d` > 0
     /// [m] and rate `rate` [m/s].
     #[inline(always)]

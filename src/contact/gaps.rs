@@ -1,12 +1,23 @@
-//! Gaps of individual tooth pairs, slice by slice: tooth errors and a broken tooth.
+//! Gaps of individual tooth pairs: tooth errors and a broken tooth.
 
-use super::detailed::{Gaps, PairName};
+use super::detailed::{Gaps, Opening, PairName};
 use super::errors::Chip;
 use super::errors::ToothErrors;
 use super::errors::{MeshId, PairId};
 use super::pairs::Flank;
 use crate::geometry::Pair;
-use crate::numeric::{Dual, Scalar};
+
+/// Most planets.
+const MAX_PLANETS: usize = 4;
+
+/// Side gear teeth from planet 1 to another planet.
+#[derive(Clone, Copy, Debug, Default)]
+struct Turned {
+    /// Whole teeth where a half does not count, and where it counts as one.
+    ahead: [i64; 2],
+    /// 1 where half a tooth is left.
+    odd: i64,
+}
 
 /// Gaps of all tooth pairs.
 #[derive(Clone, Debug)]
@@ -15,36 +26,35 @@ pub struct FlankGaps {
     pub errors: Option<ToothErrors>,
     /// The broken tooth.
     pub chip: Option<Chip>,
-    /// Cone distances of the slices [m].
-    pub cones: Vec<f64>,
-    /// Numbers of planets, planet teeth and side gear teeth.
-    pub counts: [i64; 3],
+    /// Numbers of planet teeth and side gear teeth.
+    teeth_of: [i64; 2],
+    /// How each planet stands to the side gears.
+    turned: [Turned; MAX_PLANETS],
     /// Lower bound of all gaps [m].
     pub least: f64,
 }
 
-/// Step for differences of a gap's slope [rad]: the curvature enters the Jacobian only.
-const STEP: f64 = 1e-5;
-
 impl FlankGaps {
     /// Error-free teeth of `pair`.
-    pub fn perfect(pair: &Pair, planets: i32, cones: Vec<f64>) -> Self {
-        let teeth = pair.gears.map(|g| i64::from(g.teeth));
-        Self { errors: None, chip: None, cones, counts: [i64::from(planets), teeth[0], teeth[1]], least: 0.0 }
+    pub fn perfect(pair: &Pair, planets: i32) -> Self {
+        let teeth_of = pair.gears.map(|g| i64::from(g.teeth));
+        // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 half a pitch forward
+        let turned = std::array::from_fn(|planet| {
+            let halves = 2 * teeth_of[1] * planet as i64 / i64::from(planets);
+            Turned { ahead: [halves / 2, (halves + halves % 2) / 2], odd: halves % 2 }
+        });
+        Self { errors: None, chip: None, teeth_of, turned, least: 0.0 }
     }
 
     /// Numbers of mesh and teeth as errors count them: planet teeth with positive spin, seen from the left mesh up the path
     /// on the drive flank and from the right mesh, half a turn on, down; side gear teeth forward. The drive flank pushes
     /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
     fn ids(&self, name: PairName) -> (MeshId, PairId) {
-        let [planets, z_p, z_s] = self.counts;
-        // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 half a pitch forward
-        let halves = 2 * z_s * name.planet as i64 / planets;
-        let odd = halves % 2;
-        let forward = if name.side == 1 && z_p % 2 == 1 { 0 } else { odd };
-        let ahead = name.tooth + (halves + forward) / 2;
-        let opposite = if z_p % 2 == 0 { z_p / 2 - odd } else { z_p / 2 };
-        let planet_tooth = if name.side == 0 { name.tooth } else { opposite - name.tooth };
+        let [z_p, z_s] = self.teeth_of;
+        let Turned { ahead, odd } = self.turned[name.planet];
+        let planet_tooth =
+            if name.side == 0 { name.tooth } else { z_p / 2 - if z_p % 2 == 0 { odd } else { 0 } - name.tooth };
+        let ahead = name.tooth + if name.side == 1 && z_p % 2 == 1 { ahead[0] } else { ahead[1] };
         let side_tooth = if name.flank == Flank::Drive { ahead } else { ahead - 1 };
         (
             MeshId { planet: name.planet, side: name.side },
@@ -56,16 +66,12 @@ impl FlankGaps {
         )
     }
 
-    /// Gap e [m] of a pair of teeth in `mesh` at any cone distance `r` [m]; on both sides of [`Self::edge`] a polynomial of
-    /// second degree in it.
-    pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64, s: f64) -> f64 {
-        let errors = self.errors.as_ref().map_or(0.0, |errors| errors.gap(mesh, pair, r, s));
-        errors + self.chip.as_ref().map_or(0.0, |chip| chip.gap(mesh, pair, r))
-    }
-
-    /// Cone distance [m] beyond which a tooth of the pair is broken, if one is.
-    pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<f64> {
-        self.chip.as_ref().and_then(|chip| chip.edge(mesh, pair))
+    /// Opening of a pair of teeth in `mesh` at place `s` [rad].
+    #[inline]
+    pub fn of(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {
+        let mut opening = self.errors.as_ref().map_or(Opening::NONE, |errors| errors.opening(mesh, pair, s));
+        opening.edge = self.chip.as_ref().and_then(|chip| chip.edge(mesh, pair));
+        opening
     }
 
     /// Numbers of the teeth of a pair: the planet's and the side gear's.
@@ -76,20 +82,9 @@ impl FlankGaps {
 }
 
 impl Gaps for FlankGaps {
-    fn at(&self, name: PairName, slice: usize, s: f64, twice: bool) -> [f64; 3] {
+    fn opening(&self, name: PairName, s: f64) -> Opening {
         let (mesh, pair) = self.ids(name);
-        let r = self.cones[slice];
-        let mut gap = [0.0; 3];
-        if let Some(errors) = &self.errors {
-            let at = |s: f64| errors.gap(mesh, pair, r, Dual::<1>::variable(s, 0));
-            let here = at(s);
-            let curvature = || (at(s + STEP).d[0] - at(s - STEP).d[0]) / (2.0 * STEP);
-            gap = [here.value(), here.d[0], if twice { curvature() } else { 0.0 }];
-        }
-        if let Some(chip) = &self.chip {
-            gap[0] += chip.gap(mesh, pair, r);
-        }
-        gap
+        self.of(mesh, pair, s)
     }
 
     fn least(&self) -> f64 {

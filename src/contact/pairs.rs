@@ -36,7 +36,7 @@ pub struct ToothPair {
     pub s: f64,
     /// ∂s/∂x; q does not move it.
     pub s_slope: f64,
-    /// Penetration arc p = a − g [rad], positive.
+    /// Penetration arc p = a − g [rad]; not positive where only excess material touches.
     pub depth: f64,
     /// ∂p/∂q and ∂p/∂x.
     pub slope: [f64; 2],
@@ -45,6 +45,12 @@ pub struct ToothPair {
 }
 
 impl ToothPair {
+    /// ∂a/∂q.
+    #[inline(always)]
+    pub fn slope_of_approach(&self) -> f64 {
+        if self.flank == Flank::Drive { -1.0 } else { 1.0 }
+    }
+
     /// The one pair of a mesh of one spring, at the pitch point.
     #[inline(always)]
     pub fn single(flank: Flank, depth: f64) -> Self {
@@ -194,7 +200,7 @@ impl Engagement {
     }
 
     /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach,
-    /// including the penetrating ones; `slack` is the part of the approach that only excess material can close.
+    /// including the penetrating ones; `slack` is the part of that approach that only excess material can close.
     #[inline(always)]
     pub fn near(&self, flank: Flank, x: f64, approach: f64, slack: f64, mut visit: impl FnMut(&ToothPair)) {
         // sign = ∂a/∂q = −∂s/∂x
@@ -240,7 +246,7 @@ impl Engagement {
                 place: delta,
                 s: place,
                 s_slope: -sign,
-                depth,
+                depth: depth - slack,
                 slope,
                 curvature,
             });

@@ -20,6 +20,17 @@ pub struct Elastic {
 
 /// Elasticity of a tooth pair.
 pub trait Spring {
+    /// What of it follows from the place alone: the same at every cone distance.
+    type Place: Copy;
+
+    /// The law at place `s` [rad].
+    fn place(&self, s: f64) -> Self::Place;
+
+    /// Response at penetration arc `p` > 0 [rad] there.
+    fn respond(&self, at: &Self::Place, p: f64) -> Elastic;
+
     /// Response at penetration arc `p` > 0 and place `s`.
-    fn at(&self, p: f64, s: f64) -> Elastic;
+    fn at(&self, p: f64, s: f64) -> Elastic {
+        self.respond(&self.place(s), p)
+    }
 }

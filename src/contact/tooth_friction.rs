@@ -12,8 +12,8 @@ pub struct Sliding<T> {
     pub rolling: T,
     /// Load per width [N/m].
     pub load: T,
-    /// Radii of curvature of both flanks [m].
-    pub curvature: [T; 2],
+    /// Relative radius of curvature of both flanks [m].
+    pub radius: T,
 }
 
 /// Friction of the flanks of a mesh.
@@ -39,12 +39,11 @@ impl ToothFriction {
 
     #[inline]
     fn conditions<T: Scalar>(&self, at: &Sliding<T>) -> Conditions<T> {
-        let [a, b] = at.curvature;
         Conditions {
             sliding: at.sliding,
             rolling: at.rolling.abs(),
             line_load: at.load,
-            radius: a * b / (a + b),
+            radius: at.radius,
             modulus: self.modulus,
         }
     }

@@ -14,7 +14,8 @@ pub fn floor<T: Scalar>(x: T, bound: f64, half_width: f64) -> T {
         x
     } else if t > -1.0 {
         let square = (1.0 + t) * (1.0 + t);
-        x.chain(bound + half_width * square * (1.0 + t) * (3.0 - t) / 16.0, square * (2.0 - t) / 4.0)
+        let value = bound + half_width * square * (1.0 + t) * (3.0 - t) / 16.0;
+        x.through([value, square * (2.0 - t) / 4.0, 0.75 * (1.0 + t) * (1.0 - t) / half_width])
     } else {
         T::constant(bound)
     }

@@ -9,7 +9,7 @@
 //! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
 
 use super::pair::Pair;
-use crate::numeric::{Jet, Scalar, atan2, cos, sin, sqrt, tan};
+use crate::numeric::{Jet, Scalar, atan2, cos, sin, sin_cos, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's
 /// relative error is alike everywhere, and found from the exponent and leading bits of Δ.
@@ -32,6 +32,7 @@ pub struct CornerGap {
     /// End of the path at this corner, as arc from the pitch point toward this corner's own tip [rad].
     pub end: f64,
     exact: ClosedForm,
+    per_sin_base: f64,
     /// First cell boundary above 0, a power of two, as its bits shifted to count cells.
     first: u64,
     /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
@@ -63,6 +64,8 @@ pub struct ClosedForm {
     shaft_angle: f64,
     mate_base: f64,
     mate_inv_pitch: f64,
+    /// sin²φ of the tip, and cosφ₂ of the corner about the mate's axis as a + b cosχ.
+    polar: [f64; 3],
 }
 
 impl ClosedForm {
@@ -73,9 +76,12 @@ impl ClosedForm {
         let end = natural.min(pair.pitch_arc[1 - i] - CLIP_MARGIN * pair.base_pitch);
         let sin_base = sin(own.base);
         let azimuth = |psi: f64| atan2(tan(psi), sin_base);
+        let tip = own.polar_at(pair.pitch_arc[i] + end);
+        let [across, along] = [sin(pair.shaft_angle) * sin(tip), cos(pair.shaft_angle) * cos(tip)];
         Self {
             end,
-            tip: own.polar_at(pair.pitch_arc[i] + end),
+            tip,
+            polar: [sin(tip) * sin(tip), along, across],
             sin_base,
             azimuth_at_end: azimuth(pair.pitch_arc[i] + end) - azimuth(pair.pitch_arc[i]),
             shaft_angle: pair.shaft_angle,
@@ -132,7 +138,14 @@ impl CornerGap {
             (from, left) = (to, right);
         }
         // g/Δ² is an average of g″/2 over [0, Δ]; a margin covers values between knots
-        Self { end: exact.end, exact, first, spread: 1.0 / (0.9 * least_curvature), cells }
+        Self {
+            end: exact.end,
+            per_sin_base: 1.0 / exact.sin_base,
+            exact,
+            first,
+            spread: 1.0 / (0.9 * least_curvature),
+            cells,
+        }
     }
 
     /// Gap and derivatives by the closed form, with the point of contact.
@@ -140,13 +153,14 @@ impl CornerGap {
         self.exact.at(delta)
     }
 
-    /// sin² of the corner's polar angles about its own and the mate's axis at Δ = `delta`.
+    /// sin² of the corner's polar angle about its own axis, and that about the mate's axis with its slope, at Δ = `delta`.
     #[inline]
-    pub fn sines_squared<T: Scalar>(&self, delta: T) -> [T; 2] {
-        let e = &self.exact;
-        let chi = delta * (1.0 / e.sin_base) + e.azimuth_at_end;
-        let cos_mate = chi.cos() * (sin(e.shaft_angle) * sin(e.tip)) + cos(e.shaft_angle) * cos(e.tip);
-        [T::constant(sin(e.tip) * sin(e.tip)), cos_mate * cos_mate * -1.0 + 1.0]
+    pub fn sines_squared(&self, delta: f64) -> (f64, [f64; 2]) {
+        let [own, along, across] = self.exact.polar;
+        let per = self.per_sin_base;
+        let (sin, cos) = sin_cos(delta * per + self.exact.azimuth_at_end);
+        let cos_mate = along + across * cos;
+        (own, [1.0 - cos_mate * cos_mate, 2.0 * cos_mate * sin * across * per])
     }
 
     /// Gap g [rad], g′ and g″ at Δ = `delta` ≥ 0 [rad] from the table.

@@ -1,8 +1,9 @@
 //! A value with its first and second derivative by one variable: exact derivatives of closed forms at start-up.
 
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::elementary::{atan2, cos, sin, sqrt};
+use super::elementary::atan2;
+use super::scalar::Scalar;
 
 /// Second-order Taylor arithmetic: value, first and second derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,37 +17,9 @@ pub struct Jet {
 }
 
 impl Jet {
-    /// A constant.
-    pub fn constant(v: f64) -> Self {
-        Self { v, d: 0.0, dd: 0.0 }
-    }
-
     /// The variable itself.
     pub fn variable(v: f64) -> Self {
         Self { v, d: 1.0, dd: 0.0 }
-    }
-
-    /// f(self) for a function with value `f`, derivatives `f1` and `f2` at `self.v`.
-    fn chain(self, f: f64, f1: f64, f2: f64) -> Self {
-        Self { v: f, d: f1 * self.d, dd: f2 * self.d * self.d + f1 * self.dd }
-    }
-
-    /// Sine.
-    pub fn sin(self) -> Self {
-        let (s, c) = (sin(self.v), cos(self.v));
-        self.chain(s, c, -s)
-    }
-
-    /// Cosine.
-    pub fn cos(self) -> Self {
-        let (s, c) = (sin(self.v), cos(self.v));
-        self.chain(c, -s, -c)
-    }
-
-    /// Square root of a positive number.
-    pub fn sqrt(self) -> Self {
-        let r = sqrt(self.v);
-        self.chain(r, 0.5 / r, -0.25 / (r * self.v))
     }
 
     /// Angle of the point (`x`, `self`).
@@ -60,8 +33,25 @@ impl Jet {
     }
 }
 
+impl Scalar for Jet {
+    const HAS_SLOPES: bool = true;
+    #[inline]
+    fn constant(v: f64) -> Self {
+        Self { v, d: 0.0, dd: 0.0 }
+    }
+    #[inline]
+    fn value(self) -> f64 {
+        self.v
+    }
+    #[inline]
+    fn through(self, f: [f64; 3]) -> Self {
+        Self { v: f[0], d: f[1] * self.d, dd: f[2] * self.d * self.d + f[1] * self.dd }
+    }
+}
+
 impl Add for Jet {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self { v: self.v + o.v, d: self.d + o.d, dd: self.dd + o.dd }
     }
@@ -69,6 +59,7 @@ impl Add for Jet {
 
 impl Sub for Jet {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         self + -o
     }
@@ -76,6 +67,7 @@ impl Sub for Jet {
 
 impl Neg for Jet {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { v: -self.v, d: -self.d, dd: -self.dd }
     }
@@ -83,6 +75,7 @@ impl Neg for Jet {
 
 impl Mul for Jet {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         Self { v: self.v * o.v, d: self.d * o.v + self.v * o.d, dd: self.dd * o.v + 2.0 * self.d * o.d + self.v * o.dd }
     }
@@ -90,8 +83,33 @@ impl Mul for Jet {
 
 impl Mul<f64> for Jet {
     type Output = Self;
+    #[inline]
     fn mul(self, k: f64) -> Self {
         Self { v: self.v * k, d: self.d * k, dd: self.dd * k }
+    }
+}
+
+impl Div for Jet {
+    type Output = Self;
+    fn div(self, o: Self) -> Self {
+        let r = 1.0 / o.v;
+        self * o.through([r, -r * r, 2.0 * r * r * r])
+    }
+}
+
+impl Add<f64> for Jet {
+    type Output = Self;
+    #[inline]
+    fn add(self, o: f64) -> Self {
+        Self { v: self.v + o, ..self }
+    }
+}
+
+impl Sub<f64> for Jet {
+    type Output = Self;
+    #[inline]
+    fn sub(self, o: f64) -> Self {
+        Self { v: self.v - o, ..self }
     }
 }
 
@@ -101,7 +119,7 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_central_differences() {
-        let f = |x: Jet| (x.sin() * Jet::constant(2.0) + x * x).sqrt().atan2(x.cos() + x);
+        let f = |x: Jet| ((x.sin() * 2.0 + x * x).sqrt() / (x + 3.0)).atan2(x.cos() + x);
         let (x, h) = (0.7, 1e-4);
         let at = |x: f64| f(Jet::variable(x));
         let (m, c, p) = (at(x - h), at(x), at(x + h));

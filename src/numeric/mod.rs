@@ -7,7 +7,7 @@ mod minimum;
 mod scalar;
 mod smooth;
 
-pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sqrt, tan};
+pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sin_cos, sqrt, tan};
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
 pub use scalar::{Dual, Scalar};

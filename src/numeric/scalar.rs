@@ -22,35 +22,39 @@ pub trait Scalar:
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
     fn value(self) -> f64;
-    /// f(self) of a function with value `f` and slope `slope` at this point.
-    fn chain(self, f: f64, slope: f64) -> Self;
+    /// f(self), given f and its first two derivatives at this point.
+    fn through(self, f: [f64; 3]) -> Self;
 
     /// Square root of a positive number.
     fn sqrt(self) -> Self {
         let root = sqrt(self.value());
-        self.chain(root, 0.5 / root)
+        self.through([root, 0.5 / root, -0.25 / (root * self.value())])
     }
     /// Sine.
     fn sin(self) -> Self {
-        self.chain(sin(self.value()), cos(self.value()))
+        let (s, c) = (sin(self.value()), cos(self.value()));
+        self.through([s, c, -s])
     }
     /// Cosine.
     fn cos(self) -> Self {
-        self.chain(cos(self.value()), -sin(self.value()))
+        let (s, c) = (sin(self.value()), cos(self.value()));
+        self.through([c, -s, -c])
     }
     /// Exponential.
     fn exp(self) -> Self {
         let f = libm::exp(self.value());
-        self.chain(f, f)
+        self.through([f; 3])
     }
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self {
-        self.chain(libm::log(self.value()), 1.0 / self.value())
+        let per = 1.0 / self.value();
+        self.through([libm::log(self.value()), per, -per * per])
     }
     /// Power of a positive number with a constant exponent.
     fn powf(self, exponent: f64) -> Self {
         let f = pow(self.value(), exponent);
-        self.chain(f, exponent * f / self.value())
+        let slope = exponent * f / self.value();
+        self.through([f, slope, (exponent - 1.0) * slope / self.value()])
     }
     /// Magnitude; its slope at zero is taken as one.
     fn abs(self) -> Self {
@@ -69,8 +73,8 @@ impl Scalar for f64 {
         self
     }
     #[inline]
-    fn chain(self, f: f64, _slope: f64) -> Self {
-        f
+    fn through(self, f: [f64; 3]) -> Self {
+        f[0]
     }
 }
 
@@ -109,8 +113,8 @@ impl<const K: usize> Scalar for Dual<K> {
         self.v
     }
     #[inline]
-    fn chain(self, f: f64, slope: f64) -> Self {
-        Self { v: f, d: self.d.map(|x| slope * x) }
+    fn through(self, f: [f64; 3]) -> Self {
+        Self { v: f[0], d: self.d.map(|x| f[1] * x) }
     }
 }
 
@@ -151,7 +155,7 @@ impl<const K: usize> Neg for Dual<K> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
-        self.chain(-self.v, -1.0)
+        self * -1.0
     }
 }
 
@@ -175,7 +179,7 @@ impl<const K: usize> Mul<f64> for Dual<K> {
     type Output = Self;
     #[inline]
     fn mul(self, o: f64) -> Self {
-        self.chain(self.v * o, o)
+        Self { v: self.v * o, d: self.d.map(|x| x * o) }
     }
 }
 

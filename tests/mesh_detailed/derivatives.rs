@@ -2,13 +2,10 @@
 
 use bevel_differential::contact::detailed::{DetailedState, Gaps};
 use bevel_differential::friction::{FrictionLaw, ToothFrictionSpec};
-use bevel_differential::numeric::Dual;
 
 use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{GEARS, Kind, RESTITUTION, STEP, UNDAMPED};
-use crate::setup::{
-    Both, Even, KINDS, NAMES, STATES, Waves, difference, friction, pattern, random_state, readings, smooth,
-};
+use crate::setup::{Both, Even, KINDS, STATES, Waves, difference, friction, pattern, random_state, readings, smooth};
 
 #[test]
 fn force_is_minus_the_gradient_of_the_energy_with_gaps_and_displaced_gears() {
@@ -36,7 +33,7 @@ fn force_is_minus_the_gradient_of_the_energy_with_gaps_and_displaced_gears() {
                         assert!(off < 1e-8, "{kind:?} {state:?} axis {axis}: {} {gradient} off {off:e}", force[axis]);
                     }
                     compared += 1;
-                    both.detailed.load(both.engagement(), gaps, NAMES, &state, |s| deep[s.pair.spot as usize] += 1);
+                    both.look(gaps, &state, |s| deep[s.pair.spot as usize] += 1);
                 }
             }
         }
@@ -72,18 +69,11 @@ fn derivatives_equal_central_differences() {
                     if !smooth(&both, gaps, &state, &h) {
                         continue;
                     }
-                    let dual =
-                        |values: [f64; 3], first: usize| [0, 1, 2].map(|i| Dual::<6>::variable(values[i], first + i));
-                    let duals = DetailedState {
-                        position: dual(state.position, 0),
-                        rate: dual(state.rate, 3),
-                        wrapped: state.wrapped,
-                    };
-                    let (load, plain) = (both.load(gaps, &duals), both.load(gaps, &state));
+                    let (load, plain) = (both.linearise(gaps, &state), both.load(gaps, &state));
                     assert_eq!(readings(&load).map(|r| r.v), readings(&plain), "{state:?}");
                     assert_eq!(load.heat, plain.heat);
                     compared += 1;
-                    both.detailed.load(both.engagement(), gaps, NAMES, &state, |s| spots[s.pair.spot as usize] += 1);
+                    both.look(gaps, &state, |s| spots[s.pair.spot as usize] += 1);
                     // of all readings in newtons, by arcs, their scale is the largest derivative
                     let unit = |a: usize| if a < 2 { 1.0 / r } else { 1.0 };
                     let by = |i: usize| if i % 3 == 2 { r } else { 1.0 };

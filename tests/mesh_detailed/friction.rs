@@ -1,15 +1,15 @@
 //! Friction along the flanks: power, direction and moment arms of sliding in space.
 
-use bevel_differential::contact::detailed::{Detailed, DetailedState};
+use bevel_differential::contact::detailed::DetailedState;
 use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
 
 use crate::mesh_explicit::{Lcg, V3};
 use crate::mesh_laws::{GEARS, Kind, UNDAMPED};
-use crate::setup::{Both, NAMES, STATES, coulomb, random_state};
+use crate::setup::{Both, STATES, coulomb, random_state};
 
 /// Angular velocities [rad/s] of planet and side gear relative to the carrier that make the rates of q and x.
-fn turning(pair: &Pair, state: &DetailedState<f64>) -> [f64; 2] {
+fn turning(pair: &Pair, state: &DetailedState) -> [f64; 2] {
     let [planet, side] = pair.sin_base();
     [state.rate[1] / planet, (state.rate[0] + state.rate[1]) / side]
 }
@@ -22,11 +22,7 @@ fn friction_dissipates_the_power_of_sliding_flanks() {
         let mut random = Lcg(25);
         for of in GEARS {
             let plain = Both::new(of, kind, UNDAMPED);
-            let rough = {
-                let friction = Some(coulomb(MU, 1e-9));
-                let d = plain.detailed.clone();
-                Detailed::new(&plain.pair, d.spring, d.damping, d.slices, d.single, friction)
-            };
+            let rough = Both::made(of, kind, UNDAMPED, false, Some(coulomb(MU, 1e-9)));
             for _ in 0..STATES {
                 let mut state = random_state(&mut random, &plain.pair, 0.0);
                 // conjugate motion
@@ -34,7 +30,7 @@ fn friction_dissipates_the_power_of_sliding_flanks() {
                 let [planet, side] = turning(&plain.pair, &state);
                 let relative = (planet * planet + side * side).sqrt();
                 let (mut power, mut pairs, mut parts, mut slowest) = (0.0, 0, 0.0, f64::INFINITY);
-                let with = rough.load(plain.engagement(), None, NAMES, &state, |slice| {
+                let with = rough.look(None, &state, |slice| {
                     let v = relative * slice.cone * slice.s.sin().abs();
                     slowest = slowest.min(v);
                     assert!(slice.friction.abs() <= MU * slice.normal);
@@ -79,15 +75,14 @@ fn friction_opposes_the_sliding_of_flanks_that_turn_in_space_with_its_moment_arm
     for of in GEARS {
         let plain = Both::new(of, Kind::Line, UNDAMPED);
         let pair = &plain.pair;
-        let d = plain.detailed.clone();
-        let rough = Detailed::new(pair, d.spring, d.damping, d.slices, false, Some(coulomb(MU, 1e-9)));
+        let rough = Both::made(of, Kind::Line, UNDAMPED, false, Some(coulomb(MU, 1e-9)));
         let (start, tangent, axes) = line_of_action(pair);
         let mut random = Lcg(26);
         let mut seen = 0;
         for _ in 0..20 * STATES {
             let state = random_state(&mut random, pair, 0.0);
             let mut slices = Vec::new();
-            let with = rough.load(plain.engagement(), None, NAMES, &state, |slice| {
+            let with = rough.look(None, &state, |slice| {
                 // reported positive toward the planet's root
                 let tip_ward = -slice.friction;
                 slices.push((slice.s, slice.cone, slice.normal, tip_ward, slice.pair.spot, slice.pair.flank));

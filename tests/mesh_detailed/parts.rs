@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{GEARS, Kind, UNDAMPED};
-use crate::setup::{Both, NAMES, STATES, random_state};
+use crate::setup::{Both, STATES, random_state};
 
 #[test]
 fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
@@ -17,7 +17,7 @@ fn parts_of_a_normal_force_are_those_of_the_normal_in_space() {
         let side_axis = Vector3::new(both.pair.shaft_angle.sin(), 0.0, both.pair.shaft_angle.cos());
         for _ in 0..STATES {
             let state = random_state(&mut random, &both.pair, 0.0);
-            both.detailed.load(both.engagement(), None, NAMES, &state, |slice| {
+            both.look(None, &state, |slice| {
                 spots[slice.spot as usize] += 1;
                 // from the planet into the side gear: it pushes the planet back
                 let normal = action.contact(slice.spot, slice.place, 1.0).normal;

@@ -1,14 +1,15 @@
 //! Meshes with gaps and friction, random states, and differences that stay clear of switches.
 
-use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::damping::Damping;
-use bevel_differential::contact::detailed::{Detailed, DetailedLoad, DetailedState, Gaps, PairName, Slice};
+use bevel_differential::contact::detailed::{
+    Detailed, DetailedLoad, DetailedState, Face, Gaps, Opening, PairName, SliceLoad, Teeth,
+};
 use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::pairs::{Engagement, Flank, Spot};
 use bevel_differential::contact::tooth_friction::ToothFriction;
 use bevel_differential::friction::ToothFrictionSpec;
 use bevel_differential::geometry::Pair;
-use bevel_differential::numeric::Scalar;
+use bevel_differential::numeric::{Dual, Jet};
 
 use crate::mesh_explicit::Lcg;
 use crate::mesh_laws::{Built, Kind, PER_FULL_DEPTH, gears};
@@ -26,68 +27,71 @@ pub const NAMES: (usize, usize) = (1, 0);
 pub struct Both {
     pub pair: Pair,
     pub plain: Mesh,
-    pub detailed: Detailed<AnySpring>,
+    pub detailed: Detailed,
 }
 
 impl Both {
+    /// In detail with one resultant for the face.
     pub fn new(of: (i32, i32, f64, f64), kind: Kind, damping: Damping) -> Self {
+        Self::made(of, kind, damping, false, None)
+    }
+
+    /// In detail with loads that differ over the face where the law can be cut, otherwise as it is.
+    pub fn sliced(of: (i32, i32, f64, f64), kind: Kind, damping: Damping, friction: Option<ToothFriction>) -> Self {
+        Self::made(of, kind, damping, true, friction)
+    }
+
+    pub fn made(
+        of: (i32, i32, f64, f64),
+        kind: Kind,
+        damping: Damping,
+        cut: bool,
+        friction: Option<ToothFriction>,
+    ) -> Self {
         let pair = gears(of);
         let Built { law, spring, whole, cone } = Built::new(&pair, kind, of.2, damping);
         let plain = Mesh::new(&pair, law, cone, true, 0.05);
-        let single = !kind.has_pairs();
-        Self { pair, plain, detailed: Detailed::new(&pair, spring, damping, vec![whole], single, None) }
-    }
-
-    /// In detail with eight slices where the law can be cut, otherwise as it is.
-    pub fn sliced(of: (i32, i32, f64, f64), kind: Kind, damping: Damping, friction: Option<ToothFriction>) -> Self {
-        let mut both = Self::new(of, kind, damping);
-        let slices = if kind.can_be_sliced() { gauss(&both.pair) } else { both.detailed.slices.clone() };
-        let spring = both.detailed.spring.clone();
-        both.detailed = Detailed::new(&both.pair, spring, damping, slices, !kind.has_pairs(), friction);
-        both
+        let face = match kind {
+            Kind::Line if cut => Face::cut(pair.inner_cone, pair.outer_cone),
+            Kind::LineWeber if cut => Face::sliced(pair.inner_cone, pair.outer_cone),
+            _ => Face::whole(whole),
+        };
+        let detailed = Detailed::new(&pair, spring, damping, face, !kind.has_pairs(), friction);
+        Self { pair, plain, detailed }
     }
 
     pub fn engagement(&self) -> &Engagement {
         &self.plain.engagement
     }
 
-    pub fn load<T: Scalar>(&self, gaps: Option<&dyn Gaps>, state: &DetailedState<T>) -> DetailedLoad<T> {
-        self.detailed.load(self.engagement(), gaps, NAMES, state, |_| {})
+    pub fn teeth<'a>(&'a self, gaps: Option<&'a dyn Gaps>) -> Teeth<'a> {
+        let (planet, side) = NAMES;
+        Teeth { engagement: self.engagement(), gaps, planet, side }
     }
 
-    pub fn energy(&self, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>) -> f64 {
-        self.detailed.energy(self.engagement(), gaps, NAMES, state)
+    pub fn load(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> DetailedLoad<f64> {
+        self.detailed.load(&self.teeth(gaps), state)
+    }
+
+    pub fn linearise(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> DetailedLoad<Dual<6>> {
+        self.detailed.linearise(&self.teeth(gaps), state)
+    }
+
+    pub fn look(
+        &self,
+        gaps: Option<&dyn Gaps>,
+        state: &DetailedState,
+        look: impl FnMut(&SliceLoad),
+    ) -> DetailedLoad<f64> {
+        self.detailed.look(&self.teeth(gaps), state, look)
+    }
+
+    pub fn energy(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> f64 {
+        self.detailed.energy(&self.teeth(gaps), state)
     }
 }
 
-/// Eight Gauss points over the face with weights times R², the nodes by Newton's method on Legendre's polynomial.
-pub fn gauss(pair: &Pair) -> Vec<Slice> {
-    let (outer, inner) = (pair.outer_cone, pair.inner_cone);
-    let legendre = |x: f64| {
-        let (mut p, mut before) = (x, 1.0);
-        for n in 2..=8 {
-            let n = f64::from(n);
-            (p, before) = (((2.0 * n - 1.0) * x * p - (n - 1.0) * before) / n, p);
-        }
-        (p, 8.0 * (x * p - before) / (x * x - 1.0))
-    };
-    (0..8)
-        .rev()
-        .map(|i| {
-            let mut x = (std::f64::consts::PI * (f64::from(i) + 0.75) / 8.5).cos();
-            for _ in 0..20 {
-                let (p, slope) = legendre(x);
-                x -= p / slope;
-            }
-            let slope = legendre(x).1;
-            let cone = 0.5 * (outer + inner) + 0.5 * (outer - inner) * x;
-            let width = (outer - inner) / ((1.0 - x * x) * slope * slope);
-            Slice { cone, weight: width * cone * cone, width }
-        })
-        .collect()
-}
-
-/// Gaps that differ from tooth to tooth and from slice to slice and are smooth along the path.
+/// Gaps that differ from tooth to tooth and over the face and are smooth along the path.
 #[derive(Debug)]
 pub struct Waves {
     /// Amplitude [m].
@@ -95,15 +99,18 @@ pub struct Waves {
 }
 
 impl Gaps for Waves {
-    fn at(&self, name: PairName, slice: usize, s: f64, _: bool) -> [f64; 3] {
+    fn opening(&self, name: PairName, s: f64) -> Opening {
         let flank = if name.flank == Flank::Drive { 0.0 } else { 0.7 };
-        let phase = name.tooth as f64 * 1.3 + slice as f64 * 0.4 + flank;
+        let phase = name.tooth as f64 * 1.3 + flank;
         let k = 9.0;
         let (sin, cos) = (k * s + phase).sin_cos();
-        [self.size * sin, self.size * k * cos, -self.size * k * k * sin]
+        let even = Jet { v: self.size * sin, d: self.size * k * cos, dd: -self.size * k * k * sin };
+        // the turn opens up to half the size at 50 mm, the bend up to as much
+        let turn = 10.0 * self.size * phase.cos();
+        Opening { even, turn, bend: 200.0 * self.size * (1.0 + phase.sin()), edge: None }
     }
     fn least(&self) -> f64 {
-        -self.size
+        -1.5 * self.size
     }
 }
 
@@ -112,15 +119,15 @@ impl Gaps for Waves {
 pub struct Even(pub f64);
 
 impl Gaps for Even {
-    fn at(&self, _: PairName, _: usize, _: f64, _: bool) -> [f64; 3] {
-        [self.0, 0.0, 0.0]
+    fn opening(&self, _: PairName, _: f64) -> Opening {
+        Opening { even: Jet { v: self.0, d: 0.0, dd: 0.0 }, ..Opening::NONE }
     }
     fn least(&self) -> f64 {
         self.0.min(0.0)
     }
 }
 
-pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState<f64> {
+pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState {
     let depth = random.between(1e-5, DEEPEST);
     let hand = if random.between(-1.0, 1.0) < 0.0 { -1.0 } else { 1.0 };
     DetailedState {
@@ -138,13 +145,13 @@ pub fn random_state(random: &mut Lcg, pair: &Pair, w: f64) -> DetailedState<f64>
     }
 }
 
-pub fn plain_state(state: &DetailedState<f64>) -> MeshState {
+pub fn plain_state(state: &DetailedState) -> MeshState {
     let ([q, x, _], [q_rate, x_rate, _]) = (state.position, state.rate);
     MeshState { position: [q, x], rate: [q_rate, x_rate], ..MeshState::default() }
 }
 
 /// State with position or rate `i` of six moved by `h`.
-pub fn shifted(state: &DetailedState<f64>, i: usize, h: f64) -> DetailedState<f64> {
+pub fn shifted(state: &DetailedState, i: usize, h: f64) -> DetailedState {
     let mut s = *state;
     if i < 3 {
         s.position[i] += h
@@ -155,7 +162,7 @@ pub fn shifted(state: &DetailedState<f64>, i: usize, h: f64) -> DetailedState<f6
 }
 
 /// Fourth-order central difference by variable `i`.
-pub fn difference(state: &DetailedState<f64>, i: usize, h: f64, f: impl Fn(&DetailedState<f64>) -> f64) -> f64 {
+pub fn difference(state: &DetailedState, i: usize, h: f64, f: impl Fn(&DetailedState) -> f64) -> f64 {
     let at = |k: f64| f(&shifted(state, i, k * h));
     (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * h)
 }
@@ -165,10 +172,15 @@ pub type Loaded = (PairName, u64, Spot, bool, bool);
 
 /// Loaded slices with their kind of contact, whether flanks are about to part, and whether damping is full: where this
 /// changes, derivatives jump or bend. Nothing if a slice is less than `least` deep [rad].
-pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>, least: f64) -> Option<Vec<Loaded>> {
+pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, least: f64) -> Option<Vec<Loaded>> {
     let mut pattern = Vec::new();
     let mut shallow = false;
-    both.detailed.load(both.engagement(), gaps, NAMES, state, |slice| {
+    let fixed: Vec<u64> = match &both.detailed.face {
+        Face::Whole(node) => vec![node.cone.to_bits()],
+        Face::Cut(_, nodes) => nodes.iter().map(|node| node.cone.to_bits()).collect(),
+        Face::Sliced(_, nodes) => nodes.iter().map(|node| node.cone.to_bits()).collect(),
+    };
+    both.look(gaps, state, |slice| {
         let sign = if slice.name.flank == Flank::Drive { -1.0 } else { 1.0 };
         let approach = sign * state.position[0] - both.engagement().half_backlash();
         let past_side_tip = approach - slice.s - both.engagement().corner[1].end > 0.0;
@@ -178,13 +190,15 @@ pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>,
         };
         shallow |= slice.arc < least;
         let full = slice.arc * slice.cone * PER_FULL_DEPTH >= 1.0;
-        pattern.push((slice.name, slice.cone.to_bits(), spot, slice.normal <= 0.0, full));
+        // points move over a part of the face that carries
+        let place = Some(slice.cone.to_bits()).filter(|place| fixed.contains(place)).unwrap_or(0);
+        pattern.push((slice.name, place, spot, slice.normal <= 0.0, full));
     });
     (!shallow).then_some(pattern)
 }
 
 /// Whether nothing switches within two steps `h` of each of the variables.
-pub fn smooth(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState<f64>, h: &[f64]) -> bool {
+pub fn smooth(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, h: &[f64]) -> bool {
     let least = 30.0 * h[0];
     let Some(here) = pattern(both, gaps, state, least) else { return false };
     (0..h.len()).all(|i| {
@@ -201,7 +215,7 @@ pub fn friction(spec: ToothFrictionSpec) -> ToothFriction {
 }
 
 /// All readings of a load.
-pub fn readings<T: Scalar>(load: &DetailedLoad<T>) -> [T; 7] {
+pub fn readings<T: Copy>(load: &DetailedLoad<T>) -> [T; 7] {
     let [q, x, w] = load.force;
     [q, x, w, load.normal, load.planet_axial, load.side_axial, load.tangential]
 }

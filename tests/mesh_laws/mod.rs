@@ -3,7 +3,7 @@
 #![allow(dead_code)] // each test binary uses its own part
 
 use bevel_differential::contact::ContactSpec;
-use bevel_differential::contact::any_spring::AnySpring;
+use bevel_differential::contact::any_spring::{self, AnySpring, Linear};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
@@ -72,11 +72,11 @@ impl Built {
             Kind::Impact => {
                 let Damping::Step { coefficient, .. } = damping else { panic!("IMPACT has its own damping") };
                 let law = Law::Impact(impact(exponent, coefficient));
-                (law, AnySpring::Power(elastic, pair.mean_cone), pair.mean_cone, 1.0)
+                (law, AnySpring::Power(any_spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
             }
             Kind::Power => {
                 let law = Law::Power(Power { elastic, damping });
-                (law, AnySpring::Power(elastic, pair.mean_cone), pair.mean_cone, 1.0)
+                (law, AnySpring::Power(any_spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
             }
             Kind::Line => {
                 let specific = stiffness.line();
@@ -90,7 +90,12 @@ impl Built {
             }
             Kind::Lumped => {
                 let k = stiffness.mesh_mean() * moment / (centroid * centroid);
-                (Law::Lumped(Lumped { stiffness: k, damping }), AnySpring::Linear(k, centroid), centroid, 1.0)
+                (
+                    Law::Lumped(Lumped { stiffness: k, damping }),
+                    AnySpring::Linear(Linear::new(k, centroid)),
+                    centroid,
+                    1.0,
+                )
             }
         };
         let width = (pair.outer_cone - pair.inner_cone) * pair.mean_cone / cone;

@@ -1,93 +1,324 @@
-//! How evenly a pair's load is spread over its face, looked at between and beyond the slices too.
+//! The face of a tooth pair as its load has it: the part that carries, and the points over which loads are summed.
 //!
-//! A load per width w = ωR is what aligned teeth carry, ω the same at every R. Where errors or displacements open the flanks
-//! by e(R), ω follows the law of a slice at the arc a − g − e(R)/R. The face load factor is the largest ω of the face over its
-//! mean with the weight R², which is that of the torque:
+//! A slice at cone distance R penetrates by the arc p = A − e(R, s)/R with the opening e = E + turn R + bend R² of the
+//! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so that the part of the face that
+//! carries is one interval, on each side of a broken tooth's edge. Its ends follow in closed form. Under a linear law the
+//! energy is a polynomial of fourth degree in R, for which four of Gauss's points on that interval are exact: the load grows
+//! and falls as smoothly as flanks come together, and force and energy belong to each other to the last digit.
 //!
-//!   K_Hβ = ω_max ∫R² dR / ∫ω R² dR
-//!
-//! The mean is the sum over the slices that the simulation makes, the largest that at the arc which is the largest of the
-//! whole face. All openings are polynomials of second degree in R, so e/R is c₀/R + c₁ + c₂R: it is least at an end of
-//! the face or at R² = c₀/c₂.
+//! Under a law that is not linear they would belong to each other only as far as the points are exact. There the points
+//! stand still, eight over the whole face.
 
-use super::Detailed;
-use crate::contact::spring::Spring;
+use super::{Opening, Slice};
 use crate::numeric::sqrt;
 
-/// A loaded slice of the pair.
-#[derive(Clone, Copy, Debug)]
-pub struct KnownSlice {
-    /// Cone distance [m].
+/// Gauss–Legendre points and weights on [−1, 1], four of them (M. Abramowitz, I. A. Stegun, table 25.4).
+const GAUSS: [(f64, f64); POINTS] = [
+    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
+    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
+    (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
+];
+/// Points over the part of a face that carries.
+const POINTS: usize = 4;
+
+/// The same, eight of them.
+const GAUSS_EIGHT: [(f64, f64); FIXED] = [
+    (-0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+    (-0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (-0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (-0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+/// Points over a whole face that stand still.
+const FIXED: usize = 8;
+
+/// A point of the sum over the face.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Node {
+    /// Cone distance R [m].
     pub cone: f64,
-    /// Penetration arc [rad].
-    pub arc: f64,
-    /// Place on the path [rad].
-    pub s: f64,
+    /// 1/R [1/m].
+    pub per_cone: f64,
+    /// Its share of ∫R² dR [m³] (of the whole where the law has one resultant for the face).
+    pub weight: f64,
+    /// Width over which its force is spread [m].
+    pub width: f64,
 }
 
-impl<S: Spring> Detailed<S> {
-    /// Moment ∫R² dR of the slices, by which ω is the torque of a pair [m³].
-    pub fn moment_of_face(&self) -> f64 {
-        self.whole
-    }
-
-    /// K_Hβ of the pair of which `known` is a loaded slice, by the elastic part of its load: damping is spread with it.
-    ///
-    /// `opening` is the gap at a cone distance [m], a polynomial of second degree on each of the `pieces` of the face [m].
-    pub fn face_load_factor(&self, known: &KnownSlice, opening: impl Fn(f64) -> f64, pieces: &[[f64; 2]]) -> f64 {
-        let approach = known.arc + opening(known.cone) / known.cone;
-        let load = |open: f64| {
-            let arc = approach - open;
-            if arc > 0.0 { self.spring.at(arc, known.s).torque } else { 0.0 }
-        };
-        let torque: f64 = self.slices.iter().map(|j| j.weight * load(opening(j.cone) / j.cone)).sum();
-        let least = pieces.iter().map(|&piece| least_arc(&opening, piece)).fold(f64::INFINITY, f64::min);
-        let factor = load(least) * self.whole / torque;
-        // written so that NaN gives 1
-        if factor > 1.0 && factor.is_finite() { factor } else { 1.0 }
+impl From<Slice> for Node {
+    fn from(slice: Slice) -> Self {
+        Self { cone: slice.cone, per_cone: 1.0 / slice.cone, weight: slice.weight, width: slice.width }
     }
 }
 
-/// The least arc e(R)/R [rad] on the closed interval of cone distances `[low, high]` [m] within which e is a polynomial of
-/// second degree; its ends, where e may jump, are not evaluated.
-fn least_arc(opening: impl Fn(f64) -> f64, [low, high]: [f64; 2]) -> f64 {
-    let (middle, step) = (0.5 * (low + high), 0.25 * (high - low));
-    let [a, b, c] = [middle - step, middle, middle + step].map(opening);
-    // e = b + slope (R − middle) + half the curvature (R − middle)²
-    let (slope, curve) = ((c - a) / (2.0 * step), (a - 2.0 * b + c) / (2.0 * step * step));
-    let at = |r: f64| (b + (r - middle) * (slope + curve * (r - middle))) / r;
-    let ends = at(low).min(at(high));
-    let inner = sqrt((b - slope * middle) / curve + middle * middle);
-    if inner > low && inner < high { ends.min(at(inner)) } else { ends }
+/// The face of a tooth pair.
+#[derive(Clone, Copy, Debug)]
+pub enum Face {
+    /// A law with one resultant for the face.
+    Whole(Node),
+    /// A linear law that holds at every cone distance between two ends [m]; its points where all of it carries.
+    Cut([f64; 2], [Node; POINTS]),
+    /// Any law that holds at every cone distance between two ends [m]; its points.
+    Sliced([f64; 2], [Node; FIXED]),
 }
 
-#[cfg(test)]
-mod tests {
-    use super::least_arc;
+/// The points of a rule over a part of the face.
+#[inline(always)]
+fn nodes<const N: usize>(rule: &[(f64, f64); N], [from, to]: [f64; 2]) -> [Node; N] {
+    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+    rule.map(|(x, w)| {
+        let (cone, width) = (middle + half * x, half * w);
+        Node { cone, per_cone: 1.0 / cone, weight: width * cone * cone, width }
+    })
+}
 
-    const FACE: [f64; 2] = [22.4e-3, 42.4e-3];
+impl Face {
+    /// A face between cone distances `inner` and `outer` [m] under a linear law.
+    pub fn cut(inner: f64, outer: f64) -> Self {
+        Self::Cut([inner, outer], nodes(&GAUSS, [inner, outer]))
+    }
 
-    #[test]
-    fn the_least_arc_is_that_of_a_fine_search() {
-        let middle = 0.5 * (FACE[0] + FACE[1]);
-        for offset in [-3e-5, 0.0, 2e-5] {
-            for lean in [-2e-3, 0.0, 1e-3] {
-                for crown in [-4e-5, 0.0, 1e-5, 6e-5] {
-                    let e = |r: f64| offset + lean * (r - middle) + crown * ((r - middle) / 10e-3).powi(2);
-                    let search = (0..=20_000)
-                        .map(|i| FACE[0] + (FACE[1] - FACE[0]) * f64::from(i) / 20_000.0)
-                        .map(|r| e(r) / r)
-                        .fold(f64::INFINITY, f64::min);
-                    let found = least_arc(e, FACE);
-                    assert!((found - search).abs() < 1e-10, "{offset} {lean} {crown}: {found} {search}");
-                }
+    /// A face between cone distances `inner` and `outer` [m] under any law.
+    pub fn sliced(inner: f64, outer: f64) -> Self {
+        Self::Sliced([inner, outer], nodes(&GAUSS_EIGHT, [inner, outer]))
+    }
+
+    /// A face whose law has its resultant at one slice.
+    pub fn whole(slice: Slice) -> Self {
+        Self::Whole(slice.into())
+    }
+
+    /// Whether loads differ over it.
+    pub fn is_cut(&self) -> bool {
+        self.ends().is_some()
+    }
+
+    /// Its ends [m], where loads differ over it.
+    pub fn ends(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Whole(_) => None,
+            Self::Cut(ends, _) | Self::Sliced(ends, _) => Some(*ends),
+        }
+    }
+
+    /// Points of the sum over all of it.
+    pub fn points(&self) -> usize {
+        match self {
+            Self::Whole(_) => 1,
+            Self::Cut(..) => POINTS,
+            Self::Sliced(..) => FIXED,
+        }
+    }
+
+    /// Its innermost cone distance that carries [m].
+    pub fn inner(&self) -> f64 {
+        match self {
+            Self::Whole(node) => node.cone,
+            Self::Cut([inner, _], _) | Self::Sliced([inner, _], _) => *inner,
+        }
+    }
+
+    /// Sum of all weights, and the cone distance of the resultant of error-free teeth [m].
+    pub fn moment(&self) -> (f64, f64) {
+        match self {
+            Self::Whole(node) => (node.weight, node.cone),
+            Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _) => {
+                let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
+                (moment, moment / (0.5 * (outer * outer - inner * inner)))
             }
         }
     }
 
+    /// Width over which the force of the whole face is spread [m].
+    pub fn width(&self) -> f64 {
+        match self {
+            Self::Whole(node) => node.width,
+            // a load ωR has the line load ω R_F at the resultant
+            Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _) => {
+                0.5 * (outer * outer - inner * inner) / self.moment().1
+            }
+        }
+    }
+
+    /// The parts that carry at the approach `arc` [rad]: sound, and broken.
+    #[inline(always)]
+    pub fn loaded(&self, arc: f64, opening: &Opening) -> [Part<'_>; 2] {
+        let a = arc - opening.turn;
+        let [even, bend] = [opening.even.v, opening.bend];
+        match self {
+            Self::Whole(node) => {
+                let even = match opening.edge {
+                    Some((edge, depth)) if node.cone > edge => even + depth,
+                    _ => even,
+                };
+                let all = if carries(a, even, bend, node.cone) { Some(std::slice::from_ref(node)) } else { None };
+                [Part { all, cut: None, even }, Part::NONE]
+            }
+            Self::Cut(ends, all) => {
+                let Some((edge, depth)) = opening.edge else {
+                    return [Part::new(all, *ends, even, carrying(a, even, bend, *ends)), Part::NONE];
+                };
+                let ([inner, outer], edge) = (*ends, edge.clamp(ends[0], ends[1]));
+                let sound = if inner < edge { carrying(a, even, bend, [inner, edge]) } else { None };
+                let even_beyond = even + depth;
+                let broken = if edge < outer { carrying(a, even_beyond, bend, [edge, outer]) } else { None };
+                [Part::new(all, *ends, even, sound), Part::new(all, *ends, even_beyond, broken)]
+            }
+            Self::Sliced(ends, all) => {
+                let (edge, depth) = opening.edge.unwrap_or((ends[1], 0.0));
+                let (sound, broken) = all.split_at(all.iter().take_while(|node| node.cone <= edge).count());
+                let carries = |even: f64| carrying(a, even, bend, *ends).is_some();
+                let even_beyond = even + depth;
+                [
+                    Part { all: carries(even).then_some(sound), cut: None, even },
+                    Part {
+                        all: (!broken.is_empty() && carries(even_beyond)).then_some(broken),
+                        cut: None,
+                        even: even_beyond,
+                    },
+                ]
+            }
+        }
+    }
+}
+
+/// A part of the face that carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    all: Option<&'a [Node]>,
+    cut: Option<[Node; POINTS]>,
+    /// E there [m].
+    pub even: f64,
+}
+
+impl<'a> Part<'a> {
+    const NONE: Self = Self { all: None, cut: None, even: 0.0 };
+
+    #[inline(always)]
+    fn new(all: &'a [Node], ends: [f64; 2], even: f64, part: Option<[f64; 2]>) -> Self {
+        match part {
+            None => Self { all: None, cut: None, even },
+            Some(part) if part == ends => Self { all: Some(all), cut: None, even },
+            Some(part) => Self { all: None, cut: Some(nodes(&GAUSS, part)), even },
+        }
+    }
+
+    /// Its points.
+    #[inline(always)]
+    pub fn nodes(&self) -> &[Node] {
+        match (self.all, &self.cut) {
+            (Some(all), _) => all,
+            (None, Some(cut)) => cut,
+            (None, None) => &[],
+        }
+    }
+
+    /// Whether nothing carries.
+    #[inline(always)]
+    pub fn is_empty(&self) -> bool {
+        self.all.is_none() && self.cut.is_none()
+    }
+}
+
+/// Whether the face carries at the cone distance `r`.
+#[inline(always)]
+fn carries(a: f64, even: f64, bend: f64, r: f64) -> bool {
+    a * r - even - bend * r * r > 0.0
+}
+
+/// The part of [from, to] on which a R − E − bend R² is positive, bend ≥ 0.
+#[inline(always)]
+fn carrying(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+    match (carries(a, even, bend, from), carries(a, even, bend, to)) {
+        (true, true) => Some([from, to]),
+        (lower, upper) => part(a, even, bend, [from, to], [lower, upper]),
+    }
+}
+
+/// The same where not all of it carries.
+#[inline(never)]
+fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) -> Option<[f64; 2]> {
+    let square = a * a - 4.0 * bend * even;
+    // between the ends it carries where the parabola's top is
+    if carries == [false; 2] && !(square > 0.0 && a > 2.0 * bend * from && a < 2.0 * bend * to) {
+        return None;
+    }
+    // roots without cancellation; where there is but one, the other is not asked for
+    let larger = 0.5 * (a.abs() + sqrt(square.max(0.0)));
+    let [low, high] = if a > 0.0 { [even / larger, larger / bend] } else { [f64::NEG_INFINITY, -even / larger] };
+    let within = |r: f64| r.clamp(from, to);
+    let ends = [if carries[0] { from } else { within(low) }, if carries[1] { to } else { within(high) }];
+    (ends[0] < ends[1]).then_some(ends)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::{Jet, Scalar};
+
+    const FACE: [f64; 2] = [22.4e-3, 42.4e-3];
+
+    fn opening(even: f64, turn: f64, bend: f64, edge: Option<(f64, f64)>) -> Opening {
+        Opening { even: Jet::constant(even), turn, bend, edge }
+    }
+
+    /// ∫R² max(p, 0)^n dR by many middles.
+    fn fine(a: f64, o: &Opening, n: i32) -> f64 {
+        let count = 200_000;
+        let width = (FACE[1] - FACE[0]) / f64::from(count);
+        (0..count)
+            .map(|i| {
+                let r = FACE[0] + width * (f64::from(i) + 0.5);
+                let p = a - o.at(r) / r;
+                if p > 0.0 { width * r * r * p.powi(n) } else { 0.0 }
+            })
+            .sum()
+    }
+
     #[test]
-    fn nothing_open_is_nothing_and_a_piece_without_width_is_left_out() {
-        assert_eq!(least_arc(|_| 0.0, FACE), 0.0);
-        assert_eq!(f64::INFINITY.min(least_arc(|_| 1e-5, [30e-3; 2])), f64::INFINITY);
+    fn torque_and_energy_of_linear_teeth_are_those_of_a_fine_sum_wherever_the_face_carries() {
+        let face = Face::cut(FACE[0], FACE[1]);
+        let mut parts = [0; 3];
+        for a in [-4e-4, 2e-4, 6e-4, 1e-3] {
+            for even in [-3e-5, 0.0, 1e-5, 2.5e-5] {
+                for turn in [-2e-4, 0.0, 3e-4] {
+                    for bend in [0.0, 5e-3, 0.1] {
+                        for edge in [None, Some((30e-3, 5e-6)), Some((35e-3, 1e-3))] {
+                            let o = opening(even, turn, bend, edge);
+                            for n in [1, 2] {
+                                let (mut sum, mut visits) = (0.0, 0);
+                                for part in face.loaded(a, &o) {
+                                    visits += usize::from(!part.is_empty());
+                                    for j in part.nodes() {
+                                        let p = a - turn - part.even * j.per_cone - bend * j.cone;
+                                        assert!(p > -1e-15);
+                                        sum += j.weight * p.powi(n);
+                                    }
+                                }
+                                parts[visits] += 1;
+                                let fine = fine(a, &o, n);
+                                let scale = fine + 1e-8 * face.moment().0 * 1e-3f64.powi(n);
+                                assert!((sum - fine).abs() < 2e-5 * scale, "{a} {o:?} {n}: {sum:e} {fine:e}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        assert!(parts.iter().all(|&n| n > 20), "{parts:?}");
+    }
+
+    #[test]
+    fn the_whole_face_has_the_closed_form_of_its_moments() {
+        let face = Face::cut(FACE[0], FACE[1]);
+        let (moment, cone) = face.moment();
+        let [whole, _] = face.loaded(1e-3, &opening(0.0, 0.0, 0.0, None));
+        let sum: f64 = whole.nodes().iter().map(|j| j.weight).sum();
+        let force: f64 = whole.nodes().iter().map(|j| j.weight / j.cone).sum();
+        assert!((sum / moment - 1.0).abs() < 1e-14 && (sum / force / cone - 1.0).abs() < 1e-14);
     }
 }

@@ -2,14 +2,15 @@
 
 use super::super::pairs::{Flank, Spot, ToothPair};
 use super::super::tooth_friction::Sliding;
+use crate::numeric::{Jet, Scalar};
 
 /// Position and motion of a mesh with the axial displacement w of its side gear.
 #[derive(Clone, Copy, Debug)]
-pub struct DetailedState<T> {
+pub struct DetailedState {
     /// q, x [rad] and w [m].
-    pub position: [T; 3],
+    pub position: [f64; 3],
     /// Their rates.
-    pub rate: [T; 3],
+    pub rate: [f64; 3],
     /// Tooth pairs by which the planet's position was wrapped, positive with x.
     pub wrapped: i64,
 }
@@ -19,7 +20,7 @@ pub struct DetailedState<T> {
 pub struct DetailedLoad<T> {
     /// Forces conjugate to q, x [N·m] and w [N].
     pub force: [T; 3],
-    /// Sum of normal forces [N].
+    /// Sum of normal forces [N]; it and the three below are summed only where something rubs under them.
     pub normal: T,
     /// Thrust on the planet along its axis away from the apex [N].
     pub planet_axial: T,
@@ -29,6 +30,14 @@ pub struct DetailedLoad<T> {
     pub tangential: T,
     /// Heat of contact damping and of tooth friction [W].
     pub heat: [f64; 2],
+}
+
+impl<T: Scalar> DetailedLoad<T> {
+    /// No load.
+    pub fn zero() -> Self {
+        let zero = T::constant(0.0);
+        Self { force: [zero; 3], normal: zero, planet_axial: zero, side_axial: zero, tangential: zero, heat: [0.0; 2] }
+    }
 }
 
 /// One loaded slice of one tooth pair, for outputs of single loads.
@@ -75,11 +84,44 @@ pub struct Slice {
     pub width: f64,
 }
 
-/// What tooth errors add to the gap of a pair, slice by slice [m].
+/// Opening of the flanks of a pair at its place s: e(R, s) = E(s) + turn R + bend R² [m], and more of it beyond the edge of a
+/// broken tooth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    /// E [m] with its slopes by s.
+    pub even: Jet,
+    /// A turn of one flank against the other about the apex [rad].
+    pub turn: f64,
+    /// Half the curvature over the face, not negative [1/m].
+    pub bend: f64,
+    /// Cone distance beyond which material is missing, and its depth [m].
+    pub edge: Option<(f64, f64)>,
+}
+
+impl Opening {
+    /// Flanks that fit.
+    pub const NONE: Self = Self { even: Jet { v: 0.0, d: 0.0, dd: 0.0 }, turn: 0.0, bend: 0.0, edge: None };
+
+    /// Adds what a displacement `w` [m] of the side gear along its axis opens, given ν and ∂ν/∂s.
+    #[inline(always)]
+    pub fn displace(&mut self, w: f64, [nu, nu_slope]: [f64; 2]) {
+        self.even.v += w * nu;
+        self.even.d += w * nu_slope;
+        self.even.dd -= w * nu;
+    }
+
+    /// e [m] at the cone distance `r` [m].
+    pub fn at(&self, r: f64) -> f64 {
+        let missing = self.edge.map_or(0.0, |(edge, depth)| if r > edge { depth } else { 0.0 });
+        self.even.v + r * (self.turn + r * self.bend) + missing
+    }
+}
+
+/// How tooth errors open the flanks of a pair.
 pub trait Gaps: Send + Sync + std::fmt::Debug {
-    /// Gap e with its first and, if `twice`, its second derivative by s.
-    fn at(&self, pair: PairName, slice: usize, s: f64, twice: bool) -> [f64; 3];
-    /// Lower bound of all gaps (zero or negative).
+    /// Opening of a pair at place `s` [rad].
+    fn opening(&self, pair: PairName, s: f64) -> Opening;
+    /// Lower bound of all gaps (zero or negative) [m].
     fn least(&self) -> f64;
 }
 

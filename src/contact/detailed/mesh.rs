@@ -1,224 +1,241 @@
-//! The mesh itself: constants, and the sum of loads over tooth pairs and slices.
+//! The mesh itself: constants, and the sum of loads over tooth pairs.
 
+use super::super::any_spring::{AnySpring, with_spring};
 use super::super::damping::Damping;
 use super::super::pairs::{Engagement, Flank, Spot, ToothPair};
 use super::super::spring::Spring;
 use super::super::tooth_friction::ToothFriction;
-use super::forces::{Directions, damped};
-use super::{DetailedLoad, DetailedState, Gaps, PairName, Slice, SliceLoad};
+use super::directions::{Arcs, Directions};
+use super::face::{Face, Part};
+use super::pair::PairMotion;
+use super::sums::{LoadedNode, Rubbing, Sums};
+use super::totals::Totals;
+use super::{DetailedLoad, DetailedState, Gaps, Opening, PairName, SliceLoad};
 use crate::geometry::Pair;
-use crate::numeric::{Scalar, cos};
+use crate::numeric::Dual;
 
 /// Constants of a detailed mesh.
 #[derive(Clone, Debug)]
-pub struct Detailed<S> {
+pub struct Detailed {
     /// Specific elastic law.
-    pub spring: S,
-    /// Damping.
-    pub damping: Damping,
-    /// Slices of the face.
-    pub slices: Vec<Slice>,
+    pub spring: AnySpring,
+    /// Damping, of the whole face in one state; every slice has its share of it.
+    damping: Damping,
+    /// The face.
+    pub face: Face,
     /// One spring per mesh instead of tooth pairs.
     pub single: bool,
     /// Friction along the flanks.
     pub friction: Option<ToothFriction>,
+    /// Whether anything rubs under thrust and bearing force of the gears.
+    pub thrust: bool,
+    /// Whether side gears move along their axes.
+    pub seats: bool,
     directions: Directions,
-    pub(super) whole: f64,
-    /// Cone distance of the resultant of error-free teeth [m]: damping is that of the whole face, distributed over the slices.
+    /// Sum of the face's weights, and the cone distance of its resultant [m].
+    pub(super) moment: f64,
     resultant: f64,
 }
 
-impl<S: Spring> Detailed<S> {
-    /// A detailed mesh of `pair`.
+/// Teeth of a mesh: their openings, and which planet and side gear they are of.
+#[derive(Clone, Copy)]
+pub struct Teeth<'a> {
+    /// Tooth pairs.
+    pub engagement: &'a Engagement,
+    /// Errors of the teeth.
+    pub gaps: Option<&'a dyn Gaps>,
+    /// Planet.
+    pub planet: usize,
+    /// Side, 0 left and 1 right.
+    pub side: usize,
+}
+
+impl Detailed {
+    /// A detailed mesh of `pair` with the damping `damping` of a force at the resultant of the face.
     pub fn new(
         pair: &Pair,
-        spring: S,
+        spring: AnySpring,
         damping: Damping,
-        slices: Vec<Slice>,
+        face: Face,
         single: bool,
         friction: Option<ToothFriction>,
     ) -> Self {
-        Self {
-            spring,
-            damping,
-            whole: slices.iter().map(|s| s.weight).sum(),
-            resultant: slices.iter().map(|s| s.weight).sum::<f64>()
-                / slices.iter().map(|s| s.weight / s.cone).sum::<f64>(),
-            slices,
-            single,
-            friction,
-            directions: Directions::new(pair),
-        }
+        let (moment, resultant) = face.moment();
+        let damping = damping.in_arcs(resultant, moment);
+        let directions = Directions::new(pair);
+        Self { spring, damping, face, single, friction, thrust: true, seats: true, directions, moment, resultant }
     }
 
-    /// Width over which the force of a whole face is spread [m].
-    pub fn whole_width(&self) -> f64 {
-        let moment: f64 = self.slices.iter().map(|s| s.width * s.cone).sum();
-        moment / self.resultant
+    /// Replaces the damping.
+    pub fn set_damping(&mut self, damping: Damping) {
+        self.damping = damping.in_arcs(self.resultant, self.moment);
+    }
+
+    /// Loads at `state`.
+    pub fn load(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<f64> {
+        let mut totals = Totals::<0>::default();
+        with_spring!(&self.spring, spring => {
+            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, self.thrust, |_| {}));
+        });
+        totals.load()
+    }
+
+    /// Loads at `state` with their exact derivatives by q, x, w and their rates.
+    pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<6>> {
+        let mut totals = Totals::<7>::default();
+        with_spring!(&self.spring, spring => {
+            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, self.thrust, |_| {}));
+        });
+        totals.linearised()
     }
 
     /// Loads at `state`; calls `look` with each loaded slice.
+    pub fn look(&self, teeth: &Teeth, state: &DetailedState, mut look: impl FnMut(&SliceLoad)) -> DetailedLoad<f64> {
+        let mut totals = Totals::<0>::default();
+        let look: &mut dyn FnMut(&SliceLoad) = &mut look;
+        with_spring!(&self.spring, spring => {
+            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, true, &mut *look));
+        });
+        totals.load()
+    }
+
+    /// Elastic energy V [J].
+    pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
+        let mut energy = 0.0;
+        with_spring!(&self.spring, spring => {
+            self.each(teeth, state, |name, pair| {
+                let mut opening = self.opening(teeth, name, pair.s);
+                if self.seats {
+                    opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
+                }
+                let parts = self.face.loaded(pair.depth, &opening);
+                if parts.iter().all(Part::is_empty) {
+                    return;
+                }
+                let place = spring.place(pair.s);
+                for part in parts {
+                    for node in part.nodes() {
+                        let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+                        if arc > 0.0 {
+                            energy += node.weight * spring.respond(&place, arc).energy;
+                        }
+                    }
+                }
+            });
+        });
+        energy
+    }
+
+    /// Calls `visit` with each pair that may touch.
     #[inline(always)]
-    pub fn load<T: Scalar>(
-        &self,
-        engagement: &Engagement,
-        gaps: Option<&dyn Gaps>,
-        (planet, side): (usize, usize),
-        state: &DetailedState<T>,
-        mut look: impl FnMut(&SliceLoad),
-    ) -> DetailedLoad<T> {
-        let zero = T::constant(0.0);
-        let mut out = DetailedLoad {
-            force: [zero; 3],
-            normal: zero,
-            planet_axial: zero,
-            side_axial: zero,
-            tangential: zero,
-            heat: [0.0; 2],
-        };
+    fn each(&self, teeth: &Teeth, state: &DetailedState, mut visit: impl FnMut(PairName, &ToothPair)) {
         let [q, x, w] = state.position;
         // closes gaps beyond the approach of error-free teeth
-        let slack = gaps.map_or(0.0, |g| -g.least()) + (-w.value()).max(0.0);
-        let inner = self.slices[0].cone;
+        let slack = teeth.gaps.map_or(0.0, |g| -g.least()) + (-w).max(0.0);
+        let excess = slack / self.face.inner();
         for (flank, sign) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)] {
-            let approach = q * sign - engagement.half_backlash();
-            let excess = slack / inner;
-            let reach = approach.value() + excess;
-            if reach <= 0.0 {
+            let approach = q * sign - teeth.engagement.half_backlash();
+            if approach + excess <= 0.0 {
                 continue;
             }
-            let mut visit = |pair: &ToothPair| {
+            let mut see = |pair: &ToothPair| {
                 let tooth = match flank {
                     Flank::Drive => pair.number - state.wrapped,
                     Flank::Coast => -(pair.number + state.wrapped),
                 };
-                let name = PairName { planet, side, flank, tooth };
-                // without tooth pairs the place does not move
-                let s = (x - x.value()) * pair.s_slope + pair.s;
-                self.add_pair(&mut out, engagement, gaps, name, pair, (s, approach, w), state, &mut look);
+                visit(PairName { planet: teeth.planet, side: teeth.side, flank, tooth }, pair);
             };
             if self.single {
-                visit(&ToothPair::single(flank, approach.value()));
+                see(&ToothPair::single(flank, approach));
             } else {
-                engagement.near(flank, x.value(), reach, excess, visit);
+                teeth.engagement.near(flank, x, approach + excess, excess, see);
             }
         }
-        out
     }
 
-    /// Elastic energy V [J].
-    pub fn energy(
-        &self,
-        engagement: &Engagement,
-        gaps: Option<&dyn Gaps>,
-        names: (usize, usize),
-        state: &DetailedState<f64>,
-    ) -> f64 {
-        let mut energy = 0.0;
-        self.load(engagement, gaps, names, state, |slice| energy += slice.energy);
-        energy
+    #[inline(always)]
+    fn opening(&self, teeth: &Teeth, name: PairName, s: f64) -> Opening {
+        teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
+    /// Adds the loads of a pair.
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn add_pair<T: Scalar>(
+    fn add<S: Spring, const ROWS: usize>(
         &self,
-        out: &mut DetailedLoad<T>,
-        engagement: &Engagement,
-        gaps: Option<&dyn Gaps>,
+        spring: &S,
+        totals: &mut Totals<ROWS>,
+        teeth: &Teeth,
         name: PairName,
         pair: &ToothPair,
-        (s, approach, w): (T, T, T),
-        state: &DetailedState<T>,
-        look: &mut impl FnMut(&SliceLoad),
+        state: &DetailedState,
+        thrust: bool,
+        mut look: impl FnMut(&SliceLoad),
     ) {
-        let (sign, s_slope) = (if name.flank == Flank::Drive { -1.0 } else { 1.0 }, pair.s_slope);
-        // gap of the tip corner with its slope, as functions of the state
-        let (spot, delta) = match pair.spot {
-            Spot::PlanetTip => (Spot::PlanetTip, s - engagement.corner[0].end),
-            Spot::SideTip => {
-                let delta = approach - s - engagement.corner[1].end;
-                (if delta.value() > 0.0 { Spot::SideTip } else { Spot::Path }, delta)
-            }
-            Spot::Path => (Spot::Path, s),
-        };
-        let (gap, by_q, by_x) = match spot {
-            Spot::Path => (T::constant(0.0), T::constant(sign), T::constant(0.0)),
-            Spot::PlanetTip => {
-                let g = engagement.corner[0].at(delta.value());
-                (delta.chain(g.v, g.d), T::constant(sign), delta.chain(g.d, g.dd) * sign)
-            }
-            Spot::SideTip => {
-                let g = engagement.corner[1].at(delta.value());
-                let slope = delta.chain(g.d, g.dd);
-                (delta.chain(g.v, g.d), (slope * -1.0 + 1.0) * sign, slope * -sign)
-            }
-        };
-        let arc = approach - gap;
-        let [planet_part, side_part, forward] = self.directions.parts(engagement, spot, s, delta);
-        // axial part of the normal as the side gear's displacement sees it, with its slope by s
-        let psi = s * -1.0 + self.directions.pitch_arc[1];
-        let nu = psi.sin() * cos(self.directions.base[1]);
-        let nu_slope = psi.cos() * -cos(self.directions.base[1]);
-        for (j, slice) in self.slices.iter().enumerate() {
-            let r = slice.cone;
-            let mut opening = w * nu;
-            let mut opening_by_s = w * nu_slope;
-            if let Some(gaps) = gaps {
-                let [e, e1, e2] = gaps.at(name, j, s.value(), T::HAS_SLOPES);
-                opening = opening + s.chain(e, e1);
-                opening_by_s = opening_by_s + s.chain(e1, e2);
-            }
-            let p = arc - opening * (1.0 / r);
-            if p.value() <= 0.0 {
-                continue;
-            }
-            // ∂p/∂(q, x, w)
-            let slope = [by_q, by_x - opening_by_s * (s_slope / r), nu * (-1.0 / r)];
-            let elastic = self.spring.at(p.value(), s.value());
-            let (dp, ds) = (p - p.value(), s - s.value());
-            let torque = (dp * elastic.stiffness + ds * elastic.torque_by_place + elastic.torque) * slice.weight;
-            let by_place =
-                (dp * elastic.torque_by_place + ds * elastic.by_place_twice + elastic.by_place) * slice.weight;
-            let rate = slope[0] * state.rate[0] + slope[1] * state.rate[1] + slope[2] * state.rate[2];
-            // as if the whole face were in this state: its force at the cone distance of the resultant
-            let (share, cone) = (slice.weight / self.whole, self.resultant);
-            let damped = damped(&self.damping, torque * (1.0 / (share * cone)), p * cone, rate * cone) * (share * cone);
-            for i in 0..3 {
-                out.force[i] = out.force[i] - damped * slope[i];
-            }
-            out.force[1] = out.force[1] - by_place * s_slope;
-            out.heat[0] += (damped.value() - torque.value()) * rate.value();
-            let total = damped * (1.0 / r);
-            let (mut friction_force, mut how) = (0.0, None);
-            if let Some(friction) = &self.friction {
-                let (force, heat, sliding) = self.directions.friction_force(friction, slice, s, total, sign, state);
-                how = Some(sliding);
-                friction_force = force[2].value();
-                out.force[0] = out.force[0] + force[0];
-                out.force[1] = out.force[1] + force[1];
-                out.heat[1] += heat;
-            }
-            out.normal = out.normal + total;
-            out.planet_axial = out.planet_axial + total * planet_part;
-            out.side_axial = out.side_axial + total * side_part;
-            out.tangential = out.tangential - total * forward * sign;
+        let mut opening = self.opening(teeth, name, pair.s);
+        let arcs =
+            if self.seats || thrust || self.friction.is_some() { self.directions.arcs(pair.s) } else { Arcs::NONE };
+        let axial = if self.seats { self.directions.axial(&arcs) } else { [0.0; 2] };
+        opening.displace(state.position[2], axial);
+        let parts = self.face.loaded(pair.depth, &opening);
+        if parts.iter().all(Part::is_empty) {
+            return;
+        }
+        let motion = PairMotion::new(pair, &opening, axial, state);
+        let rubbing = self.friction.as_ref().map(|law| {
+            let arms = self.directions.arms(&arcs);
+            Rubbing { law, speeds: motion.speeds(&arms), arms }
+        });
+        let normal = thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
+        let mut see = |node: &LoadedNode| {
+            let Some(normal) = &normal else { return };
+            let force = node.torque * node.node.weight * node.node.per_cone;
+            let [planet, side, forward] = normal.parts;
             look(&SliceLoad {
                 pair,
-                spot,
-                place: if spot == Spot::Path { s.value() } else { delta.value() },
-                cone: r,
-                share,
-                line_load: total.value() / slice.width,
-                arc: p.value(),
-                s: s.value(),
-                energy: elastic.energy * slice.weight,
+                spot: pair.spot,
+                place: pair.place,
+                cone: node.node.cone,
+                share: node.node.weight / self.moment,
+                line_load: force / node.node.width,
+                arc: node.arc,
+                s: pair.s,
+                energy: node.elastic.energy * node.node.weight,
                 name,
-                normal: total.value(),
-                friction: friction_force,
-                sliding: how,
-                parts: [planet_part.value(), side_part.value(), -sign * forward.value()],
+                normal: force,
+                friction: node.friction.map_or(0.0, |(h, _)| -h * force),
+                sliding: node.friction.map(|(_, sliding)| sliding),
+                parts: [planet, side, -motion.sign * forward],
             });
+        };
+        let place = spring.place(pair.s);
+        let law = (spring, &place, &self.damping);
+        let mut sums = Sums::default();
+        for part in &parts {
+            let (at, rubbing) = (&motion.approach, rubbing.as_ref());
+            if const { ROWS > 0 } {
+                sums.add::<S, true>(part, law, at, &opening, rubbing, &mut see);
+            } else {
+                sums.add::<S, false>(part, law, at, &opening, rubbing, &mut see);
+            }
+        }
+        totals.add_teeth(&motion, &sums);
+        if let Some(rubbing) = &rubbing {
+            totals.add_rubbing(&motion, &sums, rubbing);
+        }
+        if let Some(normal) = &normal {
+            totals.add_thrust(&motion, &sums, normal, pair.spot);
+        }
+    }
+}
+
+impl Spot {
+    /// How what the normal's direction follows moves with q and x: the place on the path, or the arc past its end. `sign`
+    /// is ∂a/∂q, `s_slope` ∂s/∂x.
+    pub(super) fn moves(self, sign: f64, s_slope: f64) -> [f64; 2] {
+        match self {
+            Spot::Path | Spot::PlanetTip => [0.0, s_slope],
+            Spot::SideTip => [sign, -s_slope],
         }
     }
 }

@@ -7,11 +7,17 @@
 //! opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs sinψ_s), where u are the travels of both flanks
 //! along the line of action.
 
+mod directions;
 mod face;
-mod forces;
+mod face_load;
 mod loads;
 mod mesh;
+mod pair;
+mod sums;
+mod totals;
 
-pub use face::KnownSlice;
-pub use loads::{DetailedLoad, DetailedState, Gaps, PairName, Slice, SliceLoad};
-pub use mesh::Detailed;
+pub use directions::Arms;
+pub use face::{Face, Node};
+pub use face_load::KnownSlice;
+pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
+pub use mesh::{Detailed, Teeth};

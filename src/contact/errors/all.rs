@@ -7,8 +7,9 @@ use super::pitch::{PitchDeviations, Tolerances};
 use super::relief::TipRelief;
 use super::runout::Runout;
 use super::{MeshId, PairId, ToothErrorSpec};
+use crate::contact::detailed::Opening;
 use crate::geometry::Pair;
-use crate::numeric::Scalar;
+use crate::numeric::Jet;
 use crate::problem::Problem;
 
 /// Deviations and modifications of all teeth of a differential.
@@ -52,30 +53,39 @@ impl ToothErrors {
     }
 
     /// Gap e [m] of tooth pair `pair` in `mesh` at cone distance `r` [m] and position `s` [rad] along the path of contact
-    /// or past its ends: the sum of all errors, each a polynomial of at most second degree in `r`.
-    #[inline]
-    pub fn gap<T: Scalar>(&self, mesh: MeshId, pair: PairId, r: f64, s: T) -> T {
+    /// or past its ends: the sum of all errors.
+    pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64, s: f64) -> f64 {
         let (mesh, pair) = self.in_range(mesh, pair);
-        let mut gap = T::constant(0.0);
+        self.opening(mesh, pair, s).at(r)
+    }
+
+    /// The gap of tooth pair `pair` in `mesh`, their indices in range, at position `s` [rad], all over the face.
+    #[inline]
+    pub fn opening(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {
+        let mut opening = Opening::NONE;
         if let Some(pitch) = &self.pitch {
-            gap = gap + pitch.gap(mesh, pair) * (r * self.per_mean_cone);
+            opening.turn += pitch.gap(mesh, pair) * self.per_mean_cone;
         }
         if let Some(crowning) = &self.crowning {
-            gap = gap + crowning.gap(r);
+            let [even, turn, bend] = crowning.polynomial();
+            opening.even = opening.even + even;
+            opening.turn += turn;
+            opening.bend = bend;
         }
         if let Some(relief) = &self.relief {
-            gap = gap + relief.gap(s);
+            opening.even = opening.even + relief.gap(s);
         }
         if self.misalignment.is_some() || self.runout.is_some() {
             let normal = self.normals.normal(pair.flank, s);
             if let Some(misalignment) = &self.misalignment {
-                gap = gap + misalignment.gap(mesh, r, &normal);
+                opening.even = opening.even + misalignment.offset(mesh, &normal);
+                opening.turn += misalignment.turn(mesh);
             }
             if let Some(runout) = &self.runout {
-                gap = gap + runout.gap(mesh, pair, s, &normal);
+                opening.even = opening.even + runout.gap(mesh, pair, Jet::variable(s), &normal);
             }
         }
-        gap
+        opening
     }
 
     /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth from the centre

@@ -57,21 +57,10 @@ impl Chip {
         index % self.gears == self.index && tooth % self.teeth == self.tooth
     }
 
-    /// Depth missing [m] at cone distance `r` [m] of the broken tooth.
+    /// Cone distance beyond which material is missing on the pair, and its depth [m], if it is.
     #[inline]
-    fn missing(&self, r: f64) -> f64 {
-        if r > self.from { self.depth } else { 0.0 }
-    }
-
-    /// Cone distance [m] beyond which material is missing on the pair, if it is.
-    pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<f64> {
-        self.is_in(mesh, pair).then_some(self.from)
-    }
-
-    /// Gap [m] of a pair at cone distance `r` [m] after the piece broke off.
-    #[inline]
-    pub fn gap(&self, mesh: MeshId, pair: PairId, r: f64) -> f64 {
-        if self.is_in(mesh, pair) { self.missing(r) } else { 0.0 }
+    pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<(f64, f64)> {
+        self.is_in(mesh, pair).then_some((self.from, self.depth))
     }
 }
 
@@ -95,12 +84,11 @@ mod tests {
         let chip = Chip::new(&spec, &pair, 2).unwrap().unwrap();
         let id = |side_tooth| PairId { planet_tooth: 3, side_tooth, flank: Flank::Coast };
         let (left, right) = (MeshId { planet: 0, side: 0 }, MeshId { planet: 1, side: 1 });
-        let heel = pair.outer_cone - 1e-3;
-        assert_eq!(chip.gap(right, id(5), heel), 2e-3);
-        assert_eq!(chip.gap(right, id(5 + 16), heel), 2e-3);
-        assert_eq!(chip.gap(right, id(5), pair.mean_cone), 0.0);
-        assert_eq!(chip.gap(right, id(4), heel), 0.0);
-        assert_eq!(chip.gap(left, id(5), heel), 0.0);
+        let edge = pair.outer_cone - 0.25 * (pair.outer_cone - pair.inner_cone);
+        assert_eq!(chip.edge(right, id(5)), Some((edge, 2e-3)));
+        assert_eq!(chip.edge(right, id(5 + 16)), Some((edge, 2e-3)));
+        assert_eq!(chip.edge(right, id(4)), None);
+        assert_eq!(chip.edge(left, id(5)), None);
         assert_eq!(Chip::new(&ToothFaultSpec::default(), &pair, 2), Ok(None));
         assert!(Chip::new(&ToothFaultSpec { index: 2, ..spec }, &pair, 2).is_err());
     }

@@ -26,11 +26,11 @@ impl Crowning {
         })
     }
 
-    /// Gap [m] at cone distance `r` [m].
+    /// The gap as a polynomial in the cone distance R: coefficients of 1, R and R² [m, 1, 1/m].
     #[inline]
-    pub fn gap(&self, r: f64) -> f64 {
-        let x = (r - self.middle) * self.per_half_width;
-        self.amount * x * x
+    pub fn polynomial(&self) -> [f64; 3] {
+        let bend = self.amount * self.per_half_width * self.per_half_width;
+        [bend * self.middle * self.middle, -2.0 * bend * self.middle, bend]
     }
 }
 
@@ -45,7 +45,8 @@ mod tests {
         let crowning = Crowning::new(&ToothErrorSpec { crowning: 8e-6, ..ToothErrorSpec::default() }, &pair).unwrap();
         let quarter = 0.5 * (pair.mean_cone + pair.outer_cone);
         for (r, e) in [(pair.inner_cone, 8e-6), (pair.mean_cone, 0.0), (quarter, 2e-6), (pair.outer_cone, 8e-6)] {
-            assert!((crowning.gap(r) - e).abs() < 1e-18);
+            let [even, turn, bend] = crowning.polynomial();
+            assert!((even + r * (turn + r * bend) - e).abs() < 1e-18);
         }
         assert!(Crowning::new(&ToothErrorSpec::default(), &pair).is_none());
     }

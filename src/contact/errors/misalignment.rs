@@ -16,7 +16,7 @@
 use super::MeshId;
 use super::normals::{ContactNormals, Normal};
 use super::spec::ToothErrorSpec;
-use crate::numeric::{Scalar, TAU, cos, sin};
+use crate::numeric::{Jet, TAU, cos, sin};
 
 /// Displacements of all meshes.
 #[derive(Clone, Debug)]
@@ -47,12 +47,17 @@ impl Misalignment {
         })
     }
 
-    /// Gap [m] of `mesh`, its indices in range, at cone distance `r` [m] where the normal is `n`.
+    /// Gap [m] of `mesh`, its indices in range, that displacements open where the normal is `n`: the same at every R.
     #[inline]
-    pub fn gap<T: Scalar>(&self, mesh: MeshId, r: f64, n: &Normal<T>) -> T {
+    pub fn offset(&self, mesh: MeshId, n: &Normal) -> Jet {
         let [axial, across] = self.planet[mesh.planet];
-        let tilt = if mesh.side == 0 { self.tilt } else { -self.tilt };
-        n.axial[1] * self.side_axial - n.axial[0] * axial - n.across * across + r * tilt
+        n.axial[1] * self.side_axial - n.axial[0] * axial - n.across * across
+    }
+
+    /// Turn of the planet about the apex [rad], which opens a gap that grows with R.
+    #[inline]
+    pub fn turn(&self, mesh: MeshId) -> f64 {
+        if mesh.side == 0 { self.tilt } else { -self.tilt }
     }
 
     /// Whether planets stand differently in their meshes.

@@ -11,7 +11,7 @@
 
 use crate::contact::pairs::Flank;
 use crate::geometry::Pair;
-use crate::numeric::{Scalar, cos, sin};
+use crate::numeric::{Jet, cos, sin, sin_cos};
 
 /// Sines and cosines of the pressure angle and of both pitch angles.
 #[derive(Clone, Copy, Debug)]
@@ -23,15 +23,15 @@ pub struct ContactNormals {
     cos_pitch: [f64; 2],
 }
 
-/// Components of the contact normal T(s).
+/// Components of the contact normal T(s) with their slopes by s.
 #[derive(Clone, Copy, Debug)]
-pub struct Normal<T> {
+pub struct Normal {
     /// Along the axes of planet and side gear: T·a_p, T·a_s.
-    pub axial: [T; 2],
+    pub axial: [Jet; 2],
     /// Away from the axes of planet and side gear, in their plane: T·u, T·v.
-    pub radial: [T; 2],
+    pub radial: [Jet; 2],
     /// Across the plane of the axes: T·t.
-    pub across: T,
+    pub across: Jet,
 }
 
 /// +1 for the drive flank, −1 for the coast flank.
@@ -55,8 +55,9 @@ impl ContactNormals {
 
     /// Normal at `s` [rad] on `flank`.
     #[inline]
-    pub fn normal<T: Scalar>(&self, flank: Flank, s: T) -> Normal<T> {
-        let (along_pitch, along) = (-s.sin(), s.cos());
+    pub fn normal(&self, flank: Flank, s: f64) -> Normal {
+        let (sin, cos) = sin_cos(s);
+        let (along_pitch, along) = (Jet { v: -sin, d: -cos, dd: sin }, Jet { v: cos, d: -sin, dd: -cos });
         let depthwise = along * self.sin_pressure;
         let [sp, ss] = self.sin_pitch;
         let [cp, cs] = self.cos_pitch;
@@ -83,10 +84,10 @@ mod tests {
                 // C(s) is T a quarter turn back
                 let c = normals.normal(flank, s - std::f64::consts::FRAC_PI_2);
                 for i in 0..2 {
-                    let length = n.axial[i].powi(2) + n.radial[i].powi(2) + n.across.powi(2);
+                    let length = n.axial[i].v.powi(2) + n.radial[i].v.powi(2) + n.across.v.powi(2);
                     assert!((length - 1.0).abs() < 1e-14);
                     // (C × T)·a of each gear: the lever arm sinδ_b of physics and theory
-                    let lever = c.radial[i] * n.across - c.across * n.radial[i];
+                    let lever = c.radial[i].v * n.across.v - c.across.v * n.radial[i].v;
                     assert!((lever - push(flank) * pair.sin_base()[i]).abs() < 1e-14, "{i} {lever}");
                 }
             }

@@ -11,7 +11,7 @@
 
 use super::spec::ToothErrorSpec;
 use crate::geometry::Pair;
-use crate::numeric::Scalar;
+use crate::numeric::{Jet, Scalar};
 
 /// Tip relief of planet and side gear.
 #[derive(Clone, Copy, Debug)]
@@ -23,15 +23,16 @@ pub struct TipRelief {
     per_length: f64,
 }
 
-/// h(ξ): 0 below 0, 1 above 1, twice continuously differentiable.
+/// h(ξ), 0 below 0 and 1 above 1, with its first two derivatives.
 #[inline]
-fn ramp<T: Scalar>(x: T) -> T {
-    if x.value() <= 0.0 {
-        T::constant(0.0)
-    } else if x.value() >= 1.0 {
-        T::constant(1.0)
+fn ramp(x: f64) -> [f64; 3] {
+    if x <= 0.0 {
+        [0.0; 3]
+    } else if x >= 1.0 {
+        [1.0, 0.0, 0.0]
     } else {
-        x * x * x * (x * (x * 6.0 - 15.0) + 10.0)
+        let v = 1.0 - x;
+        [x * x * x * (x * (x * 6.0 - 15.0) + 10.0), 30.0 * x * x * v * v, 60.0 * x * v * (v - x)]
     }
 }
 
@@ -46,11 +47,18 @@ impl TipRelief {
         })
     }
 
-    /// Gap [m] at `s` [rad].
+    /// Gap [m] at `s` [rad] with its slopes.
     #[inline]
-    pub fn gap<T: Scalar>(&self, s: T) -> T {
-        let of = |i: usize, toward_tip: T| ramp((toward_tip - self.end[i]) * self.per_length + 1.0) * self.amount[i];
-        of(0, s) + of(1, -s)
+    pub fn gap(&self, s: f64) -> Jet {
+        let mut gap = Jet::constant(0.0);
+        for (i, way) in [1.0, -1.0].into_iter().enumerate() {
+            let [h, slope, curvature] = ramp((way * s - self.end[i]) * self.per_length + 1.0);
+            let (amount, per) = (self.amount[i], way * self.per_length);
+            gap.v += amount * h;
+            gap.d += amount * per * slope;
+            gap.dd += amount * per * per * curvature;
+        }
+        gap
     }
 }
 
@@ -58,7 +66,6 @@ impl TipRelief {
 mod tests {
     use super::*;
     use crate::geometry::GearSpec;
-    use crate::numeric::Dual;
 
     fn relief() -> (Pair, TipRelief, f64) {
         let spec = ToothErrorSpec { planet_tip_relief: 20e-6, side_tip_relief: 12e-6, ..ToothErrorSpec::default() };
@@ -81,7 +88,7 @@ mod tests {
             (low, 12e-6),
             (low - 0.1, 12e-6),
         ] {
-            assert!((relief.gap(s) - e).abs() < 1e-18, "{s} {} {e}", relief.gap(s));
+            assert!((relief.gap(s).v - e).abs() < 1e-18, "{s} {:?} {e}", relief.gap(s));
         }
         assert!(TipRelief::new(&ToothErrorSpec::default(), &pair).is_none());
     }
@@ -90,11 +97,13 @@ mod tests {
     fn relief_is_twice_continuously_differentiable_and_monotonic_toward_the_tips() {
         let (pair, relief, length) = relief();
         let h = 1e-6 * length;
-        let slope = |s: f64| relief.gap(Dual::<1>::variable(s, 0)).d[0];
+        let slope = |s: f64| relief.gap(s).d;
         for k in 0..=4000 {
             let s = pair.path.low - 0.1 + (pair.path.high - pair.path.low + 0.2) * f64::from(k) / 4000.0;
-            let difference = (relief.gap(s + h) - relief.gap(s - h)) / (2.0 * h);
+            let difference = (relief.gap(s + h).v - relief.gap(s - h).v) / (2.0 * h);
             assert!((slope(s) - difference).abs() < 1e-8, "{s}");
+            let difference = (slope(s + h) - slope(s - h)) / (2.0 * h);
+            assert!((relief.gap(s).dd - difference).abs() < 1e-5, "{s}");
             assert!(if s > 0.0 { slope(s) >= 0.0 } else { slope(s) <= 0.0 });
         }
         for s in [pair.path.high, pair.path.high - length, pair.path.low, pair.path.low + length] {

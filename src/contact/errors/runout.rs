@@ -15,7 +15,7 @@ use super::normals::{Normal, push};
 use super::random::Random;
 use super::{GearTeeth, MeshId, PairId};
 use crate::geometry::Pair;
-use crate::numeric::{Scalar, TAU};
+use crate::numeric::{Jet, Scalar, TAU, sin_cos};
 use crate::problem::Problem;
 
 /// Eccentricity of all gears.
@@ -70,7 +70,7 @@ impl Runout {
 
     /// Gap [m] of a pair, its indices in range, at `s` where the normal is `n`.
     #[inline]
-    pub fn gap<T: Scalar>(&self, mesh: MeshId, pair: PairId, s: T, n: &Normal<T>) -> T {
+    pub fn gap(&self, mesh: MeshId, pair: PairId, s: Jet, n: &Normal) -> Jet {
         // planet teeth are counted with the spin, which runs along t at the left mesh and against it at the right one
         let sense = if mesh.side == 0 { 1.0 } else { -1.0 };
         let from_tooth =
@@ -78,7 +78,9 @@ impl Runout {
         let along_ecc = |gear: usize, from_tooth: f64| {
             let centre = (s * self.per_lever[gear] + self.half_tooth[gear]) * push(pair.flank);
             let beta = centre + from_tooth;
-            (beta.cos() * n.radial[gear] + beta.sin() * n.across) * self.eccentricity[gear]
+            let (sin, cos) = sin_cos(beta.v);
+            let towards = beta.through([cos, -sin, -cos]) * n.radial[gear] + beta.through([sin, cos, -sin]) * n.across;
+            towards * self.eccentricity[gear]
         };
         along_ecc(1, from_tooth(1, mesh.side, pair.side_tooth))
             - along_ecc(0, sense * from_tooth(0, mesh.planet, pair.planet_tooth))

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use super::table::ComplianceTable;
 use crate::contact::spring::{Elastic, Spring};
+use crate::numeric::Jet;
 
 /// Compliance constant in load: Hertz's part is that of a reference load.
 #[derive(Clone, Debug)]
@@ -30,19 +31,26 @@ impl Line {
 }
 
 impl Spring for Line {
-    #[inline]
-    fn at(&self, p: f64, s: f64) -> Elastic {
+    /// 1/q, and the slopes of q.
+    type Place = [f64; 3];
+
+    #[inline(always)]
+    fn place(&self, s: f64) -> [f64; 3] {
         let q = self.table.at(s);
-        let c = 1.0 / (q.v + self.shift);
+        [1.0 / (q.v + self.shift), q.d, q.dd]
+    }
+
+    #[inline(always)]
+    fn respond(&self, &[c, by_place, by_place_twice]: &[f64; 3], p: f64) -> Elastic {
         let load = c * p;
-        let turn = load * q.d;
+        let turn = load * by_place;
         Elastic {
             energy: 0.5 * p * load,
             torque: load,
             stiffness: c,
             by_place: -0.5 * load * turn,
             torque_by_place: -c * turn,
-            by_place_twice: c * turn * turn - 0.5 * load * load * q.dd,
+            by_place_twice: c * turn * turn - 0.5 * load * load * by_place_twice,
         }
     }
 }
@@ -114,12 +122,19 @@ impl LineWeber {
 }
 
 impl Spring for LineWeber {
-    #[inline]
-    fn at(&self, p: f64, s: f64) -> Elastic {
+    /// Q with its slopes.
+    type Place = Jet;
+
+    #[inline(always)]
+    fn place(&self, s: f64) -> Jet {
+        self.table.at(s)
+    }
+
+    #[inline(always)]
+    fn respond(&self, q: &Jet, p: f64) -> Elastic {
         if p <= 0.0 {
             return Elastic::default();
         }
-        let q = self.table.at(s);
         let (load, tangent, logarithmic) = self.load(p, q.v);
         // Φ = ωp − ∫p dω
         let energy = if logarithmic {

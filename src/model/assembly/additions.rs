@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::body_effects::BodyEffects;
-use crate::contact::any_spring::AnySpring;
 use crate::contact::detailed::Detailed;
 use crate::contact::gaps::FlankGaps;
 
@@ -11,7 +10,7 @@ use crate::contact::gaps::FlankGaps;
 #[derive(Clone, Debug)]
 pub struct Additions {
     /// The mesh in detail.
-    pub detailed: Detailed<AnySpring>,
+    pub detailed: Detailed,
     /// Whether an effect needs it.
     pub in_detail: bool,
     /// Index of the heat of friction along the flanks.

@@ -9,11 +9,6 @@ pub fn centroid(pair: &Pair) -> f64 {
     2.0 / 3.0 * (outer * outer * outer - inner * inner * inner) / (outer * outer - inner * inner)
 }
 
-/// Cone distances of the slices of a cut face [m].
-pub fn slice_cones(pair: &Pair) -> Vec<f64> {
-    gauss_slices(pair.inner_cone, pair.outer_cone).iter().map(|s| s.cone).collect()
-}
-
 /// Gauss–Legendre points and weights on [−1, 1], eight of them (M. Abramowitz, I. A. Stegun, table 25.4).
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),

@@ -1,15 +1,15 @@
 //! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
 
-use crate::contact::any_spring::AnySpring;
+use crate::contact::any_spring::{self, AnySpring, Linear};
 use crate::contact::damping::{self, Damping};
-use crate::contact::detailed::Slice;
+use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::impact::Impact;
 use crate::contact::law::{Face, Lumped, Power};
 use crate::contact::mesh::Law;
 use crate::contact::stiffness::{PairStiffness, RootSpec};
 use crate::contact::{ContactLaw, DampingModel, hertz};
 use crate::geometry::Pair;
-use crate::model::assembly::face::{centroid, gauss_slices};
+use crate::model::assembly::face::centroid;
 use crate::model::assembly::solid;
 use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
@@ -21,15 +21,15 @@ pub struct Laws {
     pub law: Law,
     /// For a mesh in detail: the elastic part alone,
     pub spring: AnySpring,
-    /// and the slices of the face it acts on.
-    pub slices: Vec<Slice>,
+    /// and the face it acts on.
+    pub face: CutFace,
     /// Cone distance at which the resultant of a pair acts [m].
     pub cone: f64,
 }
 
 impl Laws {
-    /// Law of the scene; `slices` is the number of slices wanted over the face where the law can be cut into slices.
-    pub fn new(p: &Parameters, pair: &Pair, slices: usize) -> Result<Self, Problem> {
+    /// Law of the scene; `cut` asks for loads that differ over the face, where the law holds at every cone distance.
+    pub fn new(p: &Parameters, pair: &Pair, cut: bool) -> Result<Self, Problem> {
         let damping = Self::damping(p);
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
@@ -40,7 +40,7 @@ impl Laws {
         };
         // a resultant at `cone` of a load that grows with R, spread so that the line load is the one there
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
-        let whole = |cone: f64, weight: f64| vec![Slice { cone, weight, width: width(cone) }];
+        let whole = |cone: f64, weight: f64| CutFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
             let per_width = if p.contact.mesh_stiffness_from_geometry {
                 stiffness()?.mesh_mean()
@@ -50,8 +50,8 @@ impl Laws {
             let k = per_width * moment / (centroid * centroid);
             return Ok(Self {
                 law: Law::Lumped(Lumped { stiffness: k, damping }),
-                spring: AnySpring::Linear(k, centroid),
-                slices: whole(centroid, 1.0),
+                spring: AnySpring::Linear(Linear::new(k, centroid)),
+                face: whole(centroid, 1.0),
                 cone: centroid,
             });
         }
@@ -59,12 +59,11 @@ impl Laws {
             let impact = impact(p, pair);
             return Ok(Self {
                 law: Law::Solid(Box::new(solid::mesh(p, pair, impact, damping))),
-                spring: AnySpring::Power(impact, pair.mean_cone),
-                slices: whole(pair.mean_cone, 1.0),
+                spring: AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone }),
+                face: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,
             });
         }
-        let face = || if slices > 1 { gauss_slices(inner, outer) } else { whole(centroid, moment) };
         Ok(match p.contact.law {
             ContactLaw::Impact => {
                 let impact = impact(p, pair);
@@ -72,20 +71,22 @@ impl Laws {
                     Damping::Step { .. } => Law::Impact(impact),
                     Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
                 };
-                let spring = AnySpring::Power(impact, pair.mean_cone);
-                Self { law, spring, slices: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
+                let spring = AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone });
+                Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
             }
             ContactLaw::Line => {
                 let specific = stiffness()?.line();
                 let spring = AnySpring::Line(specific.clone());
                 let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
-                Self { law, spring, slices: face(), cone: centroid }
+                let face = if cut { CutFace::cut(inner, outer) } else { whole(centroid, moment) };
+                Self { law, spring, face, cone: centroid }
             }
             ContactLaw::LineWeber => {
                 let specific = stiffness()?.line_weber();
                 let spring = AnySpring::LineWeber(specific.clone());
                 let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
-                Self { law, spring, slices: face(), cone: centroid }
+                let face = if cut { CutFace::sliced(inner, outer) } else { whole(centroid, moment) };
+                Self { law, spring, face, cone: centroid }
             }
         })
     }

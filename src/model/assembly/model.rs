@@ -2,14 +2,12 @@
 
 use super::additions::Additions;
 use super::body_effects::BodyEffects;
-use super::face::{centroid, slice_cones};
 use super::ideal::Ideal;
 use super::inertias::Inertias;
 use super::laws::Laws;
 use super::rigid::Rigid;
 use super::solid;
 use super::teeth::Teeth;
-use crate::contact::ContactLaw;
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::gaps::FlankGaps;
@@ -85,7 +83,7 @@ impl Model {
         let gears = match plan.contact {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
-                let laws = Laws::new(parameters, &pair, tooth.slices()).map_err(|p| vec![p])?;
+                let laws = Laws::new(parameters, &pair, tooth.sliced).map_err(|p| vec![p])?;
                 Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, laws, tooth, bodies)))
             }
         };
@@ -116,11 +114,12 @@ impl Model {
                 let damping = Laws::damping(parameters);
                 teeth.mesh.law.set_damping(damping);
                 let additions = &mut teeth.additions;
-                additions.detailed.damping = damping;
+                additions.detailed.set_damping(damping);
                 additions.detailed.friction = effects.on_flanks().map(|friction| friction.law);
                 additions.bodies.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
-                additions.in_detail |= additions.bodies.needs_loads();
+                additions.detailed.thrust = additions.bodies.needs_loads();
+                additions.in_detail |= additions.detailed.thrust;
             }
         }
     }
@@ -131,16 +130,7 @@ fn tooth_effects(p: &Parameters, effects: &SceneEffects) -> Result<ToothEffects,
     if p.scene.gear_contact == GearContact::Solid {
         return Ok(ToothEffects { individual: solid::is_individual(p), ..ToothEffects::default() });
     }
-    let mut tooth = effects.on_teeth()?;
-    // slices where the law can be cut and something varies over the face
-    let pair = effects.setting.pair;
-    let cones = match p.contact.law {
-        ContactLaw::Impact => vec![pair.mean_cone],
-        _ if tooth.sliced => slice_cones(pair),
-        _ => vec![centroid(pair)],
-    };
-    tooth.set_cones(&cones);
-    Ok(tooth)
+    effects.on_teeth()
 }
 
 fn teeth(
@@ -159,12 +149,14 @@ fn teeth(
     let in_detail = tooth.gaps[1].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
     let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, deflection_limit);
+    let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
+    (detailed.thrust, detailed.seats) = (bodies.needs_loads(), plan.pins);
     let additions = Additions {
-        detailed: Detailed::new(pair, laws.spring, Laws::damping(p), laws.slices, single, friction.map(|f| f.law)),
+        detailed,
         in_detail,
         friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
         gaps: tooth.gaps,
-        perfect: FlankGaps::perfect(pair, p.geometry.planet_count, Vec::new()),
+        perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
         planet_moment: ideal.inertia.planet_moment,
         bodies,
     };

@@ -72,6 +72,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         all
     }
 
+    /// Whether loads decide if friction switches at `at`.
+    fn awaits_load(&self, at: &Point<N>) -> bool {
+        let awaits = |i: usize| self.friction().on(i).awaits_load(&self.friction_state[i], &self.slip(at, i));
+        self.bodies_with_friction().any(awaits)
+    }
+
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
     fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = if self.friction().depends_on_load() {
@@ -98,12 +104,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         for i in self.bodies_with_friction() {
             let (friction, count) = self.friction_on(i);
             let (state, slip) = (&self.friction_state[i], self.slip(at, i));
-            let torque = friction.torque(state, &slip, &surface_loads[i]);
+            let torque = friction.act(state, &slip, &surface_loads[i], count, &mut power.heat);
+            power.limit[i] = torque * state.mode.direction();
             sum[self.freedom_of(i)] -= torque;
             if i < FRICTION_PLANETS {
                 sum[CARRIER] += torque;
             }
-            friction.heat(state, &slip, &surface_loads[i], count, &mut power.heat);
         }
     }
 
@@ -238,7 +244,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
     pub(in crate::model) fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if !self.friction().is_any() {
+        if !self.friction().is_any() || !self.awaits_load(end.0) {
             return None;
         }
         let surface_loads = [start, end].map(|(at, time)| self.surface_loads(at, time));
@@ -267,7 +273,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
     pub(in crate::model) fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
-        if !self.friction().is_any() {
+        if !self.friction().is_any() || !self.awaits_load(at) {
             return false;
         }
         let surface_loads = self.surface_loads(at, time);
@@ -275,15 +281,11 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             .any(|i| self.friction().on(i).is_due(&self.friction_state[i], &self.slip(at, i), &surface_loads[i]))
     }
 
-    /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
+    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
     #[inline(always)]
-    pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
-        if self.friction_state.iter().all(|state| state.mode == Mode::Stuck) {
-            return;
-        }
-        let surface_loads = self.surface_loads(at, time);
+    pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction().on(i).drag(anchors[i], &self.slip(at, i), &surface_loads[i]);
+            anchors[i] = self.friction().on(i).drag(anchors[i], self.slip(at, i).position, power.limit[i]);
         }
     }
 

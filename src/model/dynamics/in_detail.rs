@@ -3,8 +3,9 @@
 use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
-use crate::contact::detailed::{DetailedLoad, DetailedState, SliceLoad};
+use crate::contact::detailed::{Detailed, DetailedLoad, DetailedState, SliceLoad, Teeth as MeshTeeth};
 use crate::contact::gaps::FlankGaps;
+use crate::contact::mesh::MeshState;
 use crate::integrate::{Point, in_pairs};
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::CARRIER;
@@ -16,25 +17,29 @@ pub(super) const LOCAL: usize = 6;
 
 /// Numbers, or numbers with derivatives by the variables of one mesh.
 pub trait Local: Scalar {
-    /// Variable `i` of the mesh.
-    fn local(value: f64, i: usize) -> Self;
+    /// Loads of a mesh.
+    fn load(mesh: &Detailed, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Self>;
     /// Derivatives by the variables of the mesh; zero for plain numbers.
     fn slopes(&self) -> [f64; LOCAL];
 }
 
 impl Local for f64 {
-    fn local(value: f64, _: usize) -> Self {
-        value
+    #[inline]
+    fn load(mesh: &Detailed, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Self> {
+        mesh.load(teeth, state)
     }
+    #[inline]
     fn slopes(&self) -> [f64; LOCAL] {
         [0.0; LOCAL]
     }
 }
 
 impl Local for Dual<LOCAL> {
-    fn local(value: f64, i: usize) -> Self {
-        Dual::variable(value, i)
+    #[inline]
+    fn load(mesh: &Detailed, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Self> {
+        mesh.linearise(teeth, state)
     }
+    #[inline]
     fn slopes(&self) -> [f64; LOCAL] {
         self.d
     }
@@ -50,29 +55,31 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// State of the mesh of group `g` with side `s` in detail.
-    fn detailed_state<T: Local>(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState<T> {
-        let state = self.mesh_state(at, g, s);
-        let seat = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
-        let of = |i: usize, [a, b]: [f64; 2], c: f64| [T::local(a, i), T::local(b, i + 1), T::local(c, i + 2)];
-        DetailedState {
-            position: of(0, state.position, seat[0]),
-            rate: of(3, state.rate, seat[1]),
-            wrapped: self.wrapped(g, s),
+    fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
+        let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
+        let [w, dw] = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
+        DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
+    }
+
+    /// Teeth of the mesh of group `g` with side `s` as they are now.
+    fn mesh_teeth(&self, g: usize, s: usize) -> MeshTeeth<'_> {
+        MeshTeeth {
+            engagement: &self.teeth.mesh.engagement,
+            gaps: self.gaps().map(|gaps| gaps as _),
+            planet: self.teeth.plan.group(g).planet,
+            side: s,
         }
     }
 
     /// Loads of the mesh of group `g` with side `s` in detail; calls `look` with each loaded slice.
-    pub(in crate::model) fn detail<T: Local>(
+    pub(in crate::model) fn detail(
         &self,
         at: &Point<N>,
         g: usize,
         s: usize,
         look: impl FnMut(&SliceLoad),
-    ) -> DetailedLoad<T> {
-        let state = self.detailed_state(at, g, s);
-        let gaps = self.gaps().map(|g| g as _);
-        let names = (self.teeth.plan.group(g).planet, s);
-        self.teeth.additions.detailed.load(&self.teeth.mesh.engagement, gaps, names, &state, look)
+    ) -> DetailedLoad<f64> {
+        self.teeth.additions.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), look)
     }
 
     /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
@@ -110,7 +117,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     pub(in crate::model) fn all_loads<T: Local>(&self, at: &Point<N>) -> [[DetailedLoad<T>; 2]; G] {
-        std::array::from_fn(|g| [0, 1].map(|s| self.detail(at, g, s, |_| {})))
+        let mesh = &self.teeth.additions.detailed;
+        let mut loads = [[DetailedLoad::zero(); 2]; G];
+        for (g, sides) in loads.iter_mut().enumerate() {
+            for (s, load) in sides.iter_mut().enumerate() {
+                *load = T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s));
+            }
+        }
+        loads
     }
 
     /// Meshes in detail, and the dry friction that their loads cause.
@@ -157,8 +171,6 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         if !(WITH_EFFECTS && additions.in_detail) {
             return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
         }
-        let state = self.detailed_state(at, g, s);
-        let names = (self.teeth.plan.group(g).planet, s);
-        additions.detailed.energy(&self.teeth.mesh.engagement, self.gaps().map(|g| g as _), names, &state)
+        additions.detailed.energy(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s))
     }
 }

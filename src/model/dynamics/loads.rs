@@ -46,7 +46,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             self.teeth.additions.perfect.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
         };
         if WITH_EFFECTS && self.teeth.additions.in_detail {
-            self.detail::<f64>(at, g, s, |slice| {
+            self.detail(at, g, s, |slice| {
                 visit(&ToothLoad {
                     planet,
                     side: s,
@@ -101,7 +101,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 s: contact.s,
                 cone: mesh.cone,
                 share: 1.0,
-                line_load: force.total / self.teeth.additions.detailed.whole_width(),
+                line_load: force.total / self.teeth.additions.detailed.face.width(),
                 depth: contact.depth * mesh.cone,
                 normal: force.total,
                 friction: 0.0,

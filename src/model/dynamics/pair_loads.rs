@@ -1,6 +1,6 @@
 //! Loads of whole tooth pairs at an instant, with how evenly each is spread over its face.
 
-use crate::contact::detailed::KnownSlice;
+use crate::contact::detailed::{KnownSlice, Opening};
 use crate::contact::errors::{MeshId, PairId};
 use crate::contact::mesh::Law;
 use crate::contact::pair_load::PairLoad;
@@ -41,7 +41,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Whether meshes are summed slice by slice over the face.
     fn is_sliced(&self) -> bool {
         let additions = &self.teeth.additions;
-        WITH_EFFECTS && additions.in_detail && additions.detailed.slices.len() > 1
+        WITH_EFFECTS && additions.in_detail && additions.detailed.face.is_cut()
     }
 
     /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
@@ -56,16 +56,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let mesh = MeshId { planet: slice.planet, side: slice.side };
         let [planet_tooth, side_tooth] = slice.teeth;
         let teeth = PairId { planet_tooth, side_tooth, flank: slice.flank };
-        let gaps = self.gaps();
-        let displaced = if P > 0 {
-            at.q[Self::SEAT + slice.side] * cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - slice.s)
-        } else {
-            0.0
-        };
-        let opening = |r: f64| displaced + gaps.map_or(0.0, |gaps| gaps.gap(mesh, teeth, r, slice.s));
-        let [inner, outer] = [pair.inner_cone, pair.outer_cone];
-        let edge = gaps.and_then(|gaps| gaps.edge(mesh, teeth)).unwrap_or(outer).clamp(inner, outer);
+        let mut opening = self.gaps().map_or(Opening::NONE, |gaps| gaps.of(mesh, teeth, slice.s));
+        if P > 0 {
+            let axial = cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - slice.s);
+            opening.even.v += at.q[Self::SEAT + slice.side] * axial;
+        }
         let known = KnownSlice { cone: slice.cone, arc: slice.depth / slice.cone, s: slice.s };
-        additions.detailed.face_load_factor(&known, opening, &[[inner, edge], [edge, outer]])
+        additions.detailed.face_load_factor(&known, &opening)
     }
 }

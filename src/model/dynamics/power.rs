@@ -1,6 +1,7 @@
 //! The ledger of a step: work and heat from their rates, and whether they balance with the energy.
 
 use crate::integrate::Step;
+use crate::model::scene::layout::FRICTION_BODIES;
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
 /// Rates of the ledger.
@@ -14,6 +15,8 @@ pub struct Power {
     pub shaft: [f64; 2],
     /// Torque of the carrier's drive beyond its command [N·m].
     pub drive: f64,
+    /// Limit torque of the dry friction on each body that slides [N·m].
+    pub limit: [f64; FRICTION_BODIES],
 }
 
 /// Part of the kinetic energy that rounding may take from the balance of a step.
@@ -28,6 +31,7 @@ impl Power {
             heat: std::array::from_fn(|i| mean(self.heat[i], other.heat[i])),
             shaft: [0, 1].map(|s| mean(self.shaft[s], other.shaft[s])),
             drive: mean(self.drive, other.drive),
+            limit: std::array::from_fn(|i| mean(self.limit[i], other.limit[i])),
         }
     }
 

@@ -82,12 +82,12 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         let surface_loads = self.surface_loads(0.0);
         for i in self.bodies_with_friction() {
             let (friction, state, slip) = (self.friction.on(i), &self.friction_state[i], self.slip(at, i));
-            let torque = friction.torque(state, &slip, &surface_loads[i]);
+            let torque = friction.act(state, &slip, &surface_loads[i], 1.0, &mut power.heat);
+            power.limit[i] = torque * state.mode.direction();
             sum[self.freedom_of(i)] -= torque;
             if i < FRICTION_WHEELS {
                 sum[CARRIER] += torque;
             }
-            friction.heat(state, &slip, &surface_loads[i], 1.0, &mut power.heat);
         }
         for s in 0..2 {
             power.shaft[s] = self.inputs.load_torque[s];

@@ -1,5 +1,6 @@
 //! Dry friction of ideal gears: where it acts, and where it sticks or slides. Planets stick with the side gears here.
 
+use super::power::Power;
 use super::rigid_equations::RigidEquations;
 use crate::integrate::Point;
 use crate::model::effect_kinds::friction_state::Mode;
@@ -75,11 +76,10 @@ impl<const N: usize> RigidEquations<'_, N> {
         self.bodies_with_friction().any(due)
     }
 
-    /// Drags the anchors of bodies that slide along to `at`, `time` [s] after the inputs were set.
-    pub fn drag_anchors(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
-        let surface_loads = self.surface_loads(time);
+    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
+    pub fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         for i in self.bodies_with_friction().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction.on(i).drag(anchors[i], &self.slip(at, i), &surface_loads[i]);
+            anchors[i] = self.friction.on(i).drag(anchors[i], self.slip(at, i).position, power.limit[i]);
         }
     }
 

@@ -113,13 +113,26 @@ impl DryFriction {
         }
     }
 
-    /// Adds the heat to its causes, `count` bodies alike.
-    pub fn heat(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) {
-        let power = match state.mode {
-            Mode::Stuck => state.stiffness * self.damping_time * slip.speed * slip.speed,
-            _ => self.torque(state, slip, by) * slip.speed,
-        };
-        self.add_heat(count * power, by, heat);
+    /// Torque against the motion; adds its heat to the causes, `count` bodies alike.
+    pub fn act(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) -> f64 {
+        if state.mode == Mode::Stuck {
+            let power = state.stiffness * self.damping_time * slip.speed * slip.speed;
+            self.add_heat(count * power, by, heat);
+            return self.torque(state, slip, by);
+        }
+        let (direction, mut limit) = (state.mode.direction(), 0.0);
+        let sliding = count * direction * slip.speed;
+        for part in self.parts() {
+            let torque = part.at(by);
+            limit += torque;
+            heat[part.heat] += sliding * torque;
+        }
+        direction * limit
+    }
+
+    /// Whether loads decide if a switch is due: of a body that slides, its speed does.
+    pub fn awaits_load(&self, state: &FrictionState, slip: &Slip) -> bool {
+        state.mode == Mode::Stuck || self.overshoot(state, slip, &SurfaceLoad::default()) > 0.0
     }
 
     /// Shares `amount` out to the causes in proportion to their limit torques.
@@ -229,11 +242,11 @@ impl DryFriction {
         }
     }
 
-    /// Anchor of a body that has slid to `slip`: the spring, wound to the limit torque, drags it along. Where the limit
-    /// rises faster than the motion winds the spring, the torque of the spring stays below it.
-    pub fn drag(&self, anchor: f64, slip: &Slip, by: &SurfaceLoad) -> f64 {
-        let most = self.limit(by) / self.stiffness;
-        slip.position - (slip.position - anchor).max(-most).min(most)
+    /// Anchor of a body that has slid to `position` [rad]: the spring, wound to the limit torque [N·m], drags it along.
+    /// Where the limit rises faster than the motion winds the spring, the torque of the spring stays below it.
+    pub fn drag(&self, anchor: f64, position: f64, limit: f64) -> f64 {
+        let most = limit / self.stiffness;
+        position - (position - anchor).max(-most).min(most)
     }
 
     /// Distance from the switch, positive before it: torque left while stuck [N·m], speed while sliding [rad/s].

@@ -22,12 +22,11 @@ fn pressed(load: f64) -> SurfaceLoad {
 #[test]
 fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
     let clutch = clutch();
-    let turn = |position| Slip { position, speed: 1.0 };
     // slides under 10 N·m: the spring holds as much
-    let anchor = clutch.drag(0.0, &turn(0.5), &pressed(10.0));
+    let anchor = clutch.drag(0.0, 0.5, 10.0);
     assert!((STIFFNESS * (0.5 - anchor) - 10.0).abs() < 1e-9);
     // the load rises a hundredfold while the body slides by 1 mrad, which winds the spring by 1 N·m
-    let anchor = clutch.drag(anchor, &turn(0.501), &pressed(1000.0));
+    let anchor = clutch.drag(anchor, 0.501, 1000.0);
     assert!((STIFFNESS * (0.501 - anchor) - 11.0).abs() < 1e-9);
     let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
     let mut heat = [0.0];

@@ -5,9 +5,6 @@ use std::sync::Arc;
 use crate::contact::gaps::FlankGaps;
 use crate::contact::tooth_friction::ToothFriction;
 
-/// Slices of the face where loads differ over it.
-const SLICES: usize = 8;
-
 /// What effects do to single teeth.
 #[derive(Clone, Debug, Default)]
 pub struct ToothEffects {
@@ -26,18 +23,4 @@ pub struct FlankFriction {
     pub law: ToothFriction,
     /// Index of its heat in the ledger.
     pub heat: usize,
-}
-
-impl ToothEffects {
-    /// Slices wanted over the face.
-    pub fn slices(&self) -> usize {
-        if self.sliced { SLICES } else { 1 }
-    }
-
-    /// Sets the cone distances at which gaps are evaluated [m].
-    pub fn set_cones(&mut self, cones: &[f64]) {
-        for gaps in self.gaps.iter_mut().flatten() {
-            Arc::make_mut(gaps).cones = cones.to_vec();
-        }
-    }
 }

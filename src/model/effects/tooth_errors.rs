@@ -159,7 +159,7 @@ impl Effect for ToothErrorSpec {
         }
         teeth.individual |= errors.is_individual();
         teeth.sliced |= !errors.is_uniform_over_face();
-        let mut gaps = FlankGaps::perfect(pair, count, Vec::new());
+        let mut gaps = FlankGaps::perfect(pair, count);
         gaps.least = -self.most_excess(pair);
         gaps.errors = Some(errors);
         let gaps = Arc::new(gaps);

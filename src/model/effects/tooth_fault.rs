@@ -89,7 +89,7 @@ impl Effect for ToothFaultSpec {
         let sound = teeth.gaps[0].clone();
         let mut broken = match &sound {
             Some(gaps) => (**gaps).clone(),
-            None => FlankGaps::perfect(pair, count, Vec::new()),
+            None => FlankGaps::perfect(pair, count),
         };
         broken.chip = Chip::new(self, pair, usize::try_from(count).unwrap_or(1))?;
         teeth.gaps = [sound, Some(Arc::new(broken))];

@@ -164,8 +164,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
         let side = self.teeth.sin_base[1];
         if self.teeth.additions.in_detail {
-            let torque =
-                |s: usize| in_pairs(G, |g| self.members(g) * side * self.detail::<f64>(at, g, s, |_| {}).force[0]);
+            let loads = self.all_loads::<f64>(at);
+            let torque = |s: usize| in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0]);
             return [torque(0), torque(1)];
         }
         let sum = self.tooth_torques(at).0;

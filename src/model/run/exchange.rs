@@ -199,7 +199,7 @@ impl Simulation {
                 let outcome =
                     equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
-                equations.drag(&end, 0.0, &mut anchors);
+                equations.drag(&end, &last, &mut anchors);
                 equations.anchor(&anchors);
                 is_due = equations.is_due(&end, 0.0);
                 state.friction = *equations.friction_state();

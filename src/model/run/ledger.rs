@@ -33,8 +33,8 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES];
     /// Whether friction is due to switch, `time` [s] after the inputs were set.
     fn is_due(&self, at: &Point<N>, time: f64) -> bool;
-    /// Drags the anchors of bodies that slide.
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]);
+    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
+    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]);
     /// Takes dragged anchors over.
     fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]);
     /// Switches friction where it is due; the energy that its springs lose is heat.
@@ -56,9 +56,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
     }
 
     #[inline(always)]
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         if WITH_EFFECTS {
-            self.drag_anchors(at, time, anchors);
+            self.drag_anchors(at, power, anchors);
         }
     }
 
@@ -102,8 +102,8 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         self.is_friction_due(at, time)
     }
 
-    fn drag(&self, at: &Point<N>, time: f64, anchors: &mut [f64; FRICTION_BODIES]) {
-        self.drag_anchors(at, time, anchors);
+    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+        self.drag_anchors(at, power, anchors);
     }
 
     fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {

@@ -49,7 +49,7 @@ impl Simulation {
             let (equations, point) = (E::new(teeth, inputs, state), state.point());
             for g in 0..model.ideal.plan.groups().len() {
                 for s in 0..2 {
-                    equations.detail::<f64>(&point, g, s, |slice| {
+                    equations.detail(&point, g, s, |slice| {
                         if found.is_none() {
                             found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
                         }

@@ -32,7 +32,7 @@ pub fn budget(model: &Model) -> u64 {
         Law::Solid(solid) => {
             solid.section_count() * (SOLID_PER_FACET * model.parameters.solid.facets as usize).max(LEAST_SOLID)
         }
-        _ if teeth.additions.in_detail => teeth.additions.detailed.slices.len() * teeth.layout.groups,
+        _ if teeth.additions.in_detail => teeth.additions.detailed.face.points() * teeth.layout.groups,
         _ => 1,
     };
     // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
@@ -63,7 +63,7 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
         let mut records = Records { begin: *begin, work, heat, bias, fatigue };
         let mut observe = |step: Step<N, Power>| {
             equations.record(model, &step, &mut records)?;
-            equations.drag(step.end, step.time, &mut anchors);
+            equations.drag(step.end, &step.power[2], &mut anchors);
             good = (*step.end, step.time);
             if equations.is_due(step.end, step.time) {
                 switched = true;

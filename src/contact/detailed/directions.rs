@@ -1,0 +1,143 @@
+//! Directions of the normal of a tooth pair, and how its flanks slide on each other.
+
+use super::super::pairs::{Engagement, Spot};
+use crate::geometry::Pair;
+use crate::numeric::{cos, sin, sin_cos, sqrt};
+
+/// Constants of the line of action, of which flank directions are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Directions {
+    /// sin and cos of the arcs ψ from the tangent points of planet and side gear to the pitch point.
+    pitch_arc: [[f64; 2]; 2],
+    /// sinδ_b.
+    sin_base: [f64; 2],
+    /// cosδ_b.
+    cos_base: [f64; 2],
+}
+
+/// Direction of a unit normal: parts along the axes of planet and side gear, away from the apex, and along the rotation.
+#[derive(Clone, Copy, Debug)]
+pub struct Normal {
+    /// The parts.
+    pub parts: [f64; 3],
+    /// Their slopes, by the place on the path or by the arc Δ past its end.
+    pub slopes: [f64; 3],
+}
+
+/// sin and cos of the arcs ψ from both tangent points to the place of contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Arcs([[f64; 2]; 2]);
+
+impl Arcs {
+    /// Where none are asked for.
+    pub const NONE: Self = Self([[0.0; 2]; 2]);
+}
+
+/// What makes the flanks slide: arms cotδ_b sinψ of both gears, and ρ = 1/(cotψ_p + cotψ_s), with their slopes by s.
+#[derive(Clone, Copy, Debug)]
+pub struct Arms {
+    /// Arms.
+    pub arm: [f64; 2],
+    /// Their slopes.
+    pub arm_slope: [f64; 2],
+    /// Relative radius of curvature over the cone distance.
+    pub radius: f64,
+    /// Its slope.
+    pub radius_slope: f64,
+}
+
+/// tanψ below which a flank counts as this curved: at a base circle.
+const LEAST_TANGENT: f64 = 1e-6;
+
+/// √x where it is safely positive, and half its reciprocal.
+fn root(x: f64) -> [f64; 2] {
+    if x > 1e-30 {
+        let root = sqrt(x);
+        [root, 0.5 / root]
+    } else {
+        [0.0; 2]
+    }
+}
+
+impl Directions {
+    /// Constants of `pair`.
+    pub fn new(pair: &Pair) -> Self {
+        let [sin_base, cos_base] = [pair.sin_base(), pair.gears.map(|g| cos(g.base))];
+        Self { pitch_arc: pair.pitch_arc.map(|psi| [sin(psi), cos(psi)]), sin_base, cos_base }
+    }
+
+    /// The arcs at place `s` [rad].
+    #[inline(always)]
+    pub fn arcs(&self, s: f64) -> Arcs {
+        let (sin, cos) = sin_cos(s);
+        let [[sp, cp], [ss, cs]] = self.pitch_arc;
+        Arcs([[cos * sp + sin * cp, cos * cp - sin * sp], [cos * ss - sin * cs, cos * cs + sin * ss]])
+    }
+
+    /// Part ν of the normal along the side gear's axis as its displacement sees it, with its slope by s; ν″ = −ν.
+    #[inline(always)]
+    pub fn axial(&self, arcs: &Arcs) -> [f64; 2] {
+        let [_, [sin, cos]] = arcs.0;
+        [sin * self.cos_base[1], -cos * self.cos_base[1]]
+    }
+
+    /// Arms of sliding.
+    #[inline(always)]
+    pub fn arms(&self, arcs: &Arcs) -> Arms {
+        let mut arms = Arms { arm: [0.0; 2], arm_slope: [0.0; 2], radius: 0.0, radius_slope: 0.0 };
+        let (mut cot, mut cot_slope) = (0.0, 0.0);
+        for (i, way) in [1.0, -1.0].into_iter().enumerate() {
+            let [sin, cos] = arcs.0[i];
+            let ratio = self.cos_base[i] / self.sin_base[i];
+            (arms.arm[i], arms.arm_slope[i]) = (sin * ratio, way * cos * ratio);
+            if sin > LEAST_TANGENT * cos {
+                cot += cos / sin;
+                cot_slope -= way / (sin * sin);
+            } else {
+                cot += 1.0 / LEAST_TANGENT;
+            }
+        }
+        arms.radius = 1.0 / cot;
+        arms.radius_slope = -arms.radius * arms.radius * cot_slope;
+        arms
+    }
+
+    /// Direction of the normal of a pair at `spot`, `delta` past the end of the path if it is a corner.
+    #[inline(always)]
+    pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> Normal {
+        let (parts, slopes) = match spot {
+            Spot::Path => {
+                let [[sp, cp], [ss, cs]] = arcs.0;
+                let [bp, bs] = self.cos_base;
+                ([sp * bp, ss * bs], [cp * bp, -cs * bs])
+            }
+            Spot::PlanetTip => self.at_corner(engagement, 0, delta),
+            Spot::SideTip => self.at_corner(engagement, 1, delta),
+        };
+        // the axes of a differential are perpendicular; the rest is along the rotation
+        let [forward, half] = root(1.0 - parts[0] * parts[0] - parts[1] * parts[1]);
+        let turn = -2.0 * half * (parts[0] * slopes[0] + parts[1] * slopes[1]);
+        Normal { parts: [parts[0], parts[1], forward], slopes: [slopes[0], slopes[1], turn] }
+    }
+
+    /// Parts along both axes of the tip corner of gear `i`, with their slopes by Δ.
+    ///
+    /// A force with the lever arm ℓ about an axis has the part √(sin²φ − ℓ²) along it at the polar angle φ.
+    fn at_corner(&self, engagement: &Engagement, i: usize, delta: f64) -> ([f64; 2], [f64; 2]) {
+        let corner = &engagement.corner[i];
+        let g = corner.at(delta);
+        let (own, [mate, mate_slope]) = corner.sines_squared(delta);
+        let lever = (1.0 - g.d) * self.sin_base[i];
+        let lever_slope = -g.dd * self.sin_base[i];
+        let other = self.sin_base[1 - i];
+        let [own, half] = root(own - lever * lever);
+        let own_slope = -2.0 * half * lever * lever_slope;
+        let [mate, half] = root(mate - other * other);
+        let (mut parts, mut slopes) = ([own, mate], [own_slope, half * mate_slope]);
+        if i == 1 {
+            parts.swap(0, 1);
+            slopes.swap(0, 1);
+        }
+        (parts, slopes)
+    }
+}

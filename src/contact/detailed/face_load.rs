@@ -1,0 +1,96 @@
+//! How evenly a pair's load is spread over its face.
+//!
+//! A load per width w = ωR is what aligned teeth carry, ω the same at every R. Where errors or displacements open the flanks
+//! by e(R), ω follows the law of a slice at the arc A − e(R)/R. The face load factor is the largest ω of the face over its
+//! mean with the weight R², which is that of the torque:
+//!
+//!   K_Hβ = ω_max ∫R² dR / ∫ω R² dR
+//!
+//! e/R = E/R + turn + bend R is least at an end of the face, at the edge of a broken tooth, or at R² = E/bend.
+
+use super::{Detailed, Opening};
+use crate::contact::any_spring::with_spring;
+use crate::contact::spring::Spring;
+use crate::numeric::sqrt;
+
+/// A loaded slice of the pair.
+#[derive(Clone, Copy, Debug)]
+pub struct KnownSlice {
+    /// Cone distance [m].
+    pub cone: f64,
+    /// Penetration arc [rad].
+    pub arc: f64,
+    /// Place on the path [rad].
+    pub s: f64,
+}
+
+impl Detailed {
+    /// Moment ∫R² dR of the face, by which ω is the torque of a pair [m³].
+    pub fn moment_of_face(&self) -> f64 {
+        self.moment
+    }
+
+    /// K_Hβ of the pair of which `known` is a loaded slice, by the elastic part of its load: damping is spread with it.
+    /// 1 where a law has one resultant for the whole face.
+    pub fn face_load_factor(&self, known: &KnownSlice, opening: &Opening) -> f64 {
+        let Some(ends) = self.face.ends() else { return 1.0 };
+        let approach = known.arc + opening.at(known.cone) / known.cone;
+        let factor = with_spring!(&self.spring, law => {
+            let place = law.place(known.s);
+            let load = |arc: f64| if arc > 0.0 { law.respond(&place, arc).torque } else { 0.0 };
+            let mut torque = 0.0;
+            for part in self.face.loaded(approach, opening) {
+                for node in part.nodes() {
+                    let arc = approach - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+                    torque += node.weight * load(arc);
+                }
+            }
+            load(approach - least_arc(opening, ends)) * self.moment / torque
+        });
+        // written so that NaN gives 1
+        if factor > 1.0 && factor.is_finite() { factor } else { 1.0 }
+    }
+}
+
+/// The least arc e(R)/R [rad] between the cone distances `inner` and `outer` [m].
+fn least_arc(opening: &Opening, [inner, outer]: [f64; 2]) -> f64 {
+    let (edge, depth) = opening.edge.unwrap_or((outer, 0.0));
+    let edge = edge.clamp(inner, outer);
+    let least = |even: f64, [from, to]: [f64; 2]| {
+        let at = |r: f64| even / r + opening.turn + opening.bend * r;
+        let inside = sqrt(even / opening.bend);
+        let ends = at(from).min(at(to));
+        // the comparisons fail where there is no such place
+        if inside > from && inside < to { ends.min(at(inside)) } else { ends }
+    };
+    let sound = if edge > inner { least(opening.even.v, [inner, edge]) } else { f64::INFINITY };
+    let broken = if edge < outer { least(opening.even.v + depth, [edge, outer]) } else { f64::INFINITY };
+    sound.min(broken)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::{Jet, Scalar};
+
+    const FACE: [f64; 2] = [22.4e-3, 42.4e-3];
+
+    #[test]
+    fn the_least_arc_is_that_of_a_fine_search() {
+        for even in [-3e-5, 0.0, 2e-5, 6e-5] {
+            for turn in [-2e-3, 0.0, 1e-3] {
+                for bend in [0.0, 0.01, 0.06, 0.6] {
+                    for edge in [None, Some((30e-3, 4e-6)), Some((20e-3, 1e-3)), Some((50e-3, 1e-3))] {
+                        let opening = Opening { even: Jet::constant(even), turn, bend, edge };
+                        let search = (0..=20_000)
+                            .map(|i| FACE[0] + (FACE[1] - FACE[0]) * f64::from(i) / 20_000.0)
+                            .map(|r| opening.at(r) / r)
+                            .fold(f64::INFINITY, f64::min);
+                        let found = least_arc(&opening, FACE);
+                        assert!((found - search).abs() < 1e-7, "{opening:?}: {found} {search}");
+                    }
+                }
+            }
+        }
+    }
+}

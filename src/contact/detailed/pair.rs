@@ -1,0 +1,94 @@
+//! A tooth pair as it moves with q, x, w: from derivatives by its approach, opening and place to those by the mesh.
+
+use super::super::pairs::ToothPair;
+use super::sums::{Approach, By};
+use super::{Arms, DetailedState, Opening};
+
+/// Motion of a pair.
+#[derive(Clone, Copy, Debug)]
+pub struct PairMotion {
+    /// Where it is and how it moves.
+    pub approach: Approach,
+    /// ∂a/∂q.
+    pub sign: f64,
+    /// ∂A/∂(q, x).
+    pub slope: [f64; 2],
+    /// ∂²A/∂q² = ∂²A/∂q∂x, and ∂²A/∂x².
+    pub curvature: [f64; 2],
+    /// ∂s/∂x.
+    pub s_slope: f64,
+    /// ∂E/∂x and ∂E/∂w = ν.
+    pub opening: [f64; 2],
+    /// ∂²E/∂x² and ∂²E/∂x∂w.
+    pub opening_twice: [f64; 2],
+    /// ∂Ȧ/∂(q, x) and ∂Ė/∂(x, w).
+    turn: [f64; 2],
+    spread: [f64; 2],
+    rate: [f64; 2],
+}
+
+impl PairMotion {
+    /// Motion of `pair` with all of its `opening`, `axial` being ν and ∂ν/∂s.
+    #[inline(always)]
+    pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
+        let [dq, dx, dw] = state.rate;
+        let ([nu, nu_slope], even) = (axial, &opening.even);
+        let (slope, [qq, xx], s_slope) = (pair.slope, pair.curvature, pair.s_slope);
+        let by_x = even.d * s_slope;
+        let twice = [even.dd * s_slope * s_slope, nu_slope * s_slope];
+        Self {
+            approach: Approach {
+                arc: pair.depth,
+                rate: slope[0] * dq + slope[1] * dx,
+                opening_rate: by_x * dx + nu * dw,
+            },
+            sign: pair.slope_of_approach(),
+            slope,
+            curvature: pair.curvature,
+            s_slope,
+            opening: [by_x, nu],
+            opening_twice: twice,
+            turn: [qq * (dq + dx), qq * dq + xx * dx],
+            spread: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
+            rate: [dq, dx],
+        }
+    }
+
+    /// Derivatives by q, x, w and their rates of what depends on A, E, s, Ȧ, Ė as `by`.
+    #[inline(always)]
+    pub fn slopes(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; 6] {
+        let ([q, x], [ex, ew]) = (self.slope, self.opening);
+        [
+            arc * q + rate * self.turn[0],
+            arc * x + even * ex + place * self.s_slope + rate * self.turn[1] + opening_rate * self.spread[0],
+            even * ew + opening_rate * self.spread[1],
+            rate * q,
+            rate * x + opening_rate * ex,
+            opening_rate * ew,
+        ]
+    }
+
+    /// Travels of the flanks of planet and side gear along the line of action [rad/s].
+    #[inline(always)]
+    fn travel(&self) -> [f64; 2] {
+        let [dq, dx] = self.rate;
+        [-self.sign * dx, -self.sign * (dx + dq)]
+    }
+
+    /// Sliding speed over R, and the sum of both flanks' speeds over R [rad/s].
+    #[inline(always)]
+    pub fn speeds(&self, arms: &Arms) -> [f64; 2] {
+        let ([p, s], [planet, side]) = (self.travel(), arms.arm);
+        [planet * p - side * s, planet * p + side * s]
+    }
+
+    /// Derivatives of both by x, and by the rates of q and x.
+    #[inline(always)]
+    pub fn speed_slopes(&self, arms: &Arms) -> [[f64; 3]; 2] {
+        let ([p, s], [planet, side], [dp, ds]) = (self.travel(), arms.arm, arms.arm_slope);
+        [
+            [(dp * p - ds * s) * self.s_slope, self.sign * side, self.sign * (side - planet)],
+            [(dp * p + ds * s) * self.s_slope, -self.sign * side, -self.sign * (side + planet)],
+        ]
+    }
+}

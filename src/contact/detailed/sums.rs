@@ -1,0 +1,173 @@
+//! Sums over the face of one tooth pair: all that its forces and their derivatives are made of.
+//!
+//! The arc of a slice p = A − E/R − turn − bend R moves with the pair's approach A and opening E alone, so that forces are
+//! sums with the weights 1 and 1/R of the slices' torques T:
+//!
+//!   Q_A = −ΣT,   Q_E = ΣT/R,   Q_s = −ΣU_s
+//!
+//! and so are their derivatives. T/R is the normal force of a slice.
+
+use super::super::damping::Damping;
+use super::super::spring::{Elastic, Spring};
+use super::super::tooth_friction::{Sliding, ToothFriction};
+use super::face::{Node, Part};
+use super::{Arms, Opening};
+use crate::numeric::Dual;
+
+/// How near a pair is and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    /// A [rad].
+    pub arc: f64,
+    /// Ȧ [rad/s].
+    pub rate: f64,
+    /// Ė [m/s].
+    pub opening_rate: f64,
+}
+
+/// Friction of a pair.
+#[derive(Clone, Copy, Debug)]
+pub struct Rubbing<'a> {
+    /// The law.
+    pub law: &'a ToothFriction,
+    /// Arms of sliding.
+    pub arms: Arms,
+    /// Sliding speed over R, and sum of both flanks' speeds over R [rad/s].
+    pub speeds: [f64; 2],
+}
+
+/// Derivatives of a sum by A, E, s, Ȧ, Ė.
+pub type By = [f64; 5];
+
+/// The sums of one pair.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sums {
+    /// ΣT [N·m].
+    pub torque: f64,
+    /// ΣT/R [N].
+    pub normal: f64,
+    /// ΣU_s [N·m].
+    pub by_place: f64,
+    /// Σh T with the signed coefficient of friction h [N·m].
+    pub rubbed: f64,
+    /// Heat of contact damping [W].
+    pub heat: f64,
+    /// Derivatives of torque, normal, by_place and rubbed.
+    pub by: [By; 4],
+    /// Derivatives of rubbed by both speeds and by the relative radius of curvature over R.
+    pub rubbed_by: [f64; 3],
+}
+
+/// One point of the face with its load.
+pub struct LoadedNode<'a> {
+    /// The point.
+    pub node: &'a Node,
+    /// Its arc [rad].
+    pub arc: f64,
+    /// Its elastic response, per unit of weight.
+    pub elastic: Elastic,
+    /// Torque over weight, damping included.
+    pub torque: f64,
+    /// Signed coefficient of friction, and how the flanks slide.
+    pub friction: Option<(f64, Sliding<f64>)>,
+}
+
+impl Sums {
+    /// Adds what `part` of the face carries; calls `look` with each loaded point.
+    #[inline(always)]
+    pub fn add<S: Spring, const SLOPES: bool>(
+        &mut self,
+        part: &Part,
+        (spring, place, damping): (&S, &S::Place, &Damping),
+        at: &Approach,
+        opening: &Opening,
+        rubbing: Option<&Rubbing>,
+        mut look: impl FnMut(&LoadedNode),
+    ) {
+        for node in part.nodes() {
+            let arc = at.arc - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+            // rounding at an end of the part that carries
+            if arc <= 0.0 {
+                continue;
+            }
+            let rate = at.rate - at.opening_rate * node.per_cone;
+            let elastic = spring.respond(place, arc);
+            let damped = damping.apply(elastic.torque, elastic.stiffness, arc, rate);
+            let (weight, per_cone) = (node.weight, node.per_cone);
+            let torque = weight * damped.total;
+            self.torque += torque;
+            self.normal += torque * per_cone;
+            self.by_place += weight * elastic.by_place;
+            self.heat += weight * (damped.total - elastic.torque) * rate;
+            let mut by = [0.0; 3];
+            if SLOPES {
+                // damping either adds to the elastic torque or scales it
+                let by_place = match *damping {
+                    _ if damped.total <= 0.0 => 0.0,
+                    Damping::Step { .. } => elastic.torque_by_place,
+                    Damping::HuntCrossley { lambda } => elastic.torque_by_place * (1.0 + lambda * rate),
+                };
+                by = [damped.by_depth, by_place, damped.by_rate];
+                add(&mut self.by[0], weight, per_cone, by);
+                add(&mut self.by[1], weight * per_cone, per_cone, by);
+                add(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
+            }
+            let friction = rubbing.map(|rubbing| {
+                let sliding = rubbing.at(node, damped.total);
+                if !SLOPES {
+                    let h = rubbing.law.signed(&sliding);
+                    self.rubbed += torque * h;
+                    return (h, sliding);
+                }
+                let h = rubbing.law.signed(&sliding.with_slopes());
+                let [by_sliding, by_rolling, by_load, by_radius] = h.d;
+                let per_load = weight / (node.width * node.cone);
+                add(&mut self.by[3], weight * (h.v + damped.total * by_load * per_load), per_cone, by);
+                let lever = torque * node.cone;
+                self.rubbed += torque * h.v;
+                self.rubbed_by[0] += lever * by_sliding;
+                self.rubbed_by[1] += lever * by_rolling;
+                self.rubbed_by[2] += lever * by_radius;
+                (h.v, sliding)
+            });
+            look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
+        }
+    }
+}
+
+/// Adds `weight` times what depends on p, s and ṗ as `by` to derivatives by A, E, s, Ȧ, Ė.
+#[inline(always)]
+fn add(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_place, by_rate]: [f64; 3]) {
+    let (arc, rate) = (weight * by_arc, weight * by_rate);
+    to[0] += arc;
+    to[1] -= arc * per_cone;
+    to[2] += weight * by_place;
+    to[3] += rate;
+    to[4] -= rate * per_cone;
+}
+
+impl Rubbing<'_> {
+    /// How the flanks slide at a point that carries the torque `torque` per unit of weight.
+    #[inline(always)]
+    fn at(&self, node: &Node, torque: f64) -> Sliding<f64> {
+        Sliding {
+            sliding: self.speeds[0] * node.cone,
+            rolling: self.speeds[1] * node.cone,
+            load: torque * node.weight / (node.cone * node.width),
+            radius: self.arms.radius * node.cone,
+        }
+    }
+}
+
+impl Sliding<f64> {
+    /// The same with each quantity as a variable of its own.
+    #[inline(always)]
+    fn with_slopes(&self) -> Sliding<Dual<4>> {
+        Sliding {
+            sliding: Dual::variable(self.sliding, 0),
+            rolling: Dual::variable(self.rolling, 1),
+            load: Dual::variable(self.load, 2),
+            radius: Dual::variable(self.radius, 3),
+        }
+    }
+}

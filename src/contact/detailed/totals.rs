@@ -1,0 +1,140 @@
+//! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
+
+use super::super::pairs::Spot;
+use super::DetailedLoad;
+use super::directions::Normal;
+use super::pair::PairMotion;
+use super::sums::{Rubbing, Sums};
+use crate::numeric::Dual;
+
+/// Places of the sums: forces conjugate to q, x and w, then those under which gears rub.
+const Q: usize = 0;
+const X: usize = 1;
+const W: usize = 2;
+const NORMAL: usize = 3;
+const PLANET: usize = 4;
+const SIDE: usize = 5;
+const TANGENTIAL: usize = 6;
+
+/// Sums over tooth pairs; `ROWS` of them have derivatives, all or none.
+#[derive(Clone, Copy, Debug)]
+pub struct Totals<const ROWS: usize> {
+    value: [f64; 7],
+    slopes: [[f64; 6]; ROWS],
+    heat: [f64; 2],
+}
+
+impl<const ROWS: usize> Default for Totals<ROWS> {
+    fn default() -> Self {
+        Self { value: [0.0; 7], slopes: [[0.0; 6]; ROWS], heat: [0.0; 2] }
+    }
+}
+
+impl<const ROWS: usize> Totals<ROWS> {
+    /// Adds `factor` times `slopes` to the derivatives of sum `i`.
+    #[inline(always)]
+    fn slope(&mut self, i: usize, factor: f64, slopes: &[f64; 6]) {
+        for (sum, slope) in self.slopes[i].iter_mut().zip(slopes) {
+            *sum += factor * slope;
+        }
+    }
+
+    /// Adds elastic and damping forces of a pair.
+    #[inline(always)]
+    pub fn add_teeth(&mut self, motion: &PairMotion, sums: &Sums) {
+        let (torque, normal) = (sums.torque, sums.normal);
+        let ([aq, ax], [ex, ew]) = (motion.slope, motion.opening);
+        self.value[Q] -= torque * aq;
+        self.value[X] += normal * ex - torque * ax - sums.by_place * motion.s_slope;
+        self.value[W] += normal * ew;
+        self.heat[0] += sums.heat;
+        if ROWS == 0 {
+            return;
+        }
+        let [by_torque, by_normal, by_place] = [0, 1, 2].map(|i| motion.slopes(&sums.by[i]));
+        self.slope(Q, -aq, &by_torque);
+        self.slope(X, -ax, &by_torque);
+        self.slope(X, ex, &by_normal);
+        self.slope(X, -motion.s_slope, &by_place);
+        self.slope(W, ew, &by_normal);
+        let ([qq, xx], [exx, exw]) = (motion.curvature, motion.opening_twice);
+        self.slopes[Q][0] -= torque * qq;
+        self.slopes[Q][1] -= torque * qq;
+        self.slopes[X][0] -= torque * qq;
+        self.slopes[X][1] += normal * exx - torque * xx;
+        self.slopes[X][2] += normal * exw;
+        self.slopes[W][1] += normal * exw;
+    }
+
+    /// Adds friction along the flanks of a pair: −h N along the planet's flank has the lever arms R cotδ_b sinψ.
+    #[inline(always)]
+    pub fn add_rubbing(&mut self, motion: &PairMotion, sums: &Sums, rubbing: &Rubbing) {
+        let ([planet, side], sign) = (rubbing.arms.arm, motion.sign);
+        let levers = [-sign * side, -sign * (side - planet)];
+        self.value[Q] += levers[0] * sums.rubbed;
+        self.value[X] += levers[1] * sums.rubbed;
+        self.heat[1] += sums.rubbed * rubbing.speeds[0];
+        if ROWS == 0 {
+            return;
+        }
+        let mut by = motion.slopes(&sums.by[3]);
+        let [sliding, rolling, radius] = sums.rubbed_by;
+        let [by_sliding, by_rolling] = motion.speed_slopes(&rubbing.arms);
+        for (i, place) in [1, 3, 4].into_iter().enumerate() {
+            by[place] += sliding * by_sliding[i] + rolling * by_rolling[i];
+        }
+        by[1] += radius * rubbing.arms.radius_slope * motion.s_slope;
+        let [planet_slope, side_slope] = rubbing.arms.arm_slope.map(|slope| slope * motion.s_slope);
+        self.slope(Q, levers[0], &by);
+        self.slope(X, levers[1], &by);
+        self.slopes[Q][1] -= sign * side_slope * sums.rubbed;
+        self.slopes[X][1] -= sign * (side_slope - planet_slope) * sums.rubbed;
+    }
+
+    /// Adds the parts of a pair's normal force along the axes and the rotation.
+    #[inline(always)]
+    pub fn add_thrust(&mut self, motion: &PairMotion, sums: &Sums, normal: &Normal, spot: Spot) {
+        let [planet, side, forward] = normal.parts;
+        let parts = [(NORMAL, 1.0), (PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
+        for (i, part) in parts {
+            self.value[i] += sums.normal * part;
+        }
+        if ROWS == 0 {
+            return;
+        }
+        let by = motion.slopes(&sums.by[1]);
+        let moves = spot.moves(motion.sign, motion.s_slope);
+        for (i, part) in parts {
+            self.slope(i, part, &by);
+        }
+        let [planet, side, forward] = normal.slopes;
+        for (i, slope) in [(PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)] {
+            self.slopes[i][0] += sums.normal * slope * moves[0];
+            self.slopes[i][1] += sums.normal * slope * moves[1];
+        }
+    }
+
+    /// The loads without derivatives.
+    pub fn load(&self) -> DetailedLoad<f64> {
+        self.of(|i| self.value[i])
+    }
+
+    #[inline(always)]
+    fn of<T: Copy>(&self, sum: impl Fn(usize) -> T) -> DetailedLoad<T> {
+        DetailedLoad {
+            force: [sum(Q), sum(X), sum(W)],
+            normal: sum(NORMAL),
+            planet_axial: sum(PLANET),
+            side_axial: sum(SIDE),
+            tangential: sum(TANGENTIAL),
+            heat: self.heat,
+        }
+    }
+}
+
+impl Totals<7> {
+    /// The loads with their derivatives.
+    pub fn linearised(&self) -> DetailedLoad<Dual<6>> {
+        self.of(|i| Dual { v: self.value[i], d: self.slopes[i] })
+    }
+}
