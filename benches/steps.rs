@@ -2,7 +2,7 @@
 //! out, and for counting instructions.
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
-//! "reversal" of the loads every 50 steps, "fixed_step=SIZE"; "unread" leaves the forces at the end unread, so that nothing
+//! "reversal" of the loads every 50 steps, "fixed_step=SIZE", VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing
 //! but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
@@ -67,7 +67,8 @@ fn main() {
                 Some(("fixed_step", size)) => {
                     (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
                 }
-                _ => switch(&mut p, &mut i, name),
+                Some((name, value)) => set(&mut p, &mut i, name, value.parse().expect("a number")),
+                None => switch(&mut p, &mut i, name),
             },
         }
     }

@@ -81,9 +81,9 @@ impl Both {
         &self,
         gaps: Option<&dyn Gaps>,
         state: &DetailedState,
-        look: impl FnMut(&SliceLoad),
+        mut look: impl FnMut(&SliceLoad),
     ) -> DetailedLoad<f64> {
-        self.detailed.look(&self.teeth(gaps), state, look)
+        self.detailed.look(&self.teeth(gaps), state, &mut look)
     }
 
     pub fn energy(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> f64 {

@@ -196,7 +196,14 @@ pub struct Part<'a> {
 }
 
 impl<'a> Part<'a> {
-    const NONE: Self = Self { all: None, cut: None, even: 0.0 };
+    /// Nothing.
+    pub const NONE: Self = Self { all: None, cut: None, even: 0.0 };
+
+    /// All of it in one point.
+    #[inline(always)]
+    pub fn of(node: &'a Node) -> Self {
+        Self { all: Some(std::slice::from_ref(node)), cut: None, even: 0.0 }
+    }
 
     #[inline(always)]
     fn new(all: &'a [Node], ends: [f64; 2], even: f64, part: Option<[f64; 2]>) -> Self {

@@ -6,7 +6,7 @@ use super::super::pairs::{Engagement, Flank, Spot, ToothPair};
 use super::super::spring::Spring;
 use super::super::tooth_friction::ToothFriction;
 use super::directions::{Arcs, Directions};
-use super::face::{Face, Part};
+use super::face::{Face, Node, Part};
 use super::pair::PairMotion;
 use super::sums::{LoadedNode, Rubbing, Sums};
 use super::totals::Totals;
@@ -35,6 +35,8 @@ pub struct Detailed {
     /// Sum of the face's weights, and the cone distance of its resultant [m].
     pub(super) moment: f64,
     resultant: f64,
+    /// The face of teeth that fit, in one point.
+    whole: Node,
 }
 
 /// Teeth of a mesh: their openings, and which planet and side gear they are of.
@@ -63,7 +65,20 @@ impl Detailed {
         let (moment, resultant) = face.moment();
         let damping = damping.in_arcs(resultant, moment);
         let directions = Directions::new(pair);
-        Self { spring, damping, face, single, friction, thrust: true, seats: true, directions, moment, resultant }
+        let whole = Node { cone: resultant, per_cone: 1.0 / resultant, weight: moment, width: face.width() };
+        Self {
+            whole,
+            spring,
+            damping,
+            face,
+            single,
+            friction,
+            thrust: true,
+            seats: true,
+            directions,
+            moment,
+            resultant,
+        }
     }
 
     /// Replaces the damping.
@@ -74,29 +89,51 @@ impl Detailed {
     /// Loads at `state`.
     pub fn load(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<f64> {
         let mut totals = Totals::<0>::default();
-        with_spring!(&self.spring, spring => {
-            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, self.thrust, |_| {}));
-        });
+        self.sum(&mut totals, teeth, state, self.thrust, |_| {});
         totals.load()
     }
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
     pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<6>> {
         let mut totals = Totals::<7>::default();
-        with_spring!(&self.spring, spring => {
-            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, self.thrust, |_| {}));
-        });
+        self.sum(&mut totals, teeth, state, self.thrust, |_| {});
         totals.linearised()
     }
 
-    /// Loads at `state`; calls `look` with each loaded slice.
-    pub fn look(&self, teeth: &Teeth, state: &DetailedState, mut look: impl FnMut(&SliceLoad)) -> DetailedLoad<f64> {
+    /// Loads at `state`; calls `look` with each loaded slice. Compiled once, for whoever looks.
+    pub fn look(&self, teeth: &Teeth, state: &DetailedState, look: &mut dyn FnMut(&SliceLoad)) -> DetailedLoad<f64> {
         let mut totals = Totals::<0>::default();
-        let look: &mut dyn FnMut(&SliceLoad) = &mut look;
-        with_spring!(&self.spring, spring => {
-            self.each(teeth, state, |name, pair| self.add(spring, &mut totals, teeth, name, pair, state, true, &mut *look));
-        });
+        self.sum(&mut totals, teeth, state, true, look);
         totals.load()
+    }
+
+    /// Whether the flanks of pairs may not fit.
+    fn is_open(&self, teeth: &Teeth) -> bool {
+        self.seats || teeth.gaps.is_some()
+    }
+
+    /// Adds the loads of all pairs.
+    #[inline(always)]
+    fn sum<const ROWS: usize>(
+        &self,
+        totals: &mut Totals<ROWS>,
+        teeth: &Teeth,
+        state: &DetailedState,
+        thrust: bool,
+        mut look: impl FnMut(&SliceLoad),
+    ) {
+        let open = self.is_open(teeth);
+        with_spring!(&self.spring, spring => {
+            if open {
+                self.each(teeth, state, |name, pair| {
+                    self.add::<_, ROWS, true>(spring, totals, teeth, name, pair, state, thrust, &mut look)
+                });
+            } else {
+                self.each(teeth, state, |name, pair| {
+                    self.add::<_, ROWS, false>(spring, totals, teeth, name, pair, state, thrust, &mut look)
+                });
+            }
+        });
     }
 
     /// Elastic energy V [J].
@@ -161,7 +198,7 @@ impl Detailed {
     /// Adds the loads of a pair.
     #[allow(clippy::too_many_arguments)]
     #[inline(always)]
-    fn add<S: Spring, const ROWS: usize>(
+    fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
         &self,
         spring: &S,
         totals: &mut Totals<ROWS>,
@@ -176,12 +213,16 @@ impl Detailed {
         let arcs =
             if self.seats || thrust || self.friction.is_some() { self.directions.arcs(pair.s) } else { Arcs::NONE };
         let axial = if self.seats { self.directions.axial(&arcs) } else { [0.0; 2] };
-        opening.displace(state.position[2], axial);
-        let parts = self.face.loaded(pair.depth, &opening);
-        if parts.iter().all(Part::is_empty) {
+        let parts = if OPEN {
+            opening.displace(state.position[2], axial);
+            self.face.loaded(pair.depth, &opening)
+        } else {
+            [Part::of(&self.whole), Part::NONE]
+        };
+        if OPEN && parts.iter().all(Part::is_empty) {
             return;
         }
-        let motion = PairMotion::new(pair, &opening, axial, state);
+        let motion = PairMotion::<OPEN>::new(pair, &opening, axial, state);
         let rubbing = self.friction.as_ref().map(|law| {
             let arms = self.directions.arms(&arcs);
             Rubbing { law, speeds: motion.speeds(&arms), arms }
@@ -211,12 +252,12 @@ impl Detailed {
         let place = spring.place(pair.s);
         let law = (spring, &place, &self.damping);
         let mut sums = Sums::default();
-        for part in &parts {
+        for part in if OPEN { &parts[..] } else { &parts[..1] } {
             let (at, rubbing) = (&motion.approach, rubbing.as_ref());
             if const { ROWS > 0 } {
-                sums.add::<S, true>(part, law, at, &opening, rubbing, &mut see);
+                sums.add::<S, true, OPEN>(part, law, at, &opening, rubbing, &mut see);
             } else {
-                sums.add::<S, false>(part, law, at, &opening, rubbing, &mut see);
+                sums.add::<S, false, OPEN>(part, law, at, &opening, rubbing, &mut see);
             }
         }
         totals.add_teeth(&motion, &sums);

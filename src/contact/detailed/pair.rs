@@ -4,9 +4,9 @@ use super::super::pairs::ToothPair;
 use super::sums::{Approach, By};
 use super::{Arms, DetailedState, Opening};
 
-/// Motion of a pair.
+/// Motion of a pair; `OPEN` where its flanks may not fit.
 #[derive(Clone, Copy, Debug)]
-pub struct PairMotion {
+pub struct PairMotion<const OPEN: bool> {
     /// Where it is and how it moves.
     pub approach: Approach,
     /// ∂a/∂q.
@@ -27,7 +27,7 @@ pub struct PairMotion {
     rate: [f64; 2],
 }
 
-impl PairMotion {
+impl<const OPEN: bool> PairMotion<OPEN> {
     /// Motion of `pair` with all of its `opening`, `axial` being ν and ∂ν/∂s.
     #[inline(always)]
     pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
@@ -40,7 +40,7 @@ impl PairMotion {
             approach: Approach {
                 arc: pair.depth,
                 rate: slope[0] * dq + slope[1] * dx,
-                opening_rate: by_x * dx + nu * dw,
+                opening_rate: if OPEN { by_x * dx + nu * dw } else { 0.0 },
             },
             sign: pair.slope_of_approach(),
             slope,
@@ -58,6 +58,10 @@ impl PairMotion {
     #[inline(always)]
     pub fn slopes(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; 6] {
         let ([q, x], [ex, ew]) = (self.slope, self.opening);
+        if !OPEN {
+            let by_x = arc * x + place * self.s_slope + rate * self.turn[1];
+            return [arc * q + rate * self.turn[0], by_x, 0.0, rate * q, rate * x, 0.0];
+        }
         [
             arc * q + rate * self.turn[0],
             arc * x + even * ex + place * self.s_slope + rate * self.turn[1] + opening_rate * self.spread[0],

@@ -75,7 +75,7 @@ pub struct LoadedNode<'a> {
 impl Sums {
     /// Adds what `part` of the face carries; calls `look` with each loaded point.
     #[inline(always)]
-    pub fn add<S: Spring, const SLOPES: bool>(
+    pub fn add<S: Spring, const SLOPES: bool, const OPEN: bool>(
         &mut self,
         part: &Part,
         (spring, place, damping): (&S, &S::Place, &Damping),
@@ -85,12 +85,13 @@ impl Sums {
         mut look: impl FnMut(&LoadedNode),
     ) {
         for node in part.nodes() {
-            let arc = at.arc - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+            let opened = opening.turn + part.even * node.per_cone + opening.bend * node.cone;
+            let arc = if OPEN { at.arc - opened } else { at.arc };
             // rounding at an end of the part that carries
             if arc <= 0.0 {
                 continue;
             }
-            let rate = at.rate - at.opening_rate * node.per_cone;
+            let rate = if OPEN { at.rate - at.opening_rate * node.per_cone } else { at.rate };
             let elastic = spring.respond(place, arc);
             let damped = damping.apply(elastic.torque, elastic.stiffness, arc, rate);
             let (weight, per_cone) = (node.weight, node.per_cone);
@@ -108,9 +109,9 @@ impl Sums {
                     Damping::HuntCrossley { lambda } => elastic.torque_by_place * (1.0 + lambda * rate),
                 };
                 by = [damped.by_depth, by_place, damped.by_rate];
-                add(&mut self.by[0], weight, per_cone, by);
-                add(&mut self.by[1], weight * per_cone, per_cone, by);
-                add(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
+                add::<OPEN>(&mut self.by[0], weight, per_cone, by);
+                add::<OPEN>(&mut self.by[1], weight * per_cone, per_cone, by);
+                add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
             }
             let friction = rubbing.map(|rubbing| {
                 let sliding = rubbing.at(node, damped.total);
@@ -122,7 +123,7 @@ impl Sums {
                 let h = rubbing.law.signed(&sliding.with_slopes());
                 let [by_sliding, by_rolling, by_load, by_radius] = h.d;
                 let per_load = weight / (node.width * node.cone);
-                add(&mut self.by[3], weight * (h.v + damped.total * by_load * per_load), per_cone, by);
+                add::<OPEN>(&mut self.by[3], weight * (h.v + damped.total * by_load * per_load), per_cone, by);
                 let lever = torque * node.cone;
                 self.rubbed += torque * h.v;
                 self.rubbed_by[0] += lever * by_sliding;
@@ -137,13 +138,15 @@ impl Sums {
 
 /// Adds `weight` times what depends on p, s and ṗ as `by` to derivatives by A, E, s, Ȧ, Ė.
 #[inline(always)]
-fn add(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_place, by_rate]: [f64; 3]) {
+fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_place, by_rate]: [f64; 3]) {
     let (arc, rate) = (weight * by_arc, weight * by_rate);
     to[0] += arc;
-    to[1] -= arc * per_cone;
+    if OPEN {
+        to[1] -= arc * per_cone;
+        to[4] -= rate * per_cone;
+    }
     to[2] += weight * by_place;
     to[3] += rate;
-    to[4] -= rate * per_cone;
 }
 
 impl Rubbing<'_> {

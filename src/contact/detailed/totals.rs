@@ -41,34 +41,42 @@ impl<const ROWS: usize> Totals<ROWS> {
 
     /// Adds elastic and damping forces of a pair.
     #[inline(always)]
-    pub fn add_teeth(&mut self, motion: &PairMotion, sums: &Sums) {
+    pub fn add_teeth<const OPEN: bool>(&mut self, motion: &PairMotion<OPEN>, sums: &Sums) {
         let (torque, normal) = (sums.torque, sums.normal);
         let ([aq, ax], [ex, ew]) = (motion.slope, motion.opening);
         self.value[Q] -= torque * aq;
-        self.value[X] += normal * ex - torque * ax - sums.by_place * motion.s_slope;
-        self.value[W] += normal * ew;
+        self.value[X] -= torque * ax + sums.by_place * motion.s_slope;
+        if OPEN {
+            self.value[X] += normal * ex;
+            self.value[W] += normal * ew;
+        }
         self.heat[0] += sums.heat;
         if ROWS == 0 {
             return;
         }
-        let [by_torque, by_normal, by_place] = [0, 1, 2].map(|i| motion.slopes(&sums.by[i]));
+        let [by_torque, by_place] = [0, 2].map(|i| motion.slopes(&sums.by[i]));
         self.slope(Q, -aq, &by_torque);
         self.slope(X, -ax, &by_torque);
-        self.slope(X, ex, &by_normal);
         self.slope(X, -motion.s_slope, &by_place);
-        self.slope(W, ew, &by_normal);
-        let ([qq, xx], [exx, exw]) = (motion.curvature, motion.opening_twice);
+        let [qq, xx] = motion.curvature;
         self.slopes[Q][0] -= torque * qq;
         self.slopes[Q][1] -= torque * qq;
         self.slopes[X][0] -= torque * qq;
-        self.slopes[X][1] += normal * exx - torque * xx;
-        self.slopes[X][2] += normal * exw;
-        self.slopes[W][1] += normal * exw;
+        self.slopes[X][1] -= torque * xx;
+        if OPEN {
+            let by_normal = motion.slopes(&sums.by[1]);
+            self.slope(X, ex, &by_normal);
+            self.slope(W, ew, &by_normal);
+            let [exx, exw] = motion.opening_twice;
+            self.slopes[X][1] += normal * exx;
+            self.slopes[X][2] += normal * exw;
+            self.slopes[W][1] += normal * exw;
+        }
     }
 
     /// Adds friction along the flanks of a pair: −h N along the planet's flank has the lever arms R cotδ_b sinψ.
     #[inline(always)]
-    pub fn add_rubbing(&mut self, motion: &PairMotion, sums: &Sums, rubbing: &Rubbing) {
+    pub fn add_rubbing<const OPEN: bool>(&mut self, motion: &PairMotion<OPEN>, sums: &Sums, rubbing: &Rubbing) {
         let ([planet, side], sign) = (rubbing.arms.arm, motion.sign);
         let levers = [-sign * side, -sign * (side - planet)];
         self.value[Q] += levers[0] * sums.rubbed;
@@ -93,7 +101,13 @@ impl<const ROWS: usize> Totals<ROWS> {
 
     /// Adds the parts of a pair's normal force along the axes and the rotation.
     #[inline(always)]
-    pub fn add_thrust(&mut self, motion: &PairMotion, sums: &Sums, normal: &Normal, spot: Spot) {
+    pub fn add_thrust<const OPEN: bool>(
+        &mut self,
+        motion: &PairMotion<OPEN>,
+        sums: &Sums,
+        normal: &Normal,
+        spot: Spot,
+    ) {
         let [planet, side, forward] = normal.parts;
         let parts = [(NORMAL, 1.0), (PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
         for (i, part) in parts {

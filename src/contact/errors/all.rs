@@ -88,6 +88,13 @@ impl ToothErrors {
         opening
     }
 
+    /// Upper bound of a tooth pair's excess material [m] up to the cone distance `outer` [m].
+    pub fn most_excess(&self, outer: f64) -> f64 {
+        self.pitch.as_ref().map_or(0.0, |pitch| pitch.most_excess() * outer * self.per_mean_cone)
+            + self.runout.as_ref().map_or(0.0, Runout::most_excess)
+            + self.misalignment.as_ref().map_or(0.0, |misalignment| misalignment.most_excess(outer))
+    }
+
     /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth from the centre
     /// of tooth 0 in the direction in which teeth are numbered [rad].
     pub fn eccentricity(&self, gear: usize, index: usize) -> [f64; 2] {

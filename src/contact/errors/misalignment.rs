@@ -60,6 +60,13 @@ impl Misalignment {
         if mesh.side == 0 { self.tilt } else { -self.tilt }
     }
 
+    /// Most excess material that displacements bring at cone distances up to `outer` [m].
+    pub fn most_excess(&self, outer: f64) -> f64 {
+        // no part of a normal is longer than 1
+        let moved = self.planet.iter().map(|[axial, across]| axial.abs() + across.abs()).fold(0.0, f64::max);
+        moved + self.side_axial.abs() + outer * self.tilt.abs()
+    }
+
     /// Whether planets stand differently in their meshes.
     pub fn is_individual(&self) -> bool {
         self.planet.iter().any(|p| *p != self.planet[0])

@@ -148,6 +148,15 @@ impl PitchDeviations {
         Ok(())
     }
 
+    /// Most excess material of a pair at R_m [m].
+    pub fn most_excess(&self) -> f64 {
+        let most = |gears: &[[Box<[f64]>; 2]]| {
+            gears.iter().flatten().flatten().fold(0.0f64, |most, position| most.max(position.abs()))
+        };
+        let (sides, planets) = self.gears.split_at(2);
+        most(sides) + most(planets)
+    }
+
     /// Gap [m] at R_m of a pair, its indices in range.
     #[inline]
     pub fn gap(&self, mesh: MeshId, pair: PairId) -> f64 {

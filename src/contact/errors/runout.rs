@@ -51,6 +51,11 @@ impl Runout {
         [self.eccentricity[gear], self.direction[gear][index]]
     }
 
+    /// Most excess material of a pair [m].
+    pub fn most_excess(&self) -> f64 {
+        self.eccentricity[0].abs() + self.eccentricity[1].abs()
+    }
+
     /// Azimuth of ê on gear `number`, in range: side gears left and right, then planets.
     pub fn azimuth(&self, number: usize) -> f64 {
         if number < 2 { self.direction[1][number] } else { self.direction[0][number - 2] }

@@ -167,23 +167,6 @@ fn within(variable: &'static str, value: f64, [least, most]: [f64; 2], unit: &st
     }
 }
 
-impl ToothErrorSpec {
-    /// Upper bound of a tooth pair's excess material [m]: cumulative pitch of both gears at the heel, runout, and rigid
-    /// displacements, all at their worst at once.
-    pub fn most_excess(&self, pair: &crate::geometry::Pair) -> f64 {
-        let tolerances = [0, 1].map(|i| super::pitch::Tolerances::of_gear(self.accuracy_grade, pair, i));
-        let grade = |of: fn(&super::pitch::Tolerances) -> f64| {
-            if self.accuracy_grade > 0 { of(&tolerances[0]) + of(&tolerances[1]) } else { 0.0 }
-        };
-        let runout = if self.runout_by_grade { grade(|t| t.runout) } else { self.planet_runout + self.side_runout };
-        let moved = self.planet_axial_offset.abs() + self.side_axial_offset.abs() + 2.0 * self.axis_offset.abs();
-        grade(|t| t.cumulative_pitch) * pair.outer_cone / pair.mean_cone
-            + runout
-            + moved
-            + pair.outer_cone * self.shaft_angle_error.abs()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

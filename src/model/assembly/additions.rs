@@ -11,7 +11,7 @@ use crate::contact::gaps::FlankGaps;
 pub struct Additions {
     /// The mesh in detail.
     pub detailed: Detailed,
-    /// Whether an effect needs it.
+    /// Whether an effect needs it while all teeth are sound.
     pub in_detail: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat: usize,

@@ -146,7 +146,7 @@ fn teeth(
     // a tooth may neither bend by the working depth nor reach the next gap
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
-    let in_detail = tooth.gaps[1].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
+    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
     let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, deflection_limit);
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));

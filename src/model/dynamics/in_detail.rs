@@ -49,6 +49,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Index of the first axial seat.
     pub(super) const SEAT: usize = CARRIER + 1;
 
+    /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
+    #[inline(always)]
+    pub(in crate::model) fn in_detail(&self) -> bool {
+        self.teeth.additions.in_detail || self.fault
+    }
+
     /// Gaps of the teeth as they are now.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
         self.teeth.additions.gaps[usize::from(self.fault)].as_deref()
@@ -77,9 +83,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         at: &Point<N>,
         g: usize,
         s: usize,
-        look: impl FnMut(&SliceLoad),
+        mut look: impl FnMut(&SliceLoad),
     ) -> DetailedLoad<f64> {
-        self.teeth.additions.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), look)
+        self.teeth.additions.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), &mut look)
     }
 
     /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
@@ -168,7 +174,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Elastic energy of the mesh of group `g` with side `s` [J].
     pub(in crate::model) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
         let additions = &self.teeth.additions;
-        if !(WITH_EFFECTS && additions.in_detail) {
+        if !(WITH_EFFECTS && self.in_detail()) {
             return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
         }
         additions.detailed.energy(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s))

@@ -45,7 +45,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
             self.teeth.additions.perfect.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
         };
-        if WITH_EFFECTS && self.teeth.additions.in_detail {
+        if WITH_EFFECTS && self.in_detail() {
             self.detail(at, g, s, |slice| {
                 visit(&ToothLoad {
                     planet,

@@ -41,13 +41,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Whether meshes are summed slice by slice over the face.
     fn is_sliced(&self) -> bool {
         let additions = &self.teeth.additions;
-        WITH_EFFECTS && additions.in_detail && additions.detailed.face.is_cut()
+        WITH_EFFECTS && self.in_detail() && additions.detailed.face.is_cut()
     }
 
     /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
     fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
         let additions = &self.teeth.additions;
-        if let (false, Law::Solid(solid)) = (additions.in_detail, &self.teeth.mesh.law) {
+        if let (false, Law::Solid(solid)) = (self.in_detail(), &self.teeth.mesh.law) {
             return solid.face_load_factor(&self.mesh_state(at, g, slice.side), slice.flank, slice.s);
         }
         if !self.is_sliced() {

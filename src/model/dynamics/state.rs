@@ -157,10 +157,11 @@ impl State {
 }
 
 impl BodyEffects {
-    /// Whether effects act in `state`: those of the scene, a lock that is commanded or still holds, or inputs that
-    /// change.
+    /// Whether effects act in `state`: those of the scene, a broken tooth, a lock that is commanded or still holds,
+    /// or inputs that change.
     pub fn act_in(&self, state: &State) -> bool {
         self.always
+            || state.fault
             || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)

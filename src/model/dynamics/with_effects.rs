@@ -31,7 +31,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     ) {
         match slopes {
             None => {
-                if self.teeth.additions.in_detail {
+                if self.in_detail() {
                     self.act_in_detail::<f64>(at, sum, power, None);
                 } else {
                     let (forces, heat) = self.tooth_torques(at);
@@ -42,7 +42,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 self.act_on_bodies(at, sum, imposed, power);
             }
             Some(j) => {
-                if self.teeth.additions.in_detail {
+                if self.in_detail() {
                     self.act_in_detail::<Dual<LOCAL>>(at, sum, power, Some(j));
                 } else {
                     let mut load = [[MeshForce::default(); 2]; G];
@@ -157,7 +157,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
     pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
         let additions = &self.teeth.additions;
-        let mut energy = if additions.in_detail {
+        let mut energy = if self.in_detail() {
             in_pairs(G, |g| self.members(g) * (self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1)))
         } else {
             self.elastic_energy(at)

@@ -160,7 +160,7 @@ impl Effect for ToothErrorSpec {
         teeth.individual |= errors.is_individual();
         teeth.sliced |= !errors.is_uniform_over_face();
         let mut gaps = FlankGaps::perfect(pair, count);
-        gaps.least = -self.most_excess(pair);
+        gaps.least = -errors.most_excess(pair.outer_cone);
         gaps.errors = Some(errors);
         let gaps = Arc::new(gaps);
         teeth.gaps = [Some(gaps.clone()), Some(gaps)];

@@ -163,7 +163,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Torques of the meshes on side gears, where other torques act on them too.
     fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
         let side = self.teeth.sin_base[1];
-        if self.teeth.additions.in_detail {
+        if self.in_detail() {
             let loads = self.all_loads::<f64>(at);
             let torque = |s: usize| in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0]);
             return [torque(0), torque(1)];

@@ -22,7 +22,7 @@ const LEAST_LOAD: f64 = 1e-6;
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
     pub(super) fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
-        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
+        if WITH_EFFECTS && (self.in_detail() || P > 0) {
             return self.structure(at);
         }
         let still = Point { q: at.q, v: [0.0; N] };
@@ -31,11 +31,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<N>) -> f64 {
-        if WITH_EFFECTS && (self.teeth.additions.in_detail || P > 0) {
-            self.stored(at, false)
-        } else {
-            self.elastic_energy(at)
-        }
+        if WITH_EFFECTS && (self.in_detail() || P > 0) { self.stored(at, false) } else { self.elastic_energy(at) }
     }
 }
 

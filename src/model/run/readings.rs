@@ -190,7 +190,7 @@ impl Simulation {
         match &self.model.gears {
             Gears::Rigid(rigid) if !rigid.bodies.act_in(&self.state) => CostClass::ClosedForm,
             Gears::Rigid(_) => CostClass::Rigid,
-            Gears::Teeth(teeth) if teeth.additions.in_detail => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.additions.in_detail || self.state.fault => CostClass::TeethInDetail,
             Gears::Teeth(teeth) if teeth.additions.bodies.act_in(&self.state) => CostClass::TeethAndBodies,
             Gears::Teeth(_) => CostClass::Teeth,
         }

@@ -116,7 +116,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     let mut point = Point::ZERO;
     press_sides(model, teeth, equations, still, &mut point)?;
     let mut carried = still;
-    let in_detail = WITH_EFFECTS && (teeth.additions.in_detail || P > 0);
+    let in_detail = WITH_EFFECTS && (equations.in_detail() || P > 0);
     if !plan.spin_imposed || in_detail {
         if let Some(settled) = minimum(equations, still, &point) {
             point = settled;
