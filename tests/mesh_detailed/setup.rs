@@ -105,9 +105,9 @@ impl Gaps for Waves {
         let k = 9.0;
         let (sin, cos) = (k * s + phase).sin_cos();
         let even = Jet { v: self.size * sin, d: self.size * k * cos, dd: -self.size * k * k * sin };
-        // the turn opens up to half the size at 50 mm, the bend up to as much
+        // the turn opens up to half the size at 50 mm, the bend up to a quarter of it
         let turn = 10.0 * self.size * phase.cos();
-        Opening { even, turn, bend: 200.0 * self.size * (1.0 + phase.sin()), edge: None }
+        Opening { even, turn, bend: 50.0 * self.size * (1.0 + phase.sin()), edge: None }
     }
     fn least(&self) -> f64 {
         -1.5 * self.size
@@ -197,9 +197,14 @@ pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, leas
     (!shallow).then_some(pattern)
 }
 
+/// Whether a part of the face of some pair carries alone.
+pub fn carries_in_part(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState) -> bool {
+    pattern(both, gaps, state, 0.0).is_some_and(|pattern| pattern.iter().any(|&(_, place, ..)| place == 0))
+}
+
 /// Whether nothing switches within two steps `h` of each of the variables.
 pub fn smooth(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, h: &[f64]) -> bool {
-    let least = 30.0 * h[0];
+    let least = 60.0 * h[0];
     let Some(here) = pattern(both, gaps, state, least) else { return false };
     (0..h.len()).all(|i| {
         [-2.0, 2.0].iter().all(|k| pattern(both, gaps, &shifted(state, i, k * h[i]), 0.0).is_some_and(|p| p == here))
