@@ -1,0 +1,99 @@
+//! What follows from gears and material alone, kept for the next start with the same ones.
+//!
+//! Masses, tables of gaps and tables of compliances take most of a start, and loads, drives and effects do not change them.
+//! Each is kept by the bits of all that the function which makes it is given, so that it has the same bits as if made anew.
+
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::shelf::Shelf;
+use crate::contact::pairs::Engagement;
+use crate::contact::stiffness::{PairStiffness, RootSpec};
+use crate::geometry::solid::mass::{GearMass, gear_mass};
+use crate::geometry::{GearSpec, Pair};
+use crate::model::setup::Parameters;
+use crate::problem::Problem;
+
+/// What is kept.
+#[derive(Debug, Default)]
+pub struct Kept {
+    masses: Shelf<[GearMass; 2]>,
+    engagements: Shelf<Engagement>,
+    stiffness: Shelf<Result<Arc<PairStiffness>, Problem>>,
+    means: Shelf<Result<f64, Problem>>,
+}
+
+impl Kept {
+    /// Mass properties of planet and side gear of `pair`, made from `spec`, at the density `density` [kg/m³].
+    pub fn masses(&self, pair: &Pair, spec: &GearSpec, density: f64) -> [GearMass; 2] {
+        self.masses.get(&(pair, spec, density), || [0, 1].map(|i| gear_mass(pair, spec, i, density)))
+    }
+
+    /// Tooth pairs of `pair` for approaches up to `reach` [rad].
+    pub fn engagement(&self, pair: &Pair, corner_contact: bool, reach: f64) -> Engagement {
+        self.engagements.get(&(pair, corner_contact, reach), || Engagement::new(pair, corner_contact, reach))
+    }
+
+    /// Stiffness of the tooth pairs of `pair` in the scene `p`.
+    pub fn stiffness(&self, p: &Parameters, pair: &Pair) -> Result<Arc<PairStiffness>, Problem> {
+        let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
+        self.stiffness.get(&(pair, fillet, young, poisson, load), || {
+            PairStiffness::new(pair, &RootSpec { fillet }, young, poisson, load).map(Arc::new)
+        })
+    }
+
+    /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`.
+    pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
+        let origin = (pair, p.geometry.root_fillet, elasticity(p));
+        self.means.get(&origin, || Ok(self.stiffness(p, pair)?.mesh_mean()))
+    }
+}
+
+/// Young's modulus [Pa], Poisson's ratio and the reference line load [N/m] of the scene `p`.
+fn elasticity(p: &Parameters) -> [f64; 3] {
+    [p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load]
+}
+
+/// What is kept in common, and how many share in it.
+struct Common {
+    shares: usize,
+    kept: Option<Arc<Kept>>,
+}
+
+static COMMON: Mutex<Common> = Mutex::new(Common { shares: 0, kept: None });
+
+fn common() -> MutexGuard<'static, Common> {
+    COMMON.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A share in what is kept in common; it is released with the last share.
+#[derive(Debug)]
+pub struct Share(Arc<Kept>);
+
+impl Share {
+    /// A share.
+    #[expect(clippy::new_without_default, reason = "shares are counted")]
+    pub fn new() -> Self {
+        let mut common = common();
+        common.shares += 1;
+        Self(common.kept.get_or_insert_default().clone())
+    }
+}
+
+impl Deref for Share {
+    type Target = Kept;
+
+    fn deref(&self) -> &Kept {
+        &self.0
+    }
+}
+
+impl Drop for Share {
+    fn drop(&mut self) {
+        let mut common = common();
+        common.shares -= 1;
+        if common.shares == 0 {
+            common.kept = None;
+        }
+    }
+}
