@@ -7,23 +7,51 @@ use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::shelf::Shelf;
+use super::solid;
+use crate::contact::damping::Damping;
+use crate::contact::errors::ToothErrorSpec;
+use crate::contact::impact::Impact;
 use crate::contact::pairs::Engagement;
+use crate::contact::solid::mesh::SolidMesh;
 use crate::contact::stiffness::{PairStiffness, RootSpec};
 use crate::geometry::solid::mass::{GearMass, gear_mass};
-use crate::geometry::{GearSpec, Pair};
+use crate::geometry::{GearSpec, Pair, checks};
+use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
+
+/// A pair, and what its geometry lets one object to.
+#[derive(Debug)]
+pub struct CheckedPair {
+    /// The pair.
+    pub pair: Pair,
+    /// Why it cannot be built; empty if it can.
+    pub errors: Vec<Problem>,
+    /// What is unusual about it.
+    pub warnings: Vec<Problem>,
+}
 
 /// What is kept.
 #[derive(Debug, Default)]
 pub struct Kept {
+    pairs: Shelf<Arc<CheckedPair>>,
     masses: Shelf<[GearMass; 2]>,
     engagements: Shelf<Engagement>,
     stiffness: Shelf<Result<Arc<PairStiffness>, Problem>>,
     means: Shelf<Result<f64, Problem>>,
+    solids: Shelf<SolidMesh>,
 }
 
 impl Kept {
+    /// The pair of `spec`, whose pitch angles must be below 90°.
+    pub fn pair(&self, spec: &GearSpec) -> Arc<CheckedPair> {
+        self.pairs.get(spec, || {
+            let pair = Pair::new(spec);
+            let (errors, warnings) = (checks::errors(spec, &pair), checks::warnings(spec, &pair));
+            Arc::new(CheckedPair { pair, errors, warnings })
+        })
+    }
+
     /// Mass properties of planet and side gear of `pair`, made from `spec`, at the density `density` [kg/m³].
     pub fn masses(&self, pair: &Pair, spec: &GearSpec, density: f64) -> [GearMass; 2] {
         self.masses.get(&(pair, spec, density), || [0, 1].map(|i| gear_mass(pair, spec, i, density)))
@@ -46,6 +74,21 @@ impl Kept {
     pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
         let origin = (pair, p.geometry.root_fillet, elasticity(p));
         self.means.get(&origin, || Ok(self.stiffness(p, pair)?.mesh_mean()))
+    }
+
+    /// Solid teeth of `pair` with given facets and errors, pressed together by the law `elastic` and `damping`.
+    pub fn solid(
+        &self,
+        pair: &Pair,
+        (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),
+        elastic: Impact,
+        damping: Damping,
+    ) -> SolidMesh {
+        let origin = (pair, spec, teeth, errors);
+        let mut mesh = self.solids.get(&origin, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
+        // the law does not shape the surfaces
+        (mesh.elastic, mesh.damping) = (elastic, damping);
+        mesh
     }
 }
 

@@ -53,8 +53,9 @@ impl Laws {
         }
         if p.scene.gear_contact == GearContact::Solid {
             let impact = impact(p, pair);
+            let solids = kept.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
             return Ok(Self {
-                law: Law::Solid(Box::new(solid::mesh(p, pair, impact, damping))),
+                law: Law::Solid(Box::new(solids)),
                 spring: AnySpring::Power(impact, pair.mean_cone),
                 slices: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,

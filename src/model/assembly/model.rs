@@ -73,8 +73,9 @@ impl Model {
         if let Some(problem) = checks::shaft_angle(&spec) {
             return Err(vec![problem]);
         }
-        let pair = Pair::new(&spec);
-        let mut problems = checks::errors(&spec, &pair);
+        let checked = kept.pair(&spec);
+        let pair = checked.pair;
+        let mut problems = checked.errors.clone();
         problems.extend(validation::problems(parameters, &pair));
         if !problems.is_empty() {
             return Err(problems);
@@ -91,7 +92,7 @@ impl Model {
         let inertia = Inertias::new(parameters, &masses);
         let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
         let ideal = Ideal { plan, inertia, ratio };
-        let mut warnings = checks::warnings(&spec, &pair);
+        let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
         let bodies = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {

@@ -10,6 +10,8 @@ use serde::Serialize;
 
 /// Places of a shelf.
 pub const PLACES: usize = 16;
+/// Bytes that most origins fit in.
+const USUAL: usize = 1024;
 
 /// A value, once it is made, under the bits of what it follows from.
 struct Place<V> {
@@ -56,7 +58,7 @@ impl<V> Shelf<V> {
 impl<V: Clone> Shelf<V> {
     /// What follows from `origin`: `make` makes it where it is not on the shelf.
     pub fn get(&self, origin: &impl Serialize, make: impl FnOnce() -> V) -> V {
-        match postcard::to_allocvec(origin) {
+        match postcard::to_extend(origin, Vec::with_capacity(USUAL)) {
             Ok(origin) => self.place(origin).get_or_init(make).clone(),
             Err(_) => make(),
         }
