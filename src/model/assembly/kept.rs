@@ -140,3 +140,47 @@ impl Drop for Share {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_parameter_does_not_change_is_the_same_thing() {
+        let (kept, p) = (Kept::default(), Parameters::default());
+        let pair = kept.pair(&p.gears());
+        let stiffness = |p: &Parameters, pair: &Pair| kept.stiffness(p, pair).expect("a stiffness");
+        let here = stiffness(&p, &pair.pair);
+        let mut other = p;
+        (other.material.density, other.contact.damping, other.geometry.planet_count) = (8000.0, 1.0, 4);
+        assert!(Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
+        assert!(Arc::ptr_eq(&pair, &kept.pair(&p.gears())));
+        let changes: [fn(&mut Parameters); 6] = [
+            |p| p.geometry.module *= 1.001,
+            |p| p.geometry.root_fillet *= 1.001,
+            |p| p.material.young_modulus *= 1.001,
+            |p| p.material.poisson_ratio *= 1.001,
+            |p| p.contact.line_load *= 1.001,
+            |p| p.effects.backlash = !p.effects.backlash,
+        ];
+        for change in changes {
+            let mut other = p;
+            change(&mut other);
+            assert!(!Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
+        }
+    }
+
+    #[test]
+    fn solid_teeth_kept_take_the_law_that_is_asked_for() {
+        let (kept, p) = (Kept::default(), Parameters::default());
+        let pair = Pair::new(&p.gears());
+        let mesh = |stiffness: f64, coefficient: f64| {
+            let elastic = Impact { stiffness, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
+            let damping = Damping::Step { coefficient, per_full_depth: 1e4 };
+            let mesh = kept.solid(&pair, (&p.geometry, &p.solid, &solid::errors(&p)), elastic, damping);
+            (mesh.elastic.stiffness, mesh.damping)
+        };
+        let damping = |coefficient: f64| Damping::Step { coefficient, per_full_depth: 1e4 };
+        assert_eq!([mesh(1e9, 5.0), mesh(2e9, 6.0)], [(1e9, damping(5.0)), (2e9, damping(6.0))]);
+    }
+}
