@@ -13,7 +13,8 @@ fn outcome(p: &Parameters, kept: Option<&Kept>) -> String {
     };
     let warnings = format!("{:?}", simulation.warnings());
     let stepped = simulation.advance(1e-4);
-    format!("{warnings} {stepped:?} {:?} {:?}", simulation.state(), simulation.forces())
+    let forces = *simulation.forces();
+    format!("{warnings} {stepped:?} {forces:?} {:?}", simulation.state())
 }
 
 /// Scenes between which all that can be kept is made.
@@ -46,13 +47,13 @@ fn changed(p: &Parameters, row: &Variable) -> Vec<Parameters> {
     let others = match row.access {
         Access::Real(at) => {
             let least = row.range.map_or(1.0, |range| 1e-3 * (range.max - range.min));
-            let move_by = |sign: f64| {
+            let moved = |sign: f64| {
                 with(&|p| {
                     let value = at(p);
-                    *value = if *value == 0.0 { sign * least } else { *value * (1.0 + 1e-3 * sign) };
+                    *value = if *value == 0.0 { least } else { *value * (1.0 + 1e-3 * sign) };
                 })
             };
-            vec![move_by(1.0), move_by(-1.0)]
+            vec![[1.0, -1.0].map(moved).into_iter().find(|p| check_ranges(p).is_empty()).unwrap_or(*p)]
         }
         Access::Integer(at) => vec![with(&|p| *at(p) += 1), with(&|p| *at(p) -= 1)],
         Access::Boolean(at) => vec![with(&|p| *at(p) = !*at(p))],

@@ -11,7 +11,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::guid;
 
-use common::counting_allocator::{CountingAllocator, allocations, live_bytes};
+use common::counting_allocator::{CountingAllocator, allocated_bytes, live_bytes};
 use common::{Host, reference};
 
 /// Counts per thread.
@@ -180,11 +180,11 @@ fn a_reset_keeps_what_the_geometry_gave() {
     let _alone = alone();
     let c = silent(CO_SIMULATION);
     let allocated = |module: f64| {
-        let before = allocations();
+        let before = allocated_bytes();
         initialise(c, module);
         // SAFETY: a live component
         assert_eq!(unsafe { fmi2Reset(c) }, Status::Ok);
-        allocations() - before
+        allocated_bytes() - before
     };
     let [first, again, other, back] = [MODULE, MODULE, 1.01 * MODULE, MODULE].map(allocated);
     assert!(4 * again < first && 4 * again < other && back == again, "{first} {again} {other} {back}");
