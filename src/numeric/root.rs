@@ -61,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn powers_after_play_are_met_to_rounding_in_a_dozen_evaluations() {
+    fn powers_after_play_are_met_to_rounding_in_few_evaluations() {
         for n in 1..=4 {
             for play in [0.0, 0.3, 50.0] {
                 let (found, count) = root(|x| after_play(x, play, n), 100.0);

@@ -1,6 +1,6 @@
 //! What follows from gears and material alone, kept for the next start with the same ones.
 //!
-//! Masses, tables of gaps and tables of compliances take most of a start, and loads, drives and effects do not change them.
+//! Masses, tables of gaps and tables of compliances take most of a start, and loads and drives do not change them.
 //! Each is kept by the bits of all that the function which makes it is given, so that it has the same bits as if made anew.
 
 use std::ops::Deref;
