@@ -7,7 +7,7 @@ use super::instance::Instance;
 use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{finite, row, wrong_type};
-use crate::model::{Direction, InputDerivatives, Inputs, ORDERS, STATES, STENCIL, Simulation};
+use crate::model::{Direction, InputDerivatives, Inputs, Kept, ORDERS, STATES, STENCIL, Simulation};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
 /// Highest order of output derivatives.
@@ -160,7 +160,7 @@ impl Instance {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
-            return initial_derivatives(&self.now, (unknown, &sources), known, values);
+            return initial_derivatives((&self.now, &self.kept), (unknown, &sources), known, values);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
         for (reference, change) in known.0.iter().zip(known.1.iter()) {
@@ -242,7 +242,7 @@ impl<'a> Slopes<'a> {
 /// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
 /// equilibrium.
 fn initial_derivatives(
-    now: &Snapshot,
+    (now, kept): (&Snapshot, &Kept),
     (unknown, sources): (InputArray<u32>, &[OutputSource]),
     (references, change): (InputArray<u32>, InputArray<f64>),
     values: OutputArray<f64>,
@@ -284,7 +284,7 @@ fn initial_derivatives(
     let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
     let mut sums = vec![0.0; sources.len()];
     for &(offset, weight) in offsets {
-        let mut simulation = moved(offset)?.start().map_err(|problems| {
+        let mut simulation = moved(offset)?.start(kept).map_err(|problems| {
             CallError::error(format!(
                 "there is no derivative, because initialisation fails close to these values:\n{}",
                 crate::problem::list(&problems)

@@ -6,7 +6,7 @@ use super::log::{Category, Log};
 use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::declaration::Field;
-use crate::model::{Parameters, Reported, Simulation};
+use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem;
 use crate::variables::{self, Access, Variable};
 
@@ -22,12 +22,14 @@ fn time_tolerance(time: f64, h: f64) -> f64 {
     tolerance.min(STEP_TOLERANCE * h).max(64.0 * f64::EPSILON * time.abs())
 }
 
-/// An instance: a snapshot, and the log, which no snapshot contains.
+/// An instance: a snapshot, and what no snapshot contains.
 pub struct Instance {
     /// Parameters, inputs, phase, simulation.
     pub now: Snapshot,
     /// Messages to the host.
     pub log: Log,
+    /// What all instances keep for their next starts.
+    pub kept: Share,
     /// Warnings that are logged once in a run, so far.
     reported: Reported,
 }
@@ -46,7 +48,7 @@ pub struct Experiment {
 impl Instance {
     /// A new instance with start values.
     pub fn new(kind: Kind, log: Log) -> Self {
-        Self { now: Snapshot::new(kind), log, reported: Reported::default() }
+        Self { now: Snapshot::new(kind), log, kept: Share::new(), reported: Reported::default() }
     }
 
     /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
@@ -133,7 +135,9 @@ impl Instance {
         let now = &mut self.now;
         if now.simulation.is_none() {
             match now.phase {
-                Phase::Initialization => now.simulation = Some(now.start().map_err(|p| initial_problems(&p))?),
+                Phase::Initialization => {
+                    now.simulation = Some(now.start(&self.kept).map_err(|p| initial_problems(&p))?)
+                }
                 phase => {
                     return Err(CallError::error(format!(
                         "outputs have no values in the state \"{}\": initialisation was not completed",

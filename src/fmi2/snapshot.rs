@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::calls::Phase;
 use super::types::Kind;
-use crate::model::{Accepted, InputDerivatives, Inputs, Parameters, Simulation, State};
+use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
@@ -77,12 +77,12 @@ struct Payload {
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
-    pub fn start(&self) -> Result<Simulation, Vec<Problem>> {
+    pub fn start(&self, kept: &Kept) -> Result<Simulation, Vec<Problem>> {
         let problems = check_ranges(&self.parameters);
         if !problems.is_empty() {
             return Err(problems);
         }
-        Simulation::start(&self.effective(), &self.inputs, self.start_time)
+        Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(kept))
     }
 
     /// Parameters for the simulation: in model exchange every planet has its own states.
@@ -119,7 +119,7 @@ impl Snapshot {
     }
 
     /// The snapshot in `bytes`, or why they cannot be used.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
+    pub fn from_bytes(bytes: &[u8], kept: &Kept) -> Result<Self, String> {
         let payload = open(bytes)?;
         let (payload, rest) =
             postcard::take_from_bytes::<Payload>(payload).map_err(|e| format!("the state cannot be read: {e}"))?;
@@ -152,7 +152,8 @@ impl Snapshot {
             simulation: None,
         };
         if let Some(state) = payload.state {
-            let resumed = Simulation::resume(&snapshot.effective(), &inputs, state).map_err(|p| problem::list(&p))?;
+            let resumed = Simulation::resume_with(&snapshot.effective(), &inputs, state, &given(kept));
+            let resumed = resumed.map_err(|p| problem::list(&p))?;
             snapshot.simulation = Some(resumed.from_accepted(payload.accepted));
         }
         Ok(snapshot)
@@ -193,6 +194,10 @@ impl Payload {
         let problems = if self.state.is_some() { check_ranges(&self.parameters) } else { Vec::new() };
         if problems.is_empty() { Ok(()) } else { Err(problem::list(&problems)) }
     }
+}
+
+fn given(kept: &Kept) -> Given<'_> {
+    Given { kept: Some(kept), ..Given::default() }
 }
 
 /// Checks everything around the payload and returns it.

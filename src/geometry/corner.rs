@@ -8,6 +8,8 @@
 //! The closed form costs five transcendental functions. The hot path reads a quintic Hermite table made from its
 //! values and exact derivatives: twice continuously differentiable, so that it does not disturb the integrator.
 
+use std::sync::Arc;
+
 use super::pair::Pair;
 use crate::numeric::{Jet, Scalar, atan2, cos, sin, sin_cos, sqrt, tan};
 
@@ -37,7 +39,7 @@ pub struct CornerGap {
     first: u64,
     /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
     pub spread: f64,
-    cells: Box<[[f64; 6]; CELLS]>,
+    cells: Arc<[[f64; 6]; CELLS]>,
 }
 
 /// Contact of a corner: gap with derivatives, and polar angles about both axes.
@@ -126,7 +128,7 @@ impl CornerGap {
         // the power of two above the span ends the table
         let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
         let first = smallest.to_bits() >> SHIFT;
-        let mut cells = Box::new([[0.0; 6]; CELLS]);
+        let mut cells = [[0.0; 6]; CELLS];
         let mut least_curvature = f64::INFINITY;
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
@@ -144,7 +146,7 @@ impl CornerGap {
             exact,
             first,
             spread: 1.0 / (0.9 * least_curvature),
-            cells,
+            cells: Arc::new(cells),
         }
     }
 

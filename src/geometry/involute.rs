@@ -4,11 +4,12 @@
 //! inv(φ) = ψ/sinδ_b − atan2(tanψ, sinδ_b) the azimuth by which the flank has bent from its base point.
 
 use nalgebra::Vector3;
+use serde::Serialize;
 
 use crate::numeric::{atan2, cos, sin, sqrt, tan};
 
 /// One gear of the pair on the unit sphere, axis +z from apex to heel, tooth centred on azimuth 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Gear {
     /// Number of teeth z.
     pub teeth: i32,

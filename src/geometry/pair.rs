@@ -4,13 +4,15 @@
 //! On the unit sphere the line of action is the great circle tangent to both base circles; s along it is measured from
 //! the pitch point, positive toward the planet's tip, and s = sinδ_b·θ turns both gears alike.
 
+use serde::Serialize;
+
 use super::addendum::tooth_heights;
 use super::involute::Gear;
 use super::spec::GearSpec;
 use crate::numeric::{FRAC_PI_2, PI, TAU, asin, atan2, cos, sin, tan};
 
 /// Geometry of a planet (index 0) meshing with a side gear (index 1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Pair {
     /// The gears on the unit sphere: planet, side gear.
     pub gears: [Gear; 2],
@@ -41,7 +43,7 @@ pub struct Pair {
 }
 
 /// Path of contact as arcs from the pitch point, positive toward the planet's tip.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Path {
     /// End at the side gear's tip [rad], clipped at the planet's base circle.
     pub low: f64,

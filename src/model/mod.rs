@@ -20,6 +20,8 @@ mod setup;
 
 pub use crate::contact::tooth_load::{ToothLoad, Touch};
 pub use assembly::inertias::Inertias;
+pub use assembly::kept::{Kept, Share};
+pub use assembly::model::Given;
 pub use dynamics::accepted::Accepted;
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};

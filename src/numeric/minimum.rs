@@ -42,54 +42,63 @@ impl Search {
     /// The minimum that descent from `start` reaches, if it reaches one.
     pub fn minimum(&self, landscape: &impl Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
         let (mut x, mut damping) = (start, 0.0);
+        let mut value = landscape.value(&x);
         for _ in 0..MAX_ITERATIONS {
             let (gradient, hessian) = landscape.slopes(&x);
             let descended = if gradient.amax() <= self.balance {
                 let Some(way) = downward(&hessian, &self.lean) else {
                     return Some(polished(landscape, x, gradient, hessian));
                 };
-                self.leave(landscape, &x, &way)
+                self.leave(landscape, (&x, value), &way)
             } else {
-                self.step(landscape, &x, (&gradient, &hessian), &mut damping)
+                self.step(landscape, (&x, value), (&gradient, &hessian), &mut damping)
             };
             let Some(next) = descended else {
                 let settled = gradient.amax() <= self.rough && downward(&hessian, &self.lean).is_none();
                 return settled.then_some(x);
             };
-            x = next;
+            (x, value) = next;
         }
         None
     }
 
-    /// A step from a saddle point along `way`, as long as it leads down.
-    fn leave(&self, landscape: &impl Landscape, x: &DVector<f64>, way: &DVector<f64>) -> Option<DVector<f64>> {
-        let value = landscape.value(x);
+    /// A step from a saddle point along `way`, as long as it leads down: where it ends, and the value there.
+    fn leave(
+        &self,
+        landscape: &impl Landscape,
+        (x, value): (&DVector<f64>, f64),
+        way: &DVector<f64>,
+    ) -> Option<(DVector<f64>, f64)> {
         (0..TRIALS as i32)
             .map(|k| x + way * (self.longest / way.amax() * 0.5f64.powi(k)))
-            .find(|trial| landscape.value(trial) < value)
+            .map(|trial| {
+                let there = landscape.value(&trial);
+                (trial, there)
+            })
+            .find(|&(_, there)| there < value)
     }
 
-    /// A damped Newton step that leads down.
+    /// A damped Newton step that leads down: where it ends, and the value there.
     fn step(
         &self,
         landscape: &impl Landscape,
-        x: &DVector<f64>,
+        (x, value): (&DVector<f64>, f64),
         (gradient, hessian): (&DVector<f64>, &DMatrix<f64>),
         damping: &mut f64,
-    ) -> Option<DVector<f64>> {
-        let (value, size) = (landscape.value(x), hessian.diagonal().amax().max(f64::MIN_POSITIVE));
+    ) -> Option<(DVector<f64>, f64)> {
+        let size = hessian.diagonal().amax().max(f64::MIN_POSITIVE);
         for _ in 0..TRIALS {
             let mut damped = hessian.clone();
             (0..x.len()).for_each(|i| damped[(i, i)] += *damping * size);
             let step = damped.cholesky().map(|c| c.solve(gradient));
             if let Some(step) = step.filter(|step| step.amax() < self.longest) {
                 let trial = x - step;
-                let lower = landscape.value(&trial) < value;
+                let there = landscape.value(&trial);
                 // near the minimum values differ by less than their rounding
-                let level = || landscape.value(&trial) <= value + 1e-12 * size;
-                if lower || landscape.slopes(&trial).0.norm() < gradient.norm() && level() {
+                let level = there <= value + 1e-12 * size;
+                if there < value || level && landscape.slopes(&trial).0.norm() < gradient.norm() {
                     *damping = if *damping < 1e-14 { 0.0 } else { *damping * 0.1 };
-                    return Some(trial);
+                    return Some((trial, there));
                 }
             }
             *damping = if *damping == 0.0 { 1e-12 } else { *damping * 10.0 };

@@ -1,14 +1,16 @@
 //! Elementary functions with the same bits on every system, from the `libm` crate, numbers that carry derivatives, and the
-//! search for a minimum.
+//! search for roots and minima.
 
 mod elementary;
 mod jet;
 mod minimum;
+mod root;
 mod scalar;
 mod smooth;
 
 pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sin_cos, sqrt, tan};
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
+pub use root::rising_root;
 pub use scalar::{Dual, Scalar};
 pub use smooth::{Curved, Partials, Smooth};

@@ -6,12 +6,18 @@ use std::cell::Cell;
 
 thread_local! {
     static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+    static ALLOCATED_BYTES: Cell<usize> = const { Cell::new(0) };
     static LIVE_BYTES: Cell<isize> = const { Cell::new(0) };
 }
 
 /// Number of allocations of this thread.
 pub fn allocations() -> usize {
     ALLOCATIONS.get()
+}
+
+/// Bytes that this thread allocated, freed or not.
+pub fn allocated_bytes() -> usize {
+    ALLOCATED_BYTES.get()
 }
 
 /// Bytes that this thread allocated and did not free.
@@ -21,6 +27,7 @@ pub fn live_bytes() -> isize {
 
 fn count(allocations: usize, bytes: isize) {
     ALLOCATIONS.set(ALLOCATIONS.get() + allocations);
+    ALLOCATED_BYTES.set(ALLOCATED_BYTES.get() + usize::try_from(bytes).unwrap_or(0));
     LIVE_BYTES.set(LIVE_BYTES.get() + bytes);
 }
 

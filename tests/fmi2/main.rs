@@ -12,7 +12,6 @@ mod exchange;
 mod exchange_errors;
 mod exchange_events;
 mod instances;
-mod leaks;
 mod logging;
 mod solver;
 mod stack;
@@ -21,6 +20,6 @@ mod stepping;
 mod straight_case;
 mod values;
 
-/// Counts per thread, for the tests of allocations and leaks.
+/// Counts per thread, for the tests of allocations.
 #[global_allocator]
 static ALLOCATOR: common::counting_allocator::CountingAllocator = common::counting_allocator::CountingAllocator;

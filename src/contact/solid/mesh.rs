@@ -64,7 +64,8 @@ const LONGEST: f64 = 1.0;
 /// A mesh of solid teeth.
 #[derive(Clone, Debug)]
 pub struct SolidMesh {
-    pub(super) elastic: Impact,
+    /// Law of a section, as if the whole face were in its state.
+    pub elastic: Impact,
     /// Damping.
     pub damping: Damping,
     pub(super) cone: f64,

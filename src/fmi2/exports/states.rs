@@ -133,10 +133,10 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     state: *mut FmuState,
 ) -> Status {
-    let body = |_: &mut Instance, host: &HostMemory| {
+    let body = |instance: &mut Instance, host: &HostMemory| {
         // SAFETY: the host's promise, see the module
         let bytes = unsafe { host.bytes("serializedState", bytes.cast::<u8>(), size) }?;
-        let snapshot = Snapshot::from_bytes(bytes).map_err(CallError::error)?;
+        let snapshot = Snapshot::from_bytes(bytes, &instance.kept).map_err(CallError::error)?;
         // SAFETY: the host's promise, see the module
         unsafe { store(host.value("FMUstate", state)?, snapshot) }
     };

@@ -1,7 +1,6 @@
 //! Moments of inertia of the bodies, assembled from parameters and solids.
 
-use crate::geometry::Pair;
-use crate::geometry::solid::mass::gear_mass;
+use crate::geometry::solid::mass::GearMass;
 use crate::model::scene::Plan;
 use crate::model::scene::layout::{CARRIER, MAX_DOF};
 use crate::model::setup::Parameters;
@@ -31,9 +30,8 @@ pub struct Inertias {
 }
 
 impl Inertias {
-    /// Inertias of the scene; gear solids scaled to the given inertia where that is given instead.
-    pub fn new(p: &Parameters, pair: &Pair) -> Self {
-        let [planet, side] = [0, 1].map(|i| gear_mass(pair, &p.geometry, i, p.material.density));
+    /// Inertias of the scene from the masses of planet and side gear; scaled to the given inertia where that is given instead.
+    pub fn new(p: &Parameters, [planet, side]: &[GearMass; 2]) -> Self {
         let (side_axial, planet_axial) =
             if p.inertia.from_geometry { (side.axial, planet.axial) } else { (p.inertia.side_gear, p.inertia.planet) };
         let transverse = planet.transverse_at_apex * (planet_axial / planet.axial);
@@ -82,22 +80,24 @@ impl Inertias {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::solid::mass::GearMass;
+    use crate::geometry::Pair;
+    use crate::geometry::solid::mass::gear_mass;
 
     #[test]
     fn planets_turn_with_the_carrier_across_their_axes() {
         let mut p = Parameters::default();
         p.geometry.planet_count = 4;
         let pair = Pair::new(&p.geometry);
-        let GearMass { axial, transverse_at_apex, mass, centre } = gear_mass(&pair, &p.geometry, 0, p.material.density);
-        let j = Inertias::new(&p, &pair);
+        let masses = [0, 1].map(|i| gear_mass(&pair, &p.geometry, i, p.material.density));
+        let GearMass { axial, transverse_at_apex, mass, centre } = masses[0];
+        let j = Inertias::new(&p, &masses);
         assert!((j.carrier / (0.02 + 4.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         assert_eq!(j.planet, axial);
         // given inertias scale the solid
         p.inertia.from_geometry = false;
         p.inertia.planet = 3.0 * axial;
         p.inertia.left_end = 0.5;
-        let j = Inertias::new(&p, &pair);
+        let j = Inertias::new(&p, &masses);
         assert!((j.carrier / (0.02 + 12.0 * transverse_at_apex) - 1.0).abs() < 1e-12);
         let given = p.inertia.side_gear;
         assert_eq!((j.planet, j.side), (3.0 * axial, [given + 0.5, given]));

@@ -6,10 +6,10 @@ use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::impact::Impact;
 use crate::contact::law::{Face, Lumped, Power};
 use crate::contact::mesh::Law;
-use crate::contact::stiffness::{PairStiffness, RootSpec};
 use crate::contact::{ContactLaw, DampingModel, hertz};
 use crate::geometry::Pair;
 use crate::model::assembly::face::centroid;
+use crate::model::assembly::kept::Kept;
 use crate::model::assembly::solid;
 use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
@@ -29,21 +29,17 @@ pub struct Laws {
 
 impl Laws {
     /// Law of the scene; `cut` asks for loads that differ over the face, where the law holds at every cone distance.
-    pub fn new(p: &Parameters, pair: &Pair, cut: bool) -> Result<Self, Problem> {
+    pub fn new(p: &Parameters, pair: &Pair, cut: bool, kept: &Kept) -> Result<Self, Problem> {
         let damping = Self::damping(p);
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
-        let stiffness = || {
-            let root = RootSpec { fillet: p.geometry.root_fillet };
-            PairStiffness::new(pair, &root, p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load)
-        };
         // a resultant at `cone` of a load that grows with R, spread so that the line load is the one there
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
         let whole = |cone: f64, weight: f64| CutFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
             let per_width = if p.contact.mesh_stiffness_from_geometry {
-                stiffness()?.mesh_mean()
+                kept.mesh_mean(p, pair)?
             } else {
                 p.contact.mesh_stiffness
             };
@@ -57,8 +53,9 @@ impl Laws {
         }
         if p.scene.gear_contact == GearContact::Solid {
             let impact = impact(p, pair);
+            let solids = kept.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
             return Ok(Self {
-                law: Law::Solid(Box::new(solid::mesh(p, pair, impact, damping))),
+                law: Law::Solid(Box::new(solids)),
                 spring: AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone }),
                 face: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,
@@ -75,14 +72,14 @@ impl Laws {
                 Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
             }
             ContactLaw::Line => {
-                let specific = stiffness()?.line();
+                let specific = kept.stiffness(p, pair)?.line();
                 let spring = AnySpring::Line(specific.clone());
                 let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::cut(inner, outer) } else { whole(centroid, moment) };
                 Self { law, spring, face, cone: centroid }
             }
             ContactLaw::LineWeber => {
-                let specific = stiffness()?.line_weber();
+                let specific = kept.stiffness(p, pair)?.line_weber();
                 let spring = AnySpring::LineWeber(specific.clone());
                 let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::sliced(inner, outer) } else { whole(centroid, moment) };

@@ -4,6 +4,7 @@ use super::additions::Additions;
 use super::body_effects::BodyEffects;
 use super::ideal::Ideal;
 use super::inertias::Inertias;
+use super::kept::Kept;
 use super::laws::Laws;
 use super::rigid::Rigid;
 use super::solid;
@@ -31,6 +32,15 @@ pub enum Gears {
     Teeth(Box<Teeth>),
 }
 
+/// What a model is given besides the parameters.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Given<'a> {
+    /// Teeth of all gears in place of those that the seed of tooth errors gives.
+    pub teeth: Option<&'a [GearTeeth]>,
+    /// What is kept from starts before.
+    pub kept: Option<&'a Kept>,
+}
+
 /// Everything derived from the parameters; it does not change while a simulation runs, but for tunable parameters.
 #[derive(Clone, Debug)]
 pub struct Model {
@@ -53,38 +63,41 @@ pub struct Model {
 }
 
 impl Model {
-    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface. `given` are
-    /// the teeth of all gears in place of those that the seed of tooth errors gives.
-    pub fn new(parameters: &Parameters, given: Option<&[GearTeeth]>) -> Result<Self, Vec<Problem>> {
+    /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
+    pub fn new(parameters: &Parameters, given: &Given) -> Result<Self, Vec<Problem>> {
+        let own = Kept::default();
+        let kept = given.kept.unwrap_or(&own);
         let spec = parameters.gears();
         if let Some(problem) = checks::shaft_angle(&spec) {
             return Err(vec![problem]);
         }
-        let pair = Pair::new(&spec);
-        let mut problems = checks::errors(&spec, &pair);
+        let checked = kept.pair(&spec);
+        let pair = checked.pair;
+        let mut problems = checked.errors.clone();
         problems.extend(validation::problems(parameters, &pair));
         if !problems.is_empty() {
             return Err(problems);
         }
         let mut effects = parameters.scene_effects(&pair);
-        effects.setting.teeth = given;
+        effects.setting.teeth = given.teeth;
         let setting = effects.setting;
         let tooth = tooth_effects(parameters, &effects).map_err(|p| vec![p])?;
         let requests = effects.requests();
         let individual = tooth.individual || !parameters.solver.merge_planets;
         let plan = Plan::new(&parameters.scene, &spec, &pair, &Requests { individual, ..requests });
         let plan = plan.map_err(|p| vec![p])?;
-        let inertia = Inertias::new(parameters, &pair);
+        let masses = kept.masses(&pair, &parameters.geometry, parameters.material.density);
+        let inertia = Inertias::new(parameters, &masses);
         let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
         let ideal = Ideal { plan, inertia, ratio };
-        let mut warnings = checks::warnings(&spec, &pair);
+        let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
         let bodies = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
-                let laws = Laws::new(parameters, &pair, tooth.sliced).map_err(|p| vec![p])?;
-                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, laws, tooth, bodies)))
+                let laws = Laws::new(parameters, &pair, tooth.sliced, kept).map_err(|p| vec![p])?;
+                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, bodies), kept)))
             }
         };
         let strength = if BUILT && parameters.effects.strength {
@@ -137,9 +150,8 @@ fn teeth(
     p: &Parameters,
     effects: &SceneEffects,
     ideal: &Ideal,
-    laws: Laws,
-    tooth: ToothEffects,
-    mut bodies: BodyEffects,
+    (laws, tooth, mut bodies): (Laws, ToothEffects, BodyEffects),
+    kept: &Kept,
 ) -> Teeth {
     let (pair, plan) = (effects.setting.pair, ideal.plan);
     let friction = effects.on_flanks();
@@ -148,7 +160,8 @@ fn teeth(
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
     bodies.always |= in_detail || p.effects.strength;
-    let mesh = Mesh::new(pair, laws.law, laws.cone, p.effects.corner_contact, deflection_limit);
+    let engagement = kept.engagement(pair, p.effects.corner_contact, deflection_limit);
+    let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
     (detailed.thrust, detailed.seats) = (bodies.needs_loads(), plan.pins);
     let additions = Additions {

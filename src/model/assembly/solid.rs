@@ -5,16 +5,21 @@ use crate::contact::errors::ToothErrorSpec;
 use crate::contact::impact::Impact;
 use crate::contact::solid::mesh::{SolidMesh, SolidSlice, SolidSpec};
 use crate::contact::solid::pose::Displacement;
-use crate::geometry::Pair;
 use crate::geometry::assembly::azimuth;
+use crate::geometry::{GearSpec, Pair};
 use crate::model::assembly::face::gauss_slices;
+use crate::model::scene::SolidTeeth;
 use crate::model::setup::Parameters;
 use crate::numeric::{cos, sin};
 
-/// Mesh of the scene `p` with the elastic law and damping of a pair.
-pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> SolidMesh {
-    let errors = errors(p);
-    let displaced = displaced(&errors, p.geometry.planet_count);
+/// Mesh of `pair`, made from `spec`, with given facets and errors and the elastic law and damping of a pair.
+pub fn mesh(
+    pair: &Pair,
+    (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),
+    elastic: Impact,
+    damping: Damping,
+) -> SolidMesh {
+    let displaced = displaced(errors, spec.planet_count);
     let width = pair.outer_cone - pair.inner_cone;
     let alike = errors.crowning == 0.0 && displaced.iter().flatten().all(|d| d.along == [0.0; 2] && d.across == 0.0);
     let slice = |(cone, part): (f64, f64)| {
@@ -30,10 +35,10 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
         let edges = [pair.inner_cone, pair.mean_cone, pair.outer_cone].map(|cone| slice((cone, 0.0)));
         (sections.collect(), edges.to_vec())
     };
-    let spec = SolidSpec {
-        fillet: p.geometry.root_fillet * pair.module / pair.outer_cone,
-        facets: usize::try_from(p.solid.facets).unwrap_or(1).max(1),
-        smoothing: p.solid.smoothing,
+    let solids = SolidSpec {
+        fillet: spec.root_fillet * pair.module / pair.outer_cone,
+        facets: usize::try_from(teeth.facets).unwrap_or(1).max(1),
+        smoothing: teeth.smoothing,
         slices,
         displaced,
     };
@@ -41,7 +46,7 @@ pub fn mesh(p: &Parameters, pair: &Pair, elastic: Impact, damping: Damping) -> S
         + errors.side_axial_offset.abs()
         + 2.0 * errors.axis_offset.abs()
         + pair.outer_cone * errors.shaft_angle_error.abs();
-    let mut mesh = SolidMesh::new(pair, &spec, elastic, damping, slack);
+    let mut mesh = SolidMesh::new(pair, &solids, elastic, damping, slack);
     mesh.edges = edges;
     mesh
 }
@@ -52,7 +57,8 @@ pub fn is_individual(p: &Parameters) -> bool {
     displaced.iter().any(|d| *d != displaced[0])
 }
 
-fn errors(p: &Parameters) -> ToothErrorSpec {
+/// Errors of solid teeth in the scene `p`.
+pub fn errors(p: &Parameters) -> ToothErrorSpec {
     if p.effects.tooth_errors { p.specs.tooth_errors } else { ToothErrorSpec::default() }
 }
 

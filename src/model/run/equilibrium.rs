@@ -4,11 +4,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::excessive_deflection::limit_name;
 use super::hints;
-use crate::integrate::{Matrix, Point};
+use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::Teeth;
 use crate::model::dynamics::equations::Equations;
-use crate::numeric::{Landscape, Search, sqrt};
+use crate::numeric::{Landscape, Search, rising_root, sqrt};
 use crate::problem::Problem;
 
 /// Longest step of the search for an equilibrium [base pitches]: the potential tilts under unequal loads, and a long
@@ -29,6 +29,17 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         (self.tooth_torques(&still).0, self.tooth_stiffness(at))
     }
 
+    /// Torque that the teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
+    fn carried(&self, s: usize, at: &Point<N>) -> [f64; 2] {
+        let mut mesh = [[0.0; 2]; G];
+        for g in 0..G {
+            let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+            mesh[g] = [force.force[0], by.by_position[0][0]];
+        }
+        let arm = self.teeth.sin_base[1];
+        [in_pairs(G, |g| self.members(g) * arm * mesh[g][0]), in_pairs(G, |g| self.members(g) * arm * arm * mesh[g][1])]
+    }
+
     /// Energy that belongs to [`Self::statics`].
     fn static_energy(&self, at: &Point<N>) -> f64 {
         if WITH_EFFECTS && (self.in_detail() || P > 0) { self.stored(at, false) } else { self.elastic_energy(at) }
@@ -43,20 +54,20 @@ pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EF
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> Result<(), Problem> {
+    let largest = (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
     for s in 0..2 {
         point.q[s] = 0.0;
         if torque[s] == 0.0 {
             continue;
         }
-        // Q_α falls steadily with α: bracket between mid-gap and the angle of the largest deflection
-        let mut free = 0.0;
-        let mut pressed =
-            -torque[s].signum() * (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
-        let excess = |alpha: f64, point: &mut Point<N>| {
-            point.q[s] = alpha;
-            (equations.tooth_torques(point).0[s] - torque[s]) * torque[s].signum()
+        let (load, against) = (torque[s].abs(), -torque[s].signum());
+        let carry = |angle: f64| {
+            let mut turned = *point;
+            turned.q[s] = against * angle;
+            let [carried, by_angle] = equations.carried(s, &turned);
+            [-against * carried - load, -by_angle]
         };
-        if excess(pressed, point) < 0.0 {
+        let Some(angle) = rising_root(carry, largest, BALANCE * load) else {
             let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
             return Err(Problem::new(
                 name,
@@ -67,15 +78,8 @@ pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EF
                     hints::stiffer_teeth(&model.parameters)
                 ),
             ));
-        }
-        for _ in 0..200 {
-            let middle = 0.5 * (free + pressed);
-            if middle == free || middle == pressed {
-                break;
-            }
-            if excess(middle, point) < 0.0 { free = middle } else { pressed = middle }
-        }
-        point.q[s] = pressed;
+        };
+        point.q[s] = against * angle;
     }
     Ok(())
 }

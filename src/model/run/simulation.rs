@@ -5,8 +5,7 @@ use std::sync::Arc;
 use super::events::{break_tooth, end_of_stretch, update_friction};
 use super::failure::StepFailure;
 use super::{imposed, start, stretch};
-use crate::contact::errors::GearTeeth;
-use crate::model::assembly::model::{Gears, Model};
+use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::{by_size, with_equations};
 use crate::model::dynamics::state::State;
@@ -33,15 +32,15 @@ pub struct Simulation {
 impl Simulation {
     /// Starts a simulation at `time` [s]; values must be within the ranges of the interface.
     pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
-        Self::start_with(parameters, inputs, time, None)
+        Self::start_with(parameters, inputs, time, &Given::default())
     }
 
-    /// The same with the teeth `given` of all gears in place of those that the seed of tooth errors gives.
+    /// The same with what is `given` besides.
     pub fn start_with(
         parameters: &Parameters,
         inputs: &Inputs,
         time: f64,
-        given: Option<&[GearTeeth]>,
+        given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, State::at_rest(time, FIRST_STEP), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
@@ -66,15 +65,15 @@ impl Simulation {
 
     /// A simulation of `parameters` that continues from `state`.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        Self::resume_with(parameters, inputs, state, None)
+        Self::resume_with(parameters, inputs, state, &Given::default())
     }
 
-    /// The same with the teeth `given` of all gears.
+    /// The same with what is `given` besides.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
         state: State,
-        given: Option<&[GearTeeth]>,
+        given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
         Ok(Self { model, state, inputs: *inputs, forces: None, accepted: None })

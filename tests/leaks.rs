@@ -1,14 +1,30 @@
-//! No leaks: ten thousand instances, states and refused calls leave the live bytes of the heap unchanged.
+//! No leaks: ten thousand instances, states and refused calls leave the live bytes of the heap unchanged, and what instances
+//! keep for their next starts goes with the last of them.
+//!
+//! A program of its own, and one test at a time: all instances of a program share what they keep.
+
+mod common;
 
 use std::ptr;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::guid;
 
-use crate::common::counting_allocator::live_bytes;
-use crate::common::{Host, reference};
+use common::counting_allocator::{CountingAllocator, allocated_bytes, live_bytes};
+use common::{Host, reference};
+
+/// Counts per thread.
+#[global_allocator]
+static ALLOCATOR: CountingAllocator = CountingAllocator;
 
 const MANY: usize = 10_000;
+
+/// Held by the test that runs.
+fn alone() -> MutexGuard<'static, ()> {
+    static TURN: Mutex<()> = Mutex::new(());
+    TURN.lock().unwrap_or_else(PoisonError::into_inner)
+}
 
 /// Bytes that `MANY` runs of `once` leave allocated, after some runs that initialise what a process needs only once.
 fn left_behind(mut once: impl FnMut(usize)) -> isize {
@@ -29,6 +45,7 @@ fn silent(kind: i32) -> ComponentPointer {
 
 #[test]
 fn ten_thousand_instances_leave_nothing_behind() {
+    let _alone = alone();
     let (level, module) = (reference("scene.gear_contact"), reference("geometry.module"));
     let left = left_behind(|i| {
         let c = silent(i as i32 % 2);
@@ -54,6 +71,7 @@ fn ten_thousand_instances_leave_nothing_behind() {
 
 #[test]
 fn ten_thousand_states_leave_nothing_behind() {
+    let _alone = alone();
     for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
         let c = silent(kind);
         // SAFETY: live component and states, and memory of these sizes
@@ -85,6 +103,7 @@ fn ten_thousand_states_leave_nothing_behind() {
 
 #[test]
 fn ten_thousand_initialisations_of_one_instance_leave_nothing_behind() {
+    let _alone = alone();
     let (module, c) = (reference("geometry.module"), silent(CO_SIMULATION));
     let left = left_behind(|i| {
         // SAFETY: a live component, one value
@@ -103,9 +122,110 @@ fn ten_thousand_initialisations_of_one_instance_leave_nothing_behind() {
 
 #[test]
 fn a_leak_is_detected() {
+    let _alone = alone();
     let host = Host::new();
     let mut states = Vec::with_capacity(MANY + 8);
     let left = left_behind(|_| states.push(host.get_state()));
     assert!(left >= (MANY * 100) as isize, "{left} bytes");
     states.into_iter().for_each(|state| host.free_state(state));
+}
+
+/// Initialises `c` with teeth whose stiffness follows from their geometry, of the module `module` [m].
+fn initialise(c: ComponentPointer, module: f64) {
+    let (law, place) = (reference("contact.law"), reference("geometry.module"));
+    // SAFETY: a live component, one value each
+    let statuses = unsafe {
+        [
+            fmi2SetInteger(c, &law, 1, &2),
+            fmi2SetReal(c, &place, 1, &module),
+            fmi2EnterInitializationMode(c),
+            fmi2ExitInitializationMode(c),
+        ]
+    };
+    assert_eq!(statuses, [Status::Ok; 4]);
+}
+
+fn free(c: ComponentPointer) {
+    // SAFETY: a live component, the last use of it
+    unsafe { fmi2FreeInstance(c) };
+}
+
+const MODULE: f64 = 0.0045;
+
+#[test]
+fn instances_share_what_they_keep_and_the_last_one_frees_it() {
+    let _alone = alone();
+    let new = || {
+        let c = silent(CO_SIMULATION);
+        initialise(c, MODULE);
+        c
+    };
+    free(new());
+    let before = live_bytes();
+    let first = new();
+    let alone = live_bytes() - before;
+    let second = new();
+    let more = live_bytes() - before - alone;
+    assert!(4 * more < alone, "{alone} bytes, then {more}");
+    free(first);
+    let third = new();
+    assert_eq!(live_bytes() - before, alone + more);
+    free(second);
+    free(third);
+    assert_eq!(live_bytes(), before);
+}
+
+#[test]
+fn a_reset_keeps_what_the_geometry_gave() {
+    let _alone = alone();
+    let c = silent(CO_SIMULATION);
+    let allocated = |module: f64| {
+        let before = allocated_bytes();
+        initialise(c, module);
+        // SAFETY: a live component
+        assert_eq!(unsafe { fmi2Reset(c) }, Status::Ok);
+        allocated_bytes() - before
+    };
+    let [first, again, other, back] = [MODULE, MODULE, 1.01 * MODULE, MODULE].map(allocated);
+    assert!(4 * again < first && 4 * again < other && back == again, "{first} {again} {other} {back}");
+    free(c);
+}
+
+#[test]
+fn many_geometries_are_not_all_kept() {
+    let _alone = alone();
+    let (c, before) = (silent(CO_SIMULATION), live_bytes());
+    let after = |geometries: std::ops::Range<usize>| {
+        for i in geometries {
+            initialise(c, MODULE * (1.0 + 1e-4 * i as f64));
+            // SAFETY: a live component
+            assert_eq!(unsafe { fmi2Reset(c) }, Status::Ok);
+        }
+        live_bytes() - before
+    };
+    let [few, many, more] = [0..4, 4..40, 40..100].map(after);
+    assert!(many < 5 * few, "{few} {many}");
+    assert!((more - many).abs() < few / 4, "{few} {many} {more}");
+    free(c);
+}
+
+#[test]
+fn instances_of_many_threads_leave_nothing_behind() {
+    let _alone = alone();
+    let run = |thread: usize| {
+        let before = live_bytes();
+        for i in 0..24 {
+            let held = silent(CO_SIMULATION);
+            initialise(held, MODULE * (1.0 + 1e-3 * ((thread + i) % 6) as f64));
+            free(held);
+        }
+        live_bytes() - before
+    };
+    // what a process and its threads need only once
+    run(0);
+    let left: isize = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..8).map(|thread| scope.spawn(move || run(thread))).collect();
+        threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+    });
+    assert_eq!(left, 0);
 }

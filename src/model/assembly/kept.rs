@@ -1,0 +1,186 @@
+//! What follows from gears and material alone, kept for the next start with the same ones.
+//!
+//! Masses, tables of gaps and tables of compliances take most of a start, and loads and drives do not change them.
+//! Each is kept by the bits of all that the function which makes it is given, so that it has the same bits as if made anew.
+
+use std::ops::Deref;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::shelf::Shelf;
+use super::solid;
+use crate::contact::damping::Damping;
+use crate::contact::errors::ToothErrorSpec;
+use crate::contact::impact::Impact;
+use crate::contact::pairs::Engagement;
+use crate::contact::solid::mesh::SolidMesh;
+use crate::contact::stiffness::{PairStiffness, RootSpec};
+use crate::geometry::solid::mass::{GearMass, gear_mass};
+use crate::geometry::{GearSpec, Pair, checks};
+use crate::model::scene::SolidTeeth;
+use crate::model::setup::Parameters;
+use crate::problem::Problem;
+
+/// A pair, and what its geometry lets one object to.
+#[derive(Debug)]
+pub struct CheckedPair {
+    /// The pair.
+    pub pair: Pair,
+    /// Why it cannot be built; empty if it can.
+    pub errors: Vec<Problem>,
+    /// What is unusual about it.
+    pub warnings: Vec<Problem>,
+}
+
+/// What is kept.
+#[derive(Debug, Default)]
+pub struct Kept {
+    pairs: Shelf<Arc<CheckedPair>>,
+    masses: Shelf<[GearMass; 2]>,
+    engagements: Shelf<Engagement>,
+    stiffness: Shelf<Result<Arc<PairStiffness>, Problem>>,
+    means: Shelf<Result<f64, Problem>>,
+    solids: Shelf<SolidMesh>,
+}
+
+impl Kept {
+    /// The pair of `spec`, whose pitch angles must be below 90°.
+    pub fn pair(&self, spec: &GearSpec) -> Arc<CheckedPair> {
+        self.pairs.get(spec, || {
+            let pair = Pair::new(spec);
+            let (errors, warnings) = (checks::errors(spec, &pair), checks::warnings(spec, &pair));
+            Arc::new(CheckedPair { pair, errors, warnings })
+        })
+    }
+
+    /// Mass properties of planet and side gear of `pair`, made from `spec`, at the density `density` [kg/m³].
+    pub fn masses(&self, pair: &Pair, spec: &GearSpec, density: f64) -> [GearMass; 2] {
+        self.masses.get(&(pair, spec, density), || [0, 1].map(|i| gear_mass(pair, spec, i, density)))
+    }
+
+    /// Tooth pairs of `pair` for approaches up to `reach` [rad].
+    pub fn engagement(&self, pair: &Pair, corner_contact: bool, reach: f64) -> Engagement {
+        self.engagements.get(&(pair, corner_contact, reach), || Engagement::new(pair, corner_contact, reach))
+    }
+
+    /// Stiffness of the tooth pairs of `pair` in the scene `p`.
+    pub fn stiffness(&self, p: &Parameters, pair: &Pair) -> Result<Arc<PairStiffness>, Problem> {
+        let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
+        self.stiffness.get(&(pair, fillet, young, poisson, load), || {
+            PairStiffness::new(pair, &RootSpec { fillet }, young, poisson, load).map(Arc::new)
+        })
+    }
+
+    /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`.
+    pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
+        let origin = (pair, p.geometry.root_fillet, elasticity(p));
+        self.means.get(&origin, || Ok(self.stiffness(p, pair)?.mesh_mean()))
+    }
+
+    /// Solid teeth of `pair` with given facets and errors, pressed together by the law `elastic` and `damping`.
+    pub fn solid(
+        &self,
+        pair: &Pair,
+        (spec, teeth, errors): (&GearSpec, &SolidTeeth, &ToothErrorSpec),
+        elastic: Impact,
+        damping: Damping,
+    ) -> SolidMesh {
+        let origin = (pair, spec, teeth, errors);
+        let mut mesh = self.solids.get(&origin, || solid::mesh(pair, (spec, teeth, errors), elastic, damping));
+        // the law does not shape the surfaces
+        (mesh.elastic, mesh.damping) = (elastic, damping);
+        mesh
+    }
+}
+
+/// Young's modulus [Pa], Poisson's ratio and the reference line load [N/m] of the scene `p`.
+fn elasticity(p: &Parameters) -> [f64; 3] {
+    [p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load]
+}
+
+/// What is kept in common, and how many share in it.
+struct Common {
+    shares: usize,
+    kept: Option<Arc<Kept>>,
+}
+
+static COMMON: Mutex<Common> = Mutex::new(Common { shares: 0, kept: None });
+
+fn common() -> MutexGuard<'static, Common> {
+    COMMON.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A share in what is kept in common; it is released with the last share.
+#[derive(Debug)]
+pub struct Share(Arc<Kept>);
+
+impl Share {
+    /// A share.
+    #[expect(clippy::new_without_default, reason = "shares are counted")]
+    pub fn new() -> Self {
+        let mut common = common();
+        common.shares += 1;
+        Self(common.kept.get_or_insert_default().clone())
+    }
+}
+
+impl Deref for Share {
+    type Target = Kept;
+
+    fn deref(&self) -> &Kept {
+        &self.0
+    }
+}
+
+impl Drop for Share {
+    fn drop(&mut self) {
+        let mut common = common();
+        common.shares -= 1;
+        if common.shares == 0 {
+            common.kept = None;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_parameter_does_not_change_is_the_same_thing() {
+        let (kept, p) = (Kept::default(), Parameters::default());
+        let pair = kept.pair(&p.gears());
+        let stiffness = |p: &Parameters, pair: &Pair| kept.stiffness(p, pair).expect("a stiffness");
+        let here = stiffness(&p, &pair.pair);
+        let mut other = p;
+        (other.material.density, other.contact.damping, other.geometry.planet_count) = (8000.0, 1.0, 4);
+        assert!(Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
+        assert!(Arc::ptr_eq(&pair, &kept.pair(&p.gears())));
+        let changes: [fn(&mut Parameters); 6] = [
+            |p| p.geometry.module *= 1.001,
+            |p| p.geometry.root_fillet *= 1.001,
+            |p| p.material.young_modulus *= 1.001,
+            |p| p.material.poisson_ratio *= 1.001,
+            |p| p.contact.line_load *= 1.001,
+            |p| p.effects.backlash = !p.effects.backlash,
+        ];
+        for change in changes {
+            let mut other = p;
+            change(&mut other);
+            assert!(!Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
+        }
+    }
+
+    #[test]
+    fn solid_teeth_kept_take_the_law_that_is_asked_for() {
+        let (kept, p) = (Kept::default(), Parameters::default());
+        let pair = Pair::new(&p.gears());
+        let mesh = |stiffness: f64, coefficient: f64| {
+            let elastic = Impact { stiffness, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
+            let damping = Damping::Step { coefficient, per_full_depth: 1e4 };
+            let mesh = kept.solid(&pair, (&p.geometry, &p.solid, &solid::errors(&p)), elastic, damping);
+            (mesh.elastic.stiffness, mesh.damping)
+        };
+        let damping = |coefficient: f64| Damping::Step { coefficient, per_full_depth: 1e4 };
+        assert_eq!([mesh(1e9, 5.0), mesh(2e9, 6.0)], [(1e9, damping(5.0)), (2e9, damping(6.0))]);
+    }
+}

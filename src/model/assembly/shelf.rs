@@ -1,0 +1,140 @@
+//! Values kept for the next time they are asked for, by the exact bits of what they follow from.
+//!
+//! A shelf has few places; the value that was not asked for the longest makes way. Several threads may share it: one makes
+//! a value, the others wait for it.
+
+use std::fmt;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use serde::Serialize;
+
+/// Places of a shelf.
+pub const PLACES: usize = 16;
+/// Bytes that most origins fit in.
+const USUAL: usize = 1024;
+
+/// A value, once it is made, under the bits of what it follows from.
+struct Place<V> {
+    origin: Vec<u8>,
+    value: Arc<OnceLock<V>>,
+}
+
+/// A shelf of values, the last asked for first.
+pub struct Shelf<V> {
+    places: Mutex<Vec<Place<V>>>,
+}
+
+impl<V> Default for Shelf<V> {
+    fn default() -> Self {
+        Self { places: Mutex::default() }
+    }
+}
+
+impl<V> fmt::Debug for Shelf<V> {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.debug_struct("Shelf").field("filled", &self.places().len()).finish()
+    }
+}
+
+impl<V> Shelf<V> {
+    /// The places; whoever panicked while holding them left them whole.
+    fn places(&self) -> MutexGuard<'_, Vec<Place<V>>> {
+        self.places.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The place for what follows from `origin`, now the first.
+    fn place(&self, origin: Vec<u8>) -> Arc<OnceLock<V>> {
+        let mut places = self.places();
+        if let Some(found) = places.iter().position(|place| place.origin == origin) {
+            places[..=found].rotate_right(1);
+        } else {
+            places.truncate(PLACES - 1);
+            places.insert(0, Place { origin, value: Arc::default() });
+        }
+        places[0].value.clone()
+    }
+}
+
+impl<V: Clone> Shelf<V> {
+    /// What follows from `origin`: `make` makes it where it is not on the shelf.
+    pub fn get(&self, origin: &impl Serialize, make: impl FnOnce() -> V) -> V {
+        match postcard::to_extend(origin, Vec::with_capacity(USUAL)) {
+            Ok(origin) => self.place(origin).get_or_init(make).clone(),
+            Err(_) => make(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    use std::sync::Barrier;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn a_value_is_made_once_for_the_same_bits_and_anew_for_others() {
+        let (shelf, made) = (Shelf::default(), Cell::new(0));
+        let get = |x: f64, n: i32| {
+            shelf.get(&(x, n), || {
+                made.set(made.get() + 1);
+                made.get()
+            })
+        };
+        assert_eq!([get(1.0, 2), get(1.0, 2)], [1, 1]);
+        // the next number, the other zero, another integer
+        assert_eq!([get(1.0f64.next_up(), 2), get(0.0, 2), get(-0.0, 2), get(1.0, -2)], [2, 3, 4, 5]);
+        assert_eq!([get(-0.0, 2), get(1.0, 2), get(f64::NAN, 0), get(f64::NAN, 0)], [4, 1, 6, 6]);
+    }
+
+    #[test]
+    fn the_value_not_asked_for_the_longest_makes_way() {
+        let (shelf, value) = (Shelf::default(), Arc::new(()));
+        let get = |n: usize| {
+            let made = Cell::new(false);
+            shelf.get(&n, || {
+                made.set(true);
+                value.clone()
+            });
+            made.get()
+        };
+        assert!((0..PLACES).all(get));
+        assert!((0..PLACES).all(|n| !get(n)));
+        // asked for again, 0 stays, and 1 goes
+        assert!(!get(0) && get(PLACES) && !get(0) && get(1));
+        assert!((100..1000).all(get));
+        assert_eq!((shelf.places().len(), Arc::strong_count(&value)), (PLACES, PLACES + 1));
+        drop(shelf);
+        assert_eq!(Arc::strong_count(&value), 1);
+    }
+
+    #[test]
+    fn threads_share_one_value() {
+        let (shelf, made, begin) = (Shelf::default(), AtomicUsize::new(0), Barrier::new(8));
+        let value = || Arc::new(made.fetch_add(1, Ordering::Relaxed));
+        std::thread::scope(|scope| {
+            let run = || {
+                begin.wait();
+                (0..100).map(|n| shelf.get(&(n % 10), value)).collect::<Vec<_>>()
+            };
+            let threads: Vec<_> = (0..8).map(|_| scope.spawn(run)).collect();
+            let seen: Vec<_> = threads.into_iter().map(|thread| thread.join().unwrap()).collect();
+            assert!(seen.iter().flatten().zip(seen[0].iter().cycle()).all(|(a, b)| Arc::ptr_eq(a, b)));
+        });
+        assert_eq!(made.load(Ordering::Relaxed), 10);
+    }
+
+    #[test]
+    fn a_panic_leaves_the_shelf_usable() {
+        let shelf = Shelf::default();
+        assert!(catch_unwind(AssertUnwindSafe(|| shelf.get(&1, || panic!("no value")))).is_err());
+        let poisoned = catch_unwind(AssertUnwindSafe(|| {
+            let _held = shelf.places();
+            panic!("with the places in hand");
+        }));
+        assert!(poisoned.is_err() && shelf.places.is_poisoned());
+        assert_eq!([shelf.get(&1, || 5), shelf.get(&1, || 6)], [5, 5]);
+    }
+}
