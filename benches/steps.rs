@@ -2,11 +2,11 @@
 //! out, and for counting instructions.
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
-//! "reversal" of the loads every 50 steps, "fixed_step=SIZE"; "unread" leaves the forces at the end unread, so that nothing
-//! but steps is counted.
+//! "reversal" of the loads every 50 steps, "fixed_step=SIZE", "solid=FACETS" for solid teeth; "unread" leaves the forces at
+//! the end unread, so that nothing but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{EFFECTS, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{EFFECTS, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
 use bevel_differential::variables::{Access, table};
 
 /// Sets the variable `name` to `value`.
@@ -66,6 +66,10 @@ fn main() {
             name => match name.split_once('=') {
                 Some(("fixed_step", size)) => {
                     (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
+                }
+                Some(("solid", facets)) => {
+                    p.scene.gear_contact = GearContact::Solid;
+                    p.solid.facets = facets.parse().expect("a number of facets");
                 }
                 _ => switch(&mut p, &mut i, name),
             },
