@@ -12,19 +12,18 @@
 //! the resultant acts at R_m and V is that of tooth pairs on the path of contact. On misaligned or crowned flanks
 //! every section carries the load of its own overlap.
 
-use std::ops::RangeInclusive;
-
 use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
 use super::overlap::{FlankSection, Softness};
-use super::pose::{Displacement, Placement};
+use super::pose::{Displacement, Placement, Pose, Teeth};
+use super::turned::Both;
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
 use crate::contact::pairs::Flank;
 use crate::contact::state::{MeshForce, MeshJacobian, MeshState};
 use crate::geometry::Pair;
-use crate::numeric::{Curved, Dual, Smooth, tan};
+use crate::numeric::tan;
 
 /// A section across the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +68,7 @@ pub struct SolidMesh {
     pub damping: Damping,
     pub(super) cone: f64,
     flanks: Flanks,
+    teeth: Teeth,
     candidates: Candidates,
     pub(super) soft: Softness,
     pub(super) slices: Vec<SolidSlice>,
@@ -90,7 +90,7 @@ impl SolidMesh {
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
         let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
         let soft = Softness::new(width, relative, LONGEST);
-        let ahead = soft.ahead;
+        let slack = slack / pair.inner_cone;
         let placements = spec
             .displaced
             .iter()
@@ -100,8 +100,10 @@ impl SolidMesh {
             elastic,
             damping,
             cone: pair.mean_cone,
-            candidates: Candidates::new(pair, &flanks, slack / pair.inner_cone + soft.reach()),
+            candidates: Candidates::new(pair, &flanks, slack + soft.reach(), slack + soft.ahead),
             flanks,
+            teeth: Teeth::new(pair),
+            slack: slack + soft.ahead,
             soft,
             slices: spec.slices.clone(),
             edges: Vec::new(),
@@ -109,7 +111,6 @@ impl SolidMesh {
             half_backlash: pair.normal_backlash / 2.0,
             base_pitch: pair.base_pitch,
             centred: pair.centred_position(),
-            slack: slack / pair.inner_cone + ahead,
         }
     }
 
@@ -118,53 +119,45 @@ impl SolidMesh {
         self.slices.len()
     }
 
-    /// Visits each of `slices` of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
-    #[inline]
-    pub(super) fn sections<T: Smooth>(
+    /// Visits each of `slices` of each pair near contact with its overlap [rad] by (q, x), with derivatives up to order `N`.
+    #[inline(always)]
+    pub(super) fn sections<const N: usize>(
         &self,
         slices: &[SolidSlice],
         which: [usize; 2],
         [q, x]: [f64; 2],
-        variable: impl Fn(f64, usize, f64) -> T,
-        mut visit: impl FnMut(&FlankPair, &SolidSlice, T),
+        mut visit: impl FnMut(&FlankPair, &SolidSlice, Both<N>),
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
-            let deepest = -q - self.half_backlash + self.slack;
-            if deepest <= 0.0 {
+            if -q - self.half_backlash + self.slack <= 0.0 {
                 continue;
             }
             // the mesh repeats with every base pitch
             let turns = libm::round(x / self.base_pitch);
             let x = x - turns * self.base_pitch;
-            let (tq, tx) = (variable(q, 0, sign), variable(x, 1, sign));
             let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
-            self.candidates.near(placement.between(q, x), deepest, |k, rays| {
-                let near = FlankPair {
-                    rays,
-                    flank,
-                    placement,
-                    number: (-turns as i64).saturating_add(i64::from(k)),
-                    s: self.centred + x + f64::from(k) * self.base_pitch,
-                    q,
-                    x,
-                    k,
-                };
-                let poses = placement.poses(tq, tx, k);
+            let stance = self.teeth.stance(q, x);
+            for k in self.candidates.near(q, x) {
+                let Some(poses) = placement.poses(&self.teeth, &stance, k) else { continue };
+                let s = self.centred + x + f64::from(k) * self.base_pitch;
+                let number = (-turns as i64).saturating_add(i64::from(k));
+                let near = FlankPair { flank, placement, number, s, poses, start: self.flanks.on_path(s) };
                 for slice in slices {
-                    if let Some(depth) = self.section(&near, slice).depth(&poses, &self.soft) {
-                        visit(&near, slice, depth);
+                    if let Some(depth) = self.section(&near, slice).depth::<N>(&near.poses, &self.soft) {
+                        visit(&near, slice, self.teeth.by_position(depth, sign));
                     }
                 }
-            });
+            }
         }
     }
 
+    #[inline(always)]
     pub(super) fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
         let [planet, side] = &self.flanks.rays;
         FlankSection {
-            rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],
-            tips: [&planet[0], &side[side.len() - 1]],
+            rays: [planet, side],
+            start: near.start,
             relief: slice.relief / slice.cone,
             offset: near.placement.offset().map(|w| w / slice.cone),
         }
@@ -181,7 +174,7 @@ impl SolidMesh {
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         let [dq, dx] = state.rate;
-        self.sections(&self.slices, state.which, state.position, slope, |_, slice, p: Dual<2>| {
+        self.sections::<1>(&self.slices, state.which, state.position, |_, slice, p| {
             if p.v > 0.0 {
                 let rate = p.d[0] * dq + p.d[1] * dx;
                 let force = self.respond(p.v, rate);
@@ -198,7 +191,7 @@ impl SolidMesh {
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
         let [dq, dx] = state.rate;
-        self.sections(&self.slices, state.which, state.position, curve, |_, slice, p: Curved| {
+        self.sections::<2>(&self.slices, state.which, state.position, |_, slice, p| {
             if p.v <= 0.0 {
                 return;
             }
@@ -223,17 +216,11 @@ impl SolidMesh {
     /// Elastic energy V [J] of the mesh `which` at position (q, x).
     pub fn energy(&self, which: [usize; 2], position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
-        self.sections(
-            &self.slices,
-            which,
-            position,
-            |v, _, _| v,
-            |_, slice, p: f64| {
-                if p > 0.0 {
-                    energy += slice.share * self.elastic.energy(self.cone * p);
-                }
-            },
-        );
+        self.sections::<0>(&self.slices, which, position, |_, slice, p| {
+            if p.v > 0.0 {
+                energy += slice.share * self.elastic.energy(self.cone * p.v);
+            }
+        });
         energy
     }
 }
@@ -242,25 +229,9 @@ impl SolidMesh {
 pub(super) struct FlankPair<'a> {
     pub(super) flank: Flank,
     pub(super) placement: &'a Placement,
-    /// Rays of planet and side gear.
-    pub(super) rays: [RangeInclusive<usize>; 2],
     pub(super) number: i64,
     pub(super) s: f64,
-    pub(super) q: f64,
-    pub(super) x: f64,
-    pub(super) k: i32,
-}
-
-/// Variable `i` with its slope.
-pub(super) fn slope(v: f64, i: usize, slope: f64) -> Dual<2> {
-    let mut dual = Dual { v, d: [0.0; 2] };
-    dual.d[i] = slope;
-    dual
-}
-
-/// Variable `i` with its slope and no curvature.
-fn curve(v: f64, i: usize, slope: f64) -> Curved {
-    let mut curved = Curved::constant(v);
-    curved.d[i] = slope;
-    curved
+    pub(super) poses: [Pose; 2],
+    /// Rays on the path of contact.
+    start: [f64; 2],
 }

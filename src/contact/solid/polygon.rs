@@ -1,68 +1,131 @@
-//! Flanks as polygons in the plane of projection: their rays there, and the overlap of two of them at a place.
+//! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
+
+use nalgebra::Vector3;
 
 use super::flank::Ray;
 use super::pose::Pose;
-use crate::numeric::{Smooth, sqrt};
+use super::turned::{Both, Single};
+use crate::numeric::sqrt;
 
 /// A ray in the plane of projection.
-#[derive(Clone, Copy, Default)]
-pub struct ProjectedRay<T> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ProjectedRay<const N: usize> {
     /// Place along the flank [rad].
-    pub u: T,
+    pub u: Single<N>,
     /// Height [rad].
-    pub h: T,
+    pub h: Single<N>,
     /// n_h √(1 + u² + h²).
-    pub metric: T,
+    pub metric: Single<N>,
+}
+
+/// Part along a row of a pose of a direction that turns with its gear.
+#[inline(always)]
+fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
+    let turning = row[0] * w.x + row[1] * w.y;
+    Single::new(turning + row[2] * w.z, row[1] * w.x - row[0] * w.y, -turning)
 }
 
 /// A ray's place u and height h in the plane of projection.
 #[inline(always)]
-pub fn project<T: Smooth>(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> [T; 2] {
+pub fn project<const N: usize>(ray: &Ray, relief: f64, pose: &Pose, offset: [f64; 3]) -> [Single<N>; 2] {
     let at = ray.direction - ray.normal * relief;
-    let [across, along, toward]: [T; 3] = std::array::from_fn(|i| {
-        let row = &pose[i];
-        row[0] * at.x + row[1] * at.y + row[2] * at.z + offset[i]
+    let [across, along, toward]: [Single<N>; 3] = std::array::from_fn(|i| {
+        let w = part::<N>(&pose[i], &at);
+        Single { v: w.v + offset[i], ..w }
     });
-    let per = toward.reciprocal();
-    [across * per, along * per]
+    let per = 1.0 / toward.v;
+    [across.over(toward, per), along.over(toward, per)]
 }
 
-impl<T: Smooth> ProjectedRay<T> {
-    #[inline(always)]
+impl<const N: usize> ProjectedRay<N> {
     /// `ray` of a gear in `pose`, `relief` [rad] of its flank missing, displaced by `offset` [rad].
-    pub fn new(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> Self {
-        let [u, h] = project(ray, relief, pose, offset);
-        let (row, normal) = (&pose[1], &ray.normal);
-        let part = row[0] * normal.x + row[1] * normal.y + row[2] * normal.z;
-        let square = u * u + h * h + 1.0;
-        let root = sqrt(square.value());
-        let root = square.through([root, 0.5 / root, -0.25 / (root * square.value())]);
-        Self { u, h, metric: part * root }
-    }
-
-    /// Point and metric of the facet from `self` to `next` at `u`.
     #[inline(always)]
-    pub fn until(&self, next: &Self, u: T) -> [T; 2] {
-        let share = (u - self.u) * (next.u - self.u).reciprocal();
-        [self.h + share * (next.h - self.h), self.metric + share * (next.metric - self.metric)]
+    pub fn new(ray: &Ray, relief: f64, pose: &Pose, offset: [f64; 3]) -> Self {
+        let [u, h] = project(ray, relief, pose, offset);
+        let square = u * u + h * h;
+        let square = Single { v: square.v + 1.0, ..square };
+        let root = sqrt(square.v);
+        let half = 0.5 / root;
+        let root = square.through([root, half, -half * half / root]);
+        Self { u, h, metric: part(&pose[1], &ray.normal) * root }
+    }
+}
+
+/// A quantity that is linear along a facet.
+#[derive(Clone, Copy, Debug, Default)]
+struct Linear<const N: usize> {
+    /// At u = 0.
+    at_zero: Single<N>,
+    /// By u.
+    slope: Single<N>,
+}
+
+impl<const N: usize> Linear<N> {
+    /// At a place `u` of a ray of gear `OWN`, on a facet of its mate.
+    #[inline(always)]
+    fn at<const OWN: usize>(&self, u: Single<N>) -> Both<N> {
+        let (c, g) = (self.at_zero, self.slope);
+        Both::from_own::<OWN>(c.v + g.v * u.v, [g.v * u.d, c.d + g.d * u.v], [g.v * u.dd, g.d * u.d, c.dd + g.dd * u.v])
+    }
+}
+
+/// A facet in the plane of projection.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ProjectedFacet<const N: usize> {
+    height: Linear<N>,
+    metric: Linear<N>,
+}
+
+impl<const N: usize> ProjectedFacet<N> {
+    /// Facet between neighbouring rays.
+    #[inline(always)]
+    pub fn new(from: &ProjectedRay<N>, to: &ProjectedRay<N>) -> Self {
+        let length = to.u - from.u;
+        let per = 1.0 / length.v;
+        let linear = |from: Single<N>, to: Single<N>, u: Single<N>| {
+            let slope = (to - from).over(length, per);
+            Linear { at_zero: from - slope * u, slope }
+        };
+        Self { height: linear(from.h, to.h, from.u), metric: linear(from.metric, to.metric, from.u) }
     }
 }
 
 /// From the planet's tip to the side gear's.
-#[derive(Clone, Copy)]
-pub struct TipSpan<T> {
+#[derive(Clone, Copy, Debug)]
+pub struct TipSpan<const N: usize> {
     /// Place of the planet's tip [rad].
-    pub low: T,
+    planet: Single<N>,
     /// Reciprocal of the way to the side gear's tip [1/rad].
-    pub per_length: T,
+    per_length: Both<N>,
 }
 
-impl<T: Smooth> TipSpan<T> {
-    /// Overlap at `u` of the surfaces with height and metric of `planet` and `side`.
+impl<const N: usize> TipSpan<N> {
+    /// Span between tips at the places `planet` and `side` [rad].
     #[inline(always)]
-    pub fn overlap(&self, u: T, planet: [T; 2], side: [T; 2]) -> T {
-        let share = (u - self.low) * self.per_length;
-        let metric = side[1] + share * (planet[1] - side[1]);
-        (planet[0] - side[0]) * metric * (u * u + planet[0] * side[0] + 1.0).reciprocal()
+    pub fn new([planet, side]: [Single<N>; 2]) -> Self {
+        let length = Both::of::<1>(side) - Both::of::<0>(planet);
+        let per = 1.0 / length.v;
+        Self { planet, per_length: length.through([per, -per * per, 2.0 * per * per * per]) }
+    }
+
+    /// Overlap at a ray of gear `OWN` over a facet of its mate [rad], and the height of that facet there [rad].
+    #[inline(always)]
+    pub fn overlap<const OWN: usize>(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
+        let there = mate.height.at::<OWN>(own.u);
+        let (height, own_metric, mate_metric) =
+            (Both::of::<OWN>(own.h), Both::of::<OWN>(own.metric), mate.metric.at::<OWN>(own.u));
+        let share = if OWN == 0 {
+            self.per_length.times::<0>(own.u - self.planet)
+        } else {
+            self.per_length * (Both::of::<1>(own.u) - Both::of::<0>(self.planet))
+        };
+        let (gap, metric) = if OWN == 0 {
+            (height - there, mate_metric + share * (own_metric - mate_metric))
+        } else {
+            (there - height, own_metric + share * (mate_metric - own_metric))
+        };
+        let square = Both::of::<OWN>(own.u * own.u) + there.times::<OWN>(own.h);
+        let square = Both { v: square.v + 1.0, ..square };
+        ((gap * metric).over(square, 1.0 / square.v), there.v)
     }
 }

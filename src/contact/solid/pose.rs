@@ -13,8 +13,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::flank::half_pitch;
+use super::turned::Both;
 use crate::geometry::Pair;
-use crate::numeric::{Smooth, atan2, cos, sin};
+use crate::numeric::{TAU, atan2, cos, sin};
 
 /// Rigid displacement of a planet against its side gear, as its drive flank sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,12 +35,66 @@ impl Displacement {
     }
 }
 
+/// Largest number of a tooth on either side of the middle.
+pub const MOST_TEETH: i32 = 6;
+
+/// Sine and cosine of an angle.
+type SineCosine = [f64; 2];
+
+/// Angles of the teeth of both gears.
+#[derive(Clone, Debug)]
+pub struct Teeth {
+    per_sin_base: [f64; 2],
+    half_pitch: f64,
+    /// Whole pitches from −[`MOST_TEETH`] to [`MOST_TEETH`] of planet and side gear.
+    pitches: [Vec<SineCosine>; 2],
+}
+
+/// Where tooth 0 of both gears stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Stance([SineCosine; 2]);
+
+impl Teeth {
+    /// Teeth of `pair`.
+    pub fn new(pair: &Pair) -> Self {
+        let pitches = pair.gears.map(|gear| {
+            let angle = |k: i32| TAU * f64::from(k) / f64::from(gear.teeth);
+            (-MOST_TEETH..=MOST_TEETH).map(|k| [sin(angle(k)), cos(angle(k))]).collect()
+        });
+        Self { per_sin_base: pair.sin_base().map(|s| 1.0 / s), half_pitch: half_pitch(&pair.gears[1]), pitches }
+    }
+
+    /// Tooth 0 of both gears at (q, x) [rad].
+    pub fn stance(&self, q: f64, x: f64) -> Stance {
+        let [planet, side] = self.per_sin_base;
+        Stance([x * planet, (q + x) * side + self.half_pitch].map(|angle| [sin(angle), cos(angle)]))
+    }
+
+    /// Sine and cosine of the angles θ_p and θ_s of the teeth of pair `k`.
+    #[inline(always)]
+    fn angles(&self, stance: &Stance, k: i32) -> Option<[SineCosine; 2]> {
+        let k = usize::try_from(k + MOST_TEETH).ok()?;
+        let turned = |gear: usize| {
+            let ([s, c], [sk, ck]) = (stance.0[gear], self.pitches[gear].get(k)?);
+            Some([s * ck + c * sk, c * ck - s * sk])
+        };
+        Some([turned(0)?, turned(1)?])
+    }
+
+    /// What depends on the angles θ_p and θ_s, by (q, x) instead, of which the mirror image has the negatives for the
+    /// `sign` −1.
+    #[inline(always)]
+    pub fn by_position<const N: usize>(&self, f: Both<N>, sign: f64) -> Both<N> {
+        let [planet, side] = self.per_sin_base;
+        let [by_planet, by_side] = [f.d[0] * planet, f.d[1] * side];
+        let [pp, ps, ss] = [f.dd[0] * planet * planet, f.dd[1] * planet * side, f.dd[2] * side * side];
+        Both::new(f.v, [sign * by_side, sign * (by_planet + by_side)], [ss, ps + ss, pp + 2.0 * ps + ss])
+    }
+}
+
 /// Constants of the placement.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    sin_base: [f64; 2],
-    base_pitch: f64,
-    half_pitch: f64,
     /// Rows across, along the line of action and toward the pitch point; columns of each gear's (away, t, axis).
     frames: [Matrix3<f64>; 2],
     /// Displacement in these rows [m].
@@ -49,7 +104,7 @@ pub struct Placement {
 }
 
 /// Rows across, along the line of action and toward the pitch point for directions in a tooth's own frame.
-pub type Pose<T> = [[T; 3]; 3];
+pub type Pose = [[f64; 3]; 3];
 
 impl Placement {
     /// Placement of the gears of `pair`, displaced by `d`.
@@ -71,9 +126,6 @@ impl Placement {
         let lean = Matrix3::new(cl, 0.0, -sl, 0.0, 1.0, 0.0, sl, 0.0, cl);
         let moved = planet_axis * d.along[0] + side_axis * d.along[1] + across * d.across;
         Self {
-            sin_base: pair.sin_base(),
-            base_pitch: pair.base_pitch,
-            half_pitch: half_pitch(&pair.gears[1]),
             frames: [chart * lean, chart * Matrix3::from_columns(&[side_away, across, side_axis])],
             offset: chart * moved,
             axes: [chart * planet_axis, chart * side_axis, chart * across],
@@ -85,30 +137,21 @@ impl Placement {
         self.offset.into()
     }
 
-    /// Angles θ_p and θ_s of the teeth of pair `k` [rad].
-    fn angles<T: Smooth>(&self, q: T, x: T, k: i32) -> [T; 2] {
-        let travel = x + f64::from(k) * self.base_pitch;
-        [travel * (1.0 / self.sin_base[0]), (travel + q) * (1.0 / self.sin_base[1]) + self.half_pitch]
-    }
-
-    /// Both teeth of pair `k` at (q, x) [rad].
+    /// Both teeth of pair `k`, tooth 0 in `stance`; `None` beyond the largest number.
     #[inline(always)]
-    pub fn poses<T: Smooth>(&self, q: T, x: T, k: i32) -> [Pose<T>; 2] {
-        let angles = self.angles(q, x, k);
-        [0, 1].map(|gear| {
-            let (angle, frame) = (angles[gear], &self.frames[gear]);
-            let (s, c) = (sin(angle.value()), cos(angle.value()));
-            let (sine, cosine) = (angle.through([s, c, -s]), angle.through([c, -s, -c]));
+    pub fn poses(&self, teeth: &Teeth, stance: &Stance, k: i32) -> Option<[Pose; 2]> {
+        let angles = teeth.angles(stance, k)?;
+        Some([0, 1].map(|gear| {
+            let ([s, c], frame) = (angles[gear], &self.frames[gear]);
             std::array::from_fn(|row| {
                 let (away, across) = (frame[(row, 0)], frame[(row, 1)]);
-                [cosine * away + sine * across, cosine * across - sine * away, T::constant(frame[(row, 2)])]
+                [c * away + s * across, c * across - s * away, frame[(row, 2)]]
             })
-        })
+        }))
     }
 
-    /// From the planet's frame, turned with its tooth 0, to the side gear's, turned with its gap 0.
-    pub fn between(&self, q: f64, x: f64) -> Matrix3<f64> {
-        let [planet, side] = [x / self.sin_base[0], (q + x) / self.sin_base[1]];
+    /// From the planet's frame, turned by the angle `planet`, to the side gear's, turned by `side` [rad].
+    pub fn between(&self, [planet, side]: [f64; 2]) -> Matrix3<f64> {
         about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
     }
 
