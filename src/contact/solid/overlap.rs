@@ -28,8 +28,8 @@ use super::pose::Pose;
 use super::turned::{Both, Single};
 use crate::numeric::{TAU, sqrt};
 
-/// Weights below e to this power vanish in double precision.
-const NEGLIGIBLE: f64 = -36.0;
+/// Weights below e to this power are left out: of a parabola's integral they are less than the last digits.
+const NEGLIGIBLE: f64 = -30.0;
 
 /// Least ratio of the flanks' distance to their height difference where they touch.
 const LEAST_METRIC: f64 = 0.8;
@@ -60,16 +60,65 @@ impl Softness {
     }
 }
 
-/// End of a stretch.
+/// A corner of one flank over a facet of the other, at the end of a stretch.
 #[derive(Clone, Copy)]
-struct StretchEnd<const N: usize> {
+struct Corner<const N: usize> {
     u: Both<N>,
     /// Overlap [rad].
     overlap: Both<N>,
-    /// The gear whose facet the corner lies over, the lower ray of that facet, and its height there [rad].
+    /// The gear of the facet, its lower ray, and its height there [rad].
     mate: usize,
     ray: usize,
     height: f64,
+}
+
+/// How far a walk along both polygons has come.
+struct Walk<'a, const N: usize> {
+    section: &'a FlankSection<'a>,
+    poses: &'a [Pose; 2],
+    span: TipSpan<N>,
+    /// Whether it goes to higher places.
+    up: bool,
+    /// The facets of planet and side gear at the place, and the rays at which they end.
+    facets: [ProjectedFacet<N>; 2],
+    ahead: [ProjectedRay<N>; 2],
+    index: [usize; 2],
+}
+
+impl<const N: usize> Walk<'_, N> {
+    /// The ray of `OWN` ahead over its mate's facet.
+    #[inline(always)]
+    fn corner<const OWN: usize>(&self) -> Corner<N> {
+        let (own, mate) = (&self.ahead[OWN], 1 - OWN);
+        let (overlap, height) = self.span.overlap::<OWN>(own, &self.facets[mate]);
+        let ray = self.index[mate].wrapping_sub(usize::from(self.up));
+        Corner { u: Both::of::<OWN>(own.u), overlap, mate, ray, height }
+    }
+
+    /// Goes on to the next facet of `OWN`, if there is one.
+    #[inline(always)]
+    fn advance<const OWN: usize>(&mut self) -> bool {
+        let i = if self.up { self.index[OWN] + 1 } else { self.index[OWN].wrapping_sub(1) };
+        let Some(next) = self.section.projected(self.poses, OWN, i) else { return false };
+        let from = &self.ahead[OWN];
+        let is_ahead = if self.up { next.u.v > from.u.v } else { next.u.v < from.u.v };
+        self.facets[OWN] = ProjectedFacet::new(from, &next);
+        self.ahead[OWN] = next;
+        self.index[OWN] = i;
+        is_ahead
+    }
+
+    /// Calls `visit` with each corner that is passed until one returns false.
+    #[inline(always)]
+    fn go(&mut self, mut visit: impl FnMut(&Corner<N>) -> bool) {
+        loop {
+            let of_side = (self.ahead[1].u.v < self.ahead[0].u.v) == self.up;
+            let at = if of_side { self.corner::<1>() } else { self.corner::<0>() };
+            if !visit(&at) || !(if of_side { self.advance::<1>() } else { self.advance::<0>() }) {
+                return;
+            }
+        }
+    }
 }
 
 /// Where the patch of a section lies.
@@ -113,65 +162,47 @@ impl FlankSection<'_> {
         project(ray, relief, &poses[gear], offset)
     }
 
-    /// Calls `visit` with both ends of each stretch between corners that contributes, outward from the corner of the
-    /// greatest overlap first to lower (`false`) and then to higher places; the end nearer to it comes first.
+    /// Calls `visit` with each corner that contributes: from that of the greatest overlap outward to lower places, and from
+    /// there again to higher ones. With `true` a new walk begins.
     #[inline(always)]
-    fn stretches<const N: usize>(
+    fn corners<const N: usize>(
         &self,
         poses: &[Pose; 2],
         soft: &Softness,
-        mut visit: impl FnMut(bool, &[StretchEnd<N>; 2]),
+        mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let tips = [(0, self.rays[0].first()?), (1, self.rays[1].last()?)];
-        let tips = tips.map(|(gear, ray)| self.place::<N>(poses, gear, ray)[0]);
-        let peak = self.peak(poses, tips.map(|u| u.v))?;
-        if !(peak.overlap > -soft.ahead / LEAST_METRIC) {
+        let tip = |gear: usize, ray: Option<&Ray>| Some(self.place::<N>(poses, gear, ray?)[0]);
+        let tips = [tip(0, self.rays[0].first())?, tip(1, self.rays[1].last())?];
+        let Peak { own, ray, facet, overlap } = self.peak(poses, [tips[0].v, tips[1].v])?;
+        // written so that NaN is apart
+        if !(overlap > -soft.ahead / LEAST_METRIC) {
             return None;
         }
-        let span = TipSpan::new(tips);
-        let end = |own: usize, at: &ProjectedRay<N>, facets: &[ProjectedFacet<N>; 2], ray: usize| {
-            let (u, (overlap, height)) = if own == 0 {
-                (Both::of::<0>(at.u), span.overlap::<0>(at, &facets[1]))
-            } else {
-                (Both::of::<1>(at.u), span.overlap::<1>(at, &facets[0]))
-            };
-            StretchEnd { u, overlap, mate: 1 - own, ray, height }
-        };
-        let Peak { own, ray, facet, .. } = peak;
         let top = self.projected(poses, own, ray)?;
-        let below = [self.projected(poses, 1 - own, facet)?, self.projected(poses, 1 - own, facet + 1)?];
-        let mut facets = [ProjectedFacet::new(&below[0], &below[1]); 2];
-        let (under, begin) = (facets[0], end(own, &top, &facets, facet));
-        let (reach, mut greatest) = (-NEGLIGIBLE * soft.width, begin.overlap.v);
+        let under = [self.projected(poses, 1 - own, facet)?, self.projected(poses, 1 - own, facet + 1)?];
+        let flat = ProjectedFacet::new(&under[0], &under[1]);
+        let span = TipSpan::new(tips);
+        let (reach, mut greatest) = (-NEGLIGIBLE * soft.width, f64::NEG_INFINITY);
         for up in [false, true] {
-            // the rays ahead, and the facets on the way to them
-            let onward = |i: usize| if up { i + 1 } else { i.wrapping_sub(1) };
-            let follow = |gear: usize, i: usize, from: &ProjectedRay<N>| {
-                let next = self.projected::<N>(poses, gear, i)?;
-                (if up { next.u.v > from.u.v } else { next.u.v < from.u.v }).then_some(next)
+            let mut index = [facet + usize::from(up); 2];
+            index[own] = ray;
+            let mut ahead = [under[usize::from(up)]; 2];
+            ahead[own] = top;
+            let mut walk = Walk { section: self, poses, span, up, facets: [flat; 2], ahead, index };
+            let (begin, on) = if own == 0 {
+                (walk.corner::<0>(), walk.advance::<0>())
+            } else {
+                (walk.corner::<1>(), walk.advance::<1>())
             };
-            let (mut index, mut ahead) = ([facet + usize::from(up); 2], [below[usize::from(up)]; 2]);
-            index[own] = onward(ray);
-            let Some(first) = follow(own, index[own], &top) else { continue };
-            ahead[own] = first;
-            facets[own] = ProjectedFacet::new(&top, &first);
-            facets[1 - own] = under;
-            let mut last = begin;
-            loop {
-                let own = usize::from((ahead[1].u.v < ahead[0].u.v) == up);
-                let lower = if up { index[1 - own].wrapping_sub(1) } else { index[1 - own] };
-                let at = end(own, &ahead[own], &facets, lower);
-                visit(up, &[last, at]);
-                greatest = greatest.max(at.overlap.v);
-                if at.overlap.v < greatest - reach {
+            visit(true, &begin);
+            greatest = greatest.max(begin.overlap.v);
+            if on {
+                walk.go(|at| {
+                    visit(false, at);
+                    greatest = greatest.max(at.overlap.v);
                     // between convex flanks the overlap has a single maximum
-                    break;
-                }
-                last = at;
-                index[own] = onward(index[own]);
-                let Some(next) = follow(own, index[own], &ahead[own]) else { break };
-                facets[own] = ProjectedFacet::new(&ahead[own], &next);
-                ahead[own] = next;
+                    at.overlap.v >= greatest - reach
+                });
             }
         }
         Some(())
@@ -180,25 +211,30 @@ impl FlankSection<'_> {
     /// Depth p [rad] where it is positive, and some distance below.
     pub fn depth<const N: usize>(&self, poses: &[Pose; 2], soft: &Softness) -> Option<Both<N>> {
         let per = 1.0 / soft.width;
-        let mut sum = Both::<N>::default();
-        // what exponents count from, where the last stretch ended and the exponential there
-        let (mut from, mut place, mut known) = (f64::NAN, f64::NAN, 0.0);
-        self.stretches::<N>(poses, soft, |up, [near, far]| {
-            let top = near.overlap.v.max(far.overlap.v);
-            if from.is_nan() {
-                from = top;
-            } else if top > from + HIGH * soft.width {
-                let less = libm::exp((from - top) * per);
-                sum = sum * less;
-                (from, known) = (top, known * less);
+        // the integral of the walk and the sum of both; what exponents count from
+        let (mut integral, mut sum, mut from) = (Both::<N>::default(), Both::<N>::default(), f64::NAN);
+        // place, exponent and its exponential of the corner before
+        let (mut place, mut before, mut known) = (Both::<N>::default(), Both::<N>::default(), 1.0);
+        self.corners::<N>(poses, soft, |begins, at| {
+            if begins {
+                // the first walk goes backward
+                (sum, integral) = (sum - integral, Both::default());
+                from = if from.is_nan() { at.overlap.v } else { from };
             }
-            let [a, b] = [near.overlap, far.overlap].map(|o| Both { v: o.v - from, ..o } * per);
-            let before = if near.u.v == place { known } else { libm::exp(a.v) };
-            let after = libm::exp(b.v);
-            (place, known) = (far.u.v, after);
-            let length = if up { far.u - near.u } else { near.u - far.u };
-            sum = sum + length * Both::through_both(a, b, &mean_exponential([a.v, b.v], [before, after]));
+            let exponent = Both { v: at.overlap.v - from, ..at.overlap } * per;
+            let exponential = libm::exp(exponent.v);
+            if !begins {
+                let mean = mean_exponential([before.v, exponent.v], [known, exponential]);
+                integral = integral + (at.u - place) * Both::through_both(before, exponent, &mean);
+            }
+            (place, before, known) = (at.u, exponent, exponential);
+            if exponent.v > HIGH {
+                let less = 1.0 / exponential;
+                (sum, integral) = (sum * less, integral * less);
+                (from, before.v, known) = (at.overlap.v, 0.0, 1.0);
+            }
         })?;
+        let sum = sum + integral;
         (sum.v > 0.0).then(|| {
             let r = 1.0 / sum.v;
             let depth = sum.through([libm::log(sum.v / soft.measure), r, -r * r]) * soft.width;
@@ -210,19 +246,24 @@ impl FlankSection<'_> {
     pub fn patch(&self, poses: &[Pose; 2], soft: &Softness) -> Option<Patch> {
         let from = self.depth::<0>(poses, soft)?.v;
         let (mut sum, mut out) = (0.0, Patch::default());
-        self.stretches::<0>(poses, soft, |_, ends| {
-            let [a, b] = [&ends[0], &ends[1]].map(|end| (end.overlap.v - from) / soft.width);
-            let weight = (ends[1].u.v - ends[0].u.v).abs() * mean_exponential([a, b], [libm::exp(a), libm::exp(b)]).v;
-            sum += weight;
-            for &StretchEnd { u, mate, ray, height, .. } in ends {
-                // the flank that the corner is pressed into
-                let normal = self.rays[mate][ray].normal;
-                out.place[0] += 0.5 * weight * u.v;
-                out.place[1] += 0.5 * weight * height;
-                for (sum, row) in out.normal.iter_mut().zip(&poses[mate]) {
-                    *sum += 0.5 * weight * (row[0] * normal.x + row[1] * normal.y + row[2] * normal.z);
+        let mut last: Option<(Corner<0>, f64)> = None;
+        self.corners::<0>(poses, soft, |begins, at| {
+            let exponent = (at.overlap.v - from) / soft.width;
+            if let Some((near, before)) = last.filter(|_| !begins) {
+                let ends = [before, exponent];
+                let weight = (at.u.v - near.u.v).abs() * mean_exponential(ends, ends.map(libm::exp)).v;
+                sum += weight;
+                for &Corner { u, mate, ray, height, .. } in [&near, at] {
+                    // the flank that the corner is pressed into
+                    let normal = self.rays[mate][ray].normal;
+                    out.place[0] += 0.5 * weight * u.v;
+                    out.place[1] += 0.5 * weight * height;
+                    for (sum, row) in out.normal.iter_mut().zip(&poses[mate]) {
+                        *sum += 0.5 * weight * (row[0] * normal.x + row[1] * normal.y + row[2] * normal.z);
+                    }
                 }
             }
+            last = Some((*at, exponent));
         })?;
         let [x, y, z] = out.normal;
         let length = sqrt(x * x + y * y + z * z);

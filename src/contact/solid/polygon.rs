@@ -29,10 +29,11 @@ fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
 #[inline(always)]
 pub fn project<const N: usize>(ray: &Ray, relief: f64, pose: &Pose, offset: [f64; 3]) -> [Single<N>; 2] {
     let at = ray.direction - ray.normal * relief;
-    let [across, along, toward]: [Single<N>; 3] = std::array::from_fn(|i| {
+    let row = |i: usize| {
         let w = part::<N>(&pose[i], &at);
         Single { v: w.v + offset[i], ..w }
-    });
+    };
+    let (across, along, toward) = (row(0), row(1), row(2));
     let per = 1.0 / toward.v;
     [across.over(toward, per), along.over(toward, per)]
 }

@@ -141,13 +141,15 @@ impl Placement {
     #[inline(always)]
     pub fn poses(&self, teeth: &Teeth, stance: &Stance, k: i32) -> Option<[Pose; 2]> {
         let angles = teeth.angles(stance, k)?;
-        Some([0, 1].map(|gear| {
+        let turned = |gear: usize| {
             let ([s, c], frame) = (angles[gear], &self.frames[gear]);
-            std::array::from_fn(|row| {
-                let (away, across) = (frame[(row, 0)], frame[(row, 1)]);
-                [c * away + s * across, c * across - s * away, frame[(row, 2)]]
-            })
-        }))
+            let row = |i: usize| {
+                let (away, across) = (frame[(i, 0)], frame[(i, 1)]);
+                [c * away + s * across, c * across - s * away, frame[(i, 2)]]
+            };
+            [row(0), row(1), row(2)]
+        };
+        Some([turned(0), turned(1)])
     }
 
     /// From the planet's frame, turned by the angle `planet`, to the side gear's, turned by `side` [rad].

@@ -126,9 +126,11 @@ impl<const N: usize> Both<N> {
     #[inline(always)]
     pub fn over(self, by: Self, per: f64) -> Self {
         let v = self.v * per;
-        let d = [0, 1].map(|i| (self.d[i] - v * by.d[i]) * per);
+        let d = |i: usize| (self.d[i] - v * by.d[i]) * per;
+        let d = [d(0), d(1)];
         let both = products(&d, &by.d);
-        Self::new(v, d, std::array::from_fn(|i| (self.dd[i] - v * by.dd[i] - both[i]) * per))
+        let dd = |i: usize| (self.dd[i] - v * by.dd[i] - both[i]) * per;
+        Self::new(v, d, [dd(0), dd(1), dd(2)])
     }
 
     /// f(self), given f and its first two derivatives there.
@@ -136,7 +138,8 @@ impl<const N: usize> Both<N> {
     pub fn through(self, f: [f64; 3]) -> Self {
         let half = 0.5 * f[2];
         let own = products(&self.d, &self.d);
-        Self::new(f[0], self.d.map(|d| f[1] * d), std::array::from_fn(|i| f[1] * self.dd[i] + half * own[i]))
+        let dd = |i: usize| f[1] * self.dd[i] + half * own[i];
+        Self::new(f[0], [f[1] * self.d[0], f[1] * self.d[1]], [dd(0), dd(1), dd(2)])
     }
 
     /// f(a, b), given f and its derivatives there.
@@ -144,13 +147,10 @@ impl<const N: usize> Both<N> {
     pub fn through_both(a: Self, b: Self, f: &Partials) -> Self {
         let (aa, ab, bb) = (products(&a.d, &a.d), products(&a.d, &b.d), products(&b.d, &b.d));
         let (half_aa, half_bb) = (0.5 * f.dd[0], 0.5 * f.dd[2]);
-        Self::new(
-            f.v,
-            std::array::from_fn(|i| f.d[0] * a.d[i] + f.d[1] * b.d[i]),
-            std::array::from_fn(|i| {
-                f.d[0] * a.dd[i] + f.d[1] * b.dd[i] + half_aa * aa[i] + f.dd[1] * ab[i] + half_bb * bb[i]
-            }),
-        )
+        let d = |i: usize| f.d[0] * a.d[i] + f.d[1] * b.d[i];
+        let dd =
+            |i: usize| f.d[0] * a.dd[i] + f.d[1] * b.dd[i] + half_aa * aa[i] + f.dd[1] * ab[i] + half_bb * bb[i];
+        Self::new(f.v, [d(0), d(1)], [dd(0), dd(1), dd(2)])
     }
 }
 
@@ -185,11 +185,9 @@ impl<const N: usize> Mul for Both<N> {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let both = products(&self.d, &o.d);
-        Self::new(
-            self.v * o.v,
-            std::array::from_fn(|i| self.d[i] * o.v + self.v * o.d[i]),
-            std::array::from_fn(|i| self.dd[i] * o.v + self.v * o.dd[i] + both[i]),
-        )
+        let d = |i: usize| self.d[i] * o.v + self.v * o.d[i];
+        let dd = |i: usize| self.dd[i] * o.v + self.v * o.dd[i] + both[i];
+        Self::new(self.v * o.v, [d(0), d(1)], [dd(0), dd(1), dd(2)])
     }
 }
 
@@ -197,7 +195,7 @@ impl<const N: usize> Mul<f64> for Both<N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, o: f64) -> Self {
-        Self::new(self.v * o, self.d.map(|d| d * o), self.dd.map(|d| d * o))
+        Self::new(self.v * o, [self.d[0] * o, self.d[1] * o], [self.dd[0] * o, self.dd[1] * o, self.dd[2] * o])
     }
 }
 
