@@ -16,6 +16,7 @@ use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
 use super::overlap::{FlankSection, Softness};
+use super::polygon::Moved;
 use super::pose::{Displacement, Placement, Pose, Teeth};
 use super::turned::Both;
 use crate::contact::damping::Damping;
@@ -158,8 +159,10 @@ impl SolidMesh {
         FlankSection {
             rays: [planet, side],
             start: near.start,
-            relief: slice.relief / slice.cone,
-            offset: near.placement.offset().map(|w| w / slice.cone),
+            moved: Moved {
+                relief: slice.relief / slice.cone,
+                offset: near.placement.offset().map(|w| w / slice.cone),
+            },
         }
     }
 

@@ -11,7 +11,6 @@ pub mod flank;
 mod loads;
 pub mod mesh;
 pub mod overlap;
-mod peak;
 mod polygon;
 pub mod pose;
 mod turned;

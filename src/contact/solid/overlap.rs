@@ -22,10 +22,9 @@
 
 use super::exponential::mean_exponential;
 use super::flank::Ray;
-use super::peak::Peak;
-use super::polygon::{ProjectedFacet, ProjectedRay, TipSpan, project};
+use super::polygon::{Moved, ProjectedFacet, ProjectedRay, TipSpan, project};
 use super::pose::Pose;
-use super::turned::{Both, Single};
+use super::turned::Both;
 use crate::numeric::{TAU, sqrt};
 
 /// Weights below e to this power are left out: of a parabola's integral they are less than the last digits.
@@ -73,12 +72,13 @@ struct Corner<const N: usize> {
 }
 
 /// How far a walk along both polygons has come.
+#[derive(Clone, Copy)]
 struct Walk<'a, const N: usize> {
     section: &'a FlankSection<'a>,
     poses: &'a [Pose; 2],
     span: TipSpan<N>,
-    /// Whether it goes to higher places.
-    up: bool,
+    /// 1 to higher places, −1 to lower ones.
+    sense: f64,
     /// The facets of planet and side gear at the place, and the rays at which they end.
     facets: [ProjectedFacet<N>; 2],
     ahead: [ProjectedRay<N>; 2],
@@ -86,35 +86,51 @@ struct Walk<'a, const N: usize> {
 }
 
 impl<const N: usize> Walk<'_, N> {
+    /// Whether the side gear's ray comes next.
+    #[inline(always)]
+    fn is_sides(&self) -> bool {
+        (self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0
+    }
+
+    /// The next corner.
+    #[inline(always)]
+    fn corner(&self) -> Corner<N> {
+        if self.is_sides() { self.corner_of::<1>() } else { self.corner_of::<0>() }
+    }
+
     /// The ray of `OWN` ahead over its mate's facet.
     #[inline(always)]
-    fn corner<const OWN: usize>(&self) -> Corner<N> {
+    fn corner_of<const OWN: usize>(&self) -> Corner<N> {
         let (own, mate) = (&self.ahead[OWN], 1 - OWN);
         let (overlap, height) = self.span.overlap::<OWN>(own, &self.facets[mate]);
-        let ray = self.index[mate].wrapping_sub(usize::from(self.up));
+        let ray = self.index[mate].wrapping_sub(usize::from(self.sense > 0.0));
         Corner { u: Both::of::<OWN>(own.u), overlap, mate, ray, height }
     }
 
-    /// Goes on to the next facet of `OWN`, if there is one.
+    /// Goes past the next corner, if there is a facet behind it.
     #[inline(always)]
-    fn advance<const OWN: usize>(&mut self) -> bool {
-        let i = if self.up { self.index[OWN] + 1 } else { self.index[OWN].wrapping_sub(1) };
-        let Some(next) = self.section.projected(self.poses, OWN, i) else { return false };
-        let from = &self.ahead[OWN];
-        let is_ahead = if self.up { next.u.v > from.u.v } else { next.u.v < from.u.v };
-        self.facets[OWN] = ProjectedFacet::new(from, &next);
+    fn advance(&mut self) -> bool {
+        if self.is_sides() { self.advance_on::<1>() } else { self.advance_on::<0>() }
+    }
+
+    #[inline(always)]
+    fn advance_on<const OWN: usize>(&mut self) -> bool {
+        let i = self.index[OWN].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
+        let Some(next) = self.section.projected::<OWN, N>(self.poses, i) else { return false };
+        let from = self.ahead[OWN];
+        self.facets[OWN] = ProjectedFacet::new(&from, &next);
         self.ahead[OWN] = next;
         self.index[OWN] = i;
-        is_ahead
+        (next.u.v - from.u.v) * self.sense > 0.0
     }
 
     /// Calls `visit` with each corner that is passed until one returns false.
     #[inline(always)]
     fn go(&mut self, mut visit: impl FnMut(&Corner<N>) -> bool) {
         loop {
-            let of_side = (self.ahead[1].u.v < self.ahead[0].u.v) == self.up;
-            let at = if of_side { self.corner::<1>() } else { self.corner::<0>() };
-            if !visit(&at) || !(if of_side { self.advance::<1>() } else { self.advance::<0>() }) {
+            let of_side = self.is_sides();
+            let at = if of_side { self.corner_of::<1>() } else { self.corner_of::<0>() };
+            if !visit(&at) || !(if of_side { self.advance_on::<1>() } else { self.advance_on::<0>() }) {
                 return;
             }
         }
@@ -136,34 +152,42 @@ pub struct FlankSection<'a> {
     pub rays: [&'a [Ray]; 2],
     /// The rays near which exact flanks would touch on the path of contact, counted along each flank.
     pub start: [f64; 2],
-    /// Material missing on the planet's flank [rad].
-    pub relief: f64,
-    /// Displacement of the planet, in rows of a pose [rad].
-    pub offset: [f64; 3],
+    /// What the planet's flank has for the pair.
+    pub moved: Moved,
 }
 
 impl FlankSection<'_> {
-    /// Material missing on a gear's flank, and its displacement: the planet has both for the pair.
     #[inline(always)]
-    fn moved(&self, gear: usize) -> (f64, [f64; 3]) {
-        if gear == 0 { (self.relief, self.offset) } else { (0.0, [0.0; 3]) }
+    fn moved<const GEAR: usize>(&self) -> Option<&Moved> {
+        if GEAR == 0 { Some(&self.moved) } else { None }
     }
 
     #[inline(always)]
-    fn projected<const N: usize>(&self, poses: &[Pose; 2], gear: usize, i: usize) -> Option<ProjectedRay<N>> {
-        let (relief, offset) = self.moved(gear);
-        self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, relief, &poses[gear], offset))
+    fn projected<const GEAR: usize, const N: usize>(&self, poses: &[Pose; 2], i: usize) -> Option<ProjectedRay<N>> {
+        self.rays[GEAR].get(i).map(|ray| ProjectedRay::new(ray, self.moved::<GEAR>(), &poses[GEAR]))
     }
 
-    /// Place and height of a ray of a gear.
+    /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
     #[inline(always)]
-    pub(super) fn place<const N: usize>(&self, poses: &[Pose; 2], gear: usize, ray: &Ray) -> [Single<N>; 2] {
-        let (relief, offset) = self.moved(gear);
-        project(ray, relief, &poses[gear], offset)
+    fn around<const GEAR: usize, const N: usize>(
+        &self,
+        poses: &[Pose; 2],
+        u: f64,
+    ) -> Option<(usize, [ProjectedRay<N>; 2])> {
+        let start = (self.start[GEAR].max(0.0) as usize).min(self.rays[GEAR].len().checked_sub(2)?);
+        let ray = |i: usize| self.projected::<GEAR, N>(poses, i);
+        let (mut i, mut rays) = (start, [ray(start)?, ray(start + 1)?]);
+        while rays[1].u.v < u {
+            (i, rays) = (i + 1, [rays[1], ray(i + 2)?]);
+        }
+        while rays[0].u.v > u {
+            (i, rays) = (i.wrapping_sub(1), [ray(i.wrapping_sub(1))?, rays[0]]);
+        }
+        Some((i, rays))
     }
 
-    /// Calls `visit` with each corner that contributes: from that of the greatest overlap outward to lower places, and from
-    /// there again to higher ones. With `true` a new walk begins.
+    /// Calls `visit` with each corner that contributes, in two walks from a place inside both flanks: first the way in which
+    /// the overlap grows, and then, beginning with the same corner, the other way. With `true` a walk begins.
     #[inline(always)]
     fn corners<const N: usize>(
         &self,
@@ -171,38 +195,35 @@ impl FlankSection<'_> {
         soft: &Softness,
         mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let tip = |gear: usize, ray: Option<&Ray>| Some(self.place::<N>(poses, gear, ray?)[0]);
-        let tips = [tip(0, self.rays[0].first())?, tip(1, self.rays[1].last())?];
-        let Peak { own, ray, facet, overlap } = self.peak(poses, [tips[0].v, tips[1].v])?;
-        // written so that NaN is apart
-        if !(overlap > -soft.ahead / LEAST_METRIC) {
-            return None;
-        }
-        let top = self.projected(poses, own, ray)?;
-        let under = [self.projected(poses, 1 - own, facet)?, self.projected(poses, 1 - own, facet + 1)?];
-        let flat = ProjectedFacet::new(&under[0], &under[1]);
-        let span = TipSpan::new(tips);
-        let (reach, mut greatest) = (-NEGLIGIBLE * soft.width, f64::NEG_INFINITY);
-        for up in [false, true] {
-            let mut index = [facet + usize::from(up); 2];
-            index[own] = ray;
-            let mut ahead = [under[usize::from(up)]; 2];
-            ahead[own] = top;
-            let mut walk = Walk { section: self, poses, span, up, facets: [flat; 2], ahead, index };
-            let (begin, on) = if own == 0 {
-                (walk.corner::<0>(), walk.advance::<0>())
-            } else {
-                (walk.corner::<1>(), walk.advance::<1>())
-            };
+        let [planet_tip, _] = project::<N>(self.rays[0].first()?, self.moved::<0>(), &poses[0]);
+        let [side_tip, _] = project::<N>(self.rays[1].last()?, self.moved::<1>(), &poses[1]);
+        // contacts of involutes are at u = 0 or at a tip
+        let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
+        let (planet, side) = (self.around::<0, N>(poses, u)?, self.around::<1, N>(poses, u)?);
+        let facets = [planet.1, side.1].map(|[from, to]| ProjectedFacet::new(&from, &to));
+        let grows_up = facets[0].slope() > facets[1].slope();
+        let span = TipSpan::new(planet_tip, side_tip);
+        let walk = |up: bool| {
+            let end = usize::from(up);
+            let (sense, ahead, index) = (f64::from(i8::from(up) * 2 - 1), [planet.1[end], side.1[end]], [planet.0 + end, side.0 + end]);
+            Walk { section: self, poses, span, sense, facets, ahead, index }
+        };
+        let begin = walk(!grows_up).corner();
+        let (reach, least, mut greatest) = (-NEGLIGIBLE * soft.width, -soft.ahead / LEAST_METRIC, begin.overlap.v);
+        for again in [false, true] {
+            let mut walk = walk(grows_up != again);
             visit(true, &begin);
-            greatest = greatest.max(begin.overlap.v);
-            if on {
+            if !again || walk.advance() {
                 walk.go(|at| {
                     visit(false, at);
                     greatest = greatest.max(at.overlap.v);
                     // between convex flanks the overlap has a single maximum
-                    at.overlap.v >= greatest - reach
+                    at.overlap.v >= if greatest > least { greatest - reach } else { greatest }
                 });
+            }
+            // written so that NaN is apart
+            if !(greatest > least) {
+                return None;
             }
         }
         Some(())
@@ -217,9 +238,14 @@ impl FlankSection<'_> {
         let (mut place, mut before, mut known) = (Both::<N>::default(), Both::<N>::default(), 1.0);
         self.corners::<N>(poses, soft, |begins, at| {
             if begins {
-                // the first walk goes backward
-                (sum, integral) = (sum - integral, Both::default());
+                (sum, integral) = (sum + integral * 1f64.copysign(integral.v), Both::default());
                 from = if from.is_nan() { at.overlap.v } else { from };
+            }
+            if at.overlap.v > from + HIGH * soft.width {
+                let shift = (from - at.overlap.v) * per;
+                let less = libm::exp(shift);
+                (sum, integral) = (sum * less, integral * less);
+                (from, before.v, known) = (at.overlap.v, before.v + shift, known * less);
             }
             let exponent = Both { v: at.overlap.v - from, ..at.overlap } * per;
             let exponential = libm::exp(exponent.v);
@@ -228,13 +254,8 @@ impl FlankSection<'_> {
                 integral = integral + (at.u - place) * Both::through_both(before, exponent, &mean);
             }
             (place, before, known) = (at.u, exponent, exponential);
-            if exponent.v > HIGH {
-                let less = 1.0 / exponential;
-                (sum, integral) = (sum * less, integral * less);
-                (from, before.v, known) = (at.overlap.v, 0.0, 1.0);
-            }
         })?;
-        let sum = sum + integral;
+        let sum = sum + integral * 1f64.copysign(integral.v);
         (sum.v > 0.0).then(|| {
             let r = 1.0 / sum.v;
             let depth = sum.through([libm::log(sum.v / soft.measure), r, -r * r]) * soft.width;

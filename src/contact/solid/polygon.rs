@@ -25,13 +25,25 @@ fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
     Single::new(turning + row[2] * w.z, row[1] * w.x - row[0] * w.y, -turning)
 }
 
+/// What distinguishes the flank of the planet from its mate's, which is where it is.
+#[derive(Clone, Copy, Debug)]
+pub struct Moved {
+    /// Material missing [rad].
+    pub relief: f64,
+    /// Displacement, in rows of a pose [rad].
+    pub offset: [f64; 3],
+}
+
 /// A ray's place u and height h in the plane of projection.
 #[inline(always)]
-pub fn project<const N: usize>(ray: &Ray, relief: f64, pose: &Pose, offset: [f64; 3]) -> [Single<N>; 2] {
-    let at = ray.direction - ray.normal * relief;
+pub fn project<const N: usize>(ray: &Ray, moved: Option<&Moved>, pose: &Pose) -> [Single<N>; 2] {
+    let at = match moved {
+        Some(moved) => ray.direction - ray.normal * moved.relief,
+        None => ray.direction,
+    };
     let row = |i: usize| {
         let w = part::<N>(&pose[i], &at);
-        Single { v: w.v + offset[i], ..w }
+        Single { v: if let Some(moved) = moved { w.v + moved.offset[i] } else { w.v }, ..w }
     };
     let (across, along, toward) = (row(0), row(1), row(2));
     let per = 1.0 / toward.v;
@@ -39,10 +51,10 @@ pub fn project<const N: usize>(ray: &Ray, relief: f64, pose: &Pose, offset: [f64
 }
 
 impl<const N: usize> ProjectedRay<N> {
-    /// `ray` of a gear in `pose`, `relief` [rad] of its flank missing, displaced by `offset` [rad].
+    /// `ray` of a gear in `pose`.
     #[inline(always)]
-    pub fn new(ray: &Ray, relief: f64, pose: &Pose, offset: [f64; 3]) -> Self {
-        let [u, h] = project(ray, relief, pose, offset);
+    pub fn new(ray: &Ray, moved: Option<&Moved>, pose: &Pose) -> Self {
+        let [u, h] = project(ray, moved, pose);
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
         let root = sqrt(square.v);
@@ -78,6 +90,12 @@ pub struct ProjectedFacet<const N: usize> {
 }
 
 impl<const N: usize> ProjectedFacet<N> {
+    /// Slope of the height.
+    #[inline(always)]
+    pub fn slope(&self) -> f64 {
+        self.height.slope.v
+    }
+
     /// Facet between neighbouring rays.
     #[inline(always)]
     pub fn new(from: &ProjectedRay<N>, to: &ProjectedRay<N>) -> Self {
@@ -103,7 +121,7 @@ pub struct TipSpan<const N: usize> {
 impl<const N: usize> TipSpan<N> {
     /// Span between tips at the places `planet` and `side` [rad].
     #[inline(always)]
-    pub fn new([planet, side]: [Single<N>; 2]) -> Self {
+    pub fn new(planet: Single<N>, side: Single<N>) -> Self {
         let length = Both::of::<1>(side) - Both::of::<0>(planet);
         let per = 1.0 / length.v;
         Self { planet, per_length: length.through([per, -per * per, 2.0 * per * per * per]) }
