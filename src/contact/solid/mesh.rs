@@ -156,13 +156,13 @@ impl SolidMesh {
     #[inline(always)]
     pub(super) fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
         let [planet, side] = &self.flanks.rays;
+        let [across, along, toward] = near.placement.offset();
+        let per = 1.0 / slice.cone;
+        let planet_moved = Moved { relief: slice.relief * per, offset: [across * per, along * per, toward * per] };
         FlankSection {
             rays: [planet, side],
             start: near.start,
-            moved: Moved {
-                relief: slice.relief / slice.cone,
-                offset: near.placement.offset().map(|w| w / slice.cone),
-            },
+            moved: [planet_moved, Moved::default()],
         }
     }
 

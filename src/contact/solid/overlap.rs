@@ -22,7 +22,7 @@
 
 use super::exponential::mean_exponential;
 use super::flank::Ray;
-use super::polygon::{Moved, ProjectedFacet, ProjectedRay, TipSpan, project};
+use super::polygon::{Measure, Moved, ProjectedFacet, ProjectedRay, project};
 use super::pose::Pose;
 use super::turned::Both;
 use crate::numeric::{TAU, sqrt};
@@ -72,68 +72,40 @@ struct Corner<const N: usize> {
 }
 
 /// How far a walk along both polygons has come.
-#[derive(Clone, Copy)]
 struct Walk<'a, const N: usize> {
     section: &'a FlankSection<'a>,
     poses: &'a [Pose; 2],
-    span: TipSpan<N>,
+    measures: &'a [Measure<N>; 2],
     /// 1 to higher places, −1 to lower ones.
     sense: f64,
     /// The facets of planet and side gear at the place, and the rays at which they end.
     facets: [ProjectedFacet<N>; 2],
     ahead: [ProjectedRay<N>; 2],
     index: [usize; 2],
+    /// The gear of the last corner.
+    passed: Option<usize>,
 }
 
 impl<const N: usize> Walk<'_, N> {
-    /// Whether the side gear's ray comes next.
+    /// The next corner, if both flanks go on.
     #[inline(always)]
-    fn is_sides(&self) -> bool {
-        (self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0
-    }
-
-    /// The next corner.
-    #[inline(always)]
-    fn corner(&self) -> Corner<N> {
-        if self.is_sides() { self.corner_of::<1>() } else { self.corner_of::<0>() }
-    }
-
-    /// The ray of `OWN` ahead over its mate's facet.
-    #[inline(always)]
-    fn corner_of<const OWN: usize>(&self) -> Corner<N> {
-        let (own, mate) = (&self.ahead[OWN], 1 - OWN);
-        let (overlap, height) = self.span.overlap::<OWN>(own, &self.facets[mate]);
-        let ray = self.index[mate].wrapping_sub(usize::from(self.sense > 0.0));
-        Corner { u: Both::of::<OWN>(own.u), overlap, mate, ray, height }
-    }
-
-    /// Goes past the next corner, if there is a facet behind it.
-    #[inline(always)]
-    fn advance(&mut self) -> bool {
-        if self.is_sides() { self.advance_on::<1>() } else { self.advance_on::<0>() }
-    }
-
-    #[inline(always)]
-    fn advance_on<const OWN: usize>(&mut self) -> bool {
-        let i = self.index[OWN].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
-        let Some(next) = self.section.projected::<OWN, N>(self.poses, i) else { return false };
-        let from = self.ahead[OWN];
-        self.facets[OWN] = ProjectedFacet::new(&from, &next);
-        self.ahead[OWN] = next;
-        self.index[OWN] = i;
-        (next.u.v - from.u.v) * self.sense > 0.0
-    }
-
-    /// Calls `visit` with each corner that is passed until one returns false.
-    #[inline(always)]
-    fn go(&mut self, mut visit: impl FnMut(&Corner<N>) -> bool) {
-        loop {
-            let of_side = self.is_sides();
-            let at = if of_side { self.corner_of::<1>() } else { self.corner_of::<0>() };
-            if !visit(&at) || !(if of_side { self.advance_on::<1>() } else { self.advance_on::<0>() }) {
-                return;
+    fn next(&mut self) -> Option<Corner<N>> {
+        if let Some(gear) = self.passed {
+            let i = self.index[gear].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
+            let (from, to) = (self.ahead[gear], self.section.projected(self.poses, gear, i)?);
+            if !((to.u.v - from.u.v) * self.sense > 0.0) {
+                return None;
             }
+            self.facets[gear] = ProjectedFacet::new(&from, &to);
+            (self.ahead[gear], self.index[gear]) = (to, i);
         }
+        let own = usize::from((self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0);
+        self.passed = Some(own);
+        let (at, mate) = (&self.ahead[own], 1 - own);
+        let (overlap, height) = self.measures[own].overlap(at, &self.facets[mate]);
+        let overlap = if own == 0 { overlap } else { overlap.exchanged() };
+        let ray = self.index[mate].wrapping_sub(usize::from(self.sense > 0.0));
+        Some(Corner { u: Both::of(at.u, own), overlap, mate, ray, height })
     }
 }
 
@@ -152,38 +124,30 @@ pub struct FlankSection<'a> {
     pub rays: [&'a [Ray]; 2],
     /// The rays near which exact flanks would touch on the path of contact, counted along each flank.
     pub start: [f64; 2],
-    /// What the planet's flank has for the pair.
-    pub moved: Moved,
+    /// Material that is missing, and displacement: the planet has both for the pair.
+    pub moved: [Moved; 2],
 }
 
 impl FlankSection<'_> {
     #[inline(always)]
-    fn moved<const GEAR: usize>(&self) -> Option<&Moved> {
-        if GEAR == 0 { Some(&self.moved) } else { None }
-    }
-
-    #[inline(always)]
-    fn projected<const GEAR: usize, const N: usize>(&self, poses: &[Pose; 2], i: usize) -> Option<ProjectedRay<N>> {
-        self.rays[GEAR].get(i).map(|ray| ProjectedRay::new(ray, self.moved::<GEAR>(), &poses[GEAR]))
+    fn projected<const N: usize>(&self, poses: &[Pose; 2], gear: usize, i: usize) -> Option<ProjectedRay<N>> {
+        self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, &self.moved[gear], &poses[gear]))
     }
 
     /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
     #[inline(always)]
-    fn around<const GEAR: usize, const N: usize>(
-        &self,
-        poses: &[Pose; 2],
-        u: f64,
-    ) -> Option<(usize, [ProjectedRay<N>; 2])> {
-        let start = (self.start[GEAR].max(0.0) as usize).min(self.rays[GEAR].len().checked_sub(2)?);
-        let ray = |i: usize| self.projected::<GEAR, N>(poses, i);
-        let (mut i, mut rays) = (start, [ray(start)?, ray(start + 1)?]);
-        while rays[1].u.v < u {
-            (i, rays) = (i + 1, [rays[1], ray(i + 2)?]);
+    fn around<const N: usize>(&self, poses: &[Pose; 2], gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
+        let start = (self.start[gear].max(0.0) as usize).min(self.rays[gear].len().checked_sub(2)?);
+        let (mut i, mut rays) = (start, [self.projected(poses, gear, start)?, self.projected(poses, gear, start + 1)?]);
+        loop {
+            let up = rays[1].u.v < u;
+            if !up && !(rays[0].u.v > u) {
+                return Some((i, rays));
+            }
+            i = i.wrapping_add(if up { 1 } else { usize::MAX });
+            let new = self.projected(poses, gear, i.wrapping_add(usize::from(up)))?;
+            rays = if up { [rays[1], new] } else { [new, rays[0]] };
         }
-        while rays[0].u.v > u {
-            (i, rays) = (i.wrapping_sub(1), [ray(i.wrapping_sub(1))?, rays[0]]);
-        }
-        Some((i, rays))
     }
 
     /// Calls `visit` with each corner that contributes, in two walks from a place inside both flanks: first the way in which
@@ -195,33 +159,38 @@ impl FlankSection<'_> {
         soft: &Softness,
         mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let [planet_tip, _] = project::<N>(self.rays[0].first()?, self.moved::<0>(), &poses[0]);
-        let [side_tip, _] = project::<N>(self.rays[1].last()?, self.moved::<1>(), &poses[1]);
+        let [planet_tip, _] = project::<N>(self.rays[0].first()?, &self.moved[0], &poses[0]);
+        let [side_tip, _] = project::<N>(self.rays[1].last()?, &self.moved[1], &poses[1]);
         // contacts of involutes are at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
-        let (planet, side) = (self.around::<0, N>(poses, u)?, self.around::<1, N>(poses, u)?);
-        let facets = [planet.1, side.1].map(|[from, to]| ProjectedFacet::new(&from, &to));
+        let (planet, side) = (self.around::<N>(poses, 0, u)?, self.around::<N>(poses, 1, u)?);
+        let facets = [ProjectedFacet::new(&planet.1[0], &planet.1[1]), ProjectedFacet::new(&side.1[0], &side.1[1])];
         let grows_up = facets[0].slope() > facets[1].slope();
-        let span = TipSpan::new(planet_tip, side_tip);
+        let measures = Measure::of_both(planet_tip, side_tip);
         let walk = |up: bool| {
-            let end = usize::from(up);
-            let (sense, ahead, index) = (f64::from(i8::from(up) * 2 - 1), [planet.1[end], side.1[end]], [planet.0 + end, side.0 + end]);
-            Walk { section: self, poses, span, sense, facets, ahead, index }
+            let (sense, end) = (if up { 1.0 } else { -1.0 }, usize::from(up));
+            let (ahead, index) = ([planet.1[end], side.1[end]], [planet.0 + end, side.0 + end]);
+            Walk { section: self, poses, measures: &measures, sense, facets, ahead, index, passed: None }
         };
-        let begin = walk(!grows_up).corner();
-        let (reach, least, mut greatest) = (-NEGLIGIBLE * soft.width, -soft.ahead / LEAST_METRIC, begin.overlap.v);
-        for again in [false, true] {
-            let mut walk = walk(grows_up != again);
-            visit(true, &begin);
-            if !again || walk.advance() {
-                walk.go(|at| {
-                    visit(false, at);
-                    greatest = greatest.max(at.overlap.v);
-                    // between convex flanks the overlap has a single maximum
-                    at.overlap.v >= if greatest > least { greatest - reach } else { greatest }
-                });
+        let (mut forward, mut back) = (walk(grows_up), walk(!grows_up));
+        let begin = back.next()?;
+        let (reach, least, mut greatest, mut floor) =
+            (-NEGLIGIBLE * soft.width, -soft.ahead / LEAST_METRIC, f64::NEG_INFINITY, f64::NEG_INFINITY);
+        for walk in [&mut forward, &mut back] {
+            let (mut at, mut begins) = (begin, true);
+            loop {
+                visit(begins, &at);
+                if at.overlap.v > greatest {
+                    greatest = at.overlap.v;
+                    floor = if greatest > least { greatest - reach } else { greatest };
+                }
+                // between convex flanks the overlap has a single maximum
+                if !(at.overlap.v >= floor) {
+                    break;
+                }
+                let Some(next) = walk.next() else { break };
+                (at, begins) = (next, false);
             }
-            // written so that NaN is apart
             if !(greatest > least) {
                 return None;
             }

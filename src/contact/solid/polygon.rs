@@ -25,8 +25,8 @@ fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
     Single::new(turning + row[2] * w.z, row[1] * w.x - row[0] * w.y, -turning)
 }
 
-/// What distinguishes the flank of the planet from its mate's, which is where it is.
-#[derive(Clone, Copy, Debug)]
+/// How a flank differs from that of aligned gears.
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Moved {
     /// Material missing [rad].
     pub relief: f64,
@@ -36,14 +36,11 @@ pub struct Moved {
 
 /// A ray's place u and height h in the plane of projection.
 #[inline(always)]
-pub fn project<const N: usize>(ray: &Ray, moved: Option<&Moved>, pose: &Pose) -> [Single<N>; 2] {
-    let at = match moved {
-        Some(moved) => ray.direction - ray.normal * moved.relief,
-        None => ray.direction,
-    };
+pub fn project<const N: usize>(ray: &Ray, moved: &Moved, pose: &Pose) -> [Single<N>; 2] {
+    let at = ray.direction - ray.normal * moved.relief;
     let row = |i: usize| {
         let w = part::<N>(&pose[i], &at);
-        Single { v: if let Some(moved) = moved { w.v + moved.offset[i] } else { w.v }, ..w }
+        Single { v: w.v + moved.offset[i], ..w }
     };
     let (across, along, toward) = (row(0), row(1), row(2));
     let per = 1.0 / toward.v;
@@ -53,7 +50,7 @@ pub fn project<const N: usize>(ray: &Ray, moved: Option<&Moved>, pose: &Pose) ->
 impl<const N: usize> ProjectedRay<N> {
     /// `ray` of a gear in `pose`.
     #[inline(always)]
-    pub fn new(ray: &Ray, moved: Option<&Moved>, pose: &Pose) -> Self {
+    pub fn new(ray: &Ray, moved: &Moved, pose: &Pose) -> Self {
         let [u, h] = project(ray, moved, pose);
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
@@ -74,11 +71,11 @@ struct Linear<const N: usize> {
 }
 
 impl<const N: usize> Linear<N> {
-    /// At a place `u` of a ray of gear `OWN`, on a facet of its mate.
+    /// At the place `u` of a ray of the other gear, whose angle is the first variable.
     #[inline(always)]
-    fn at<const OWN: usize>(&self, u: Single<N>) -> Both<N> {
+    fn at(&self, u: Single<N>) -> Both<N> {
         let (c, g) = (self.at_zero, self.slope);
-        Both::from_own::<OWN>(c.v + g.v * u.v, [g.v * u.d, c.d + g.d * u.v], [g.v * u.dd, g.d * u.d, c.dd + g.dd * u.v])
+        Both::new(c.v + g.v * u.v, [g.v * u.d, c.d + g.d * u.v], [g.v * u.dd, g.d * u.d, c.dd + g.dd * u.v])
     }
 }
 
@@ -109,42 +106,40 @@ impl<const N: usize> ProjectedFacet<N> {
     }
 }
 
-/// From the planet's tip to the side gear's.
+/// How the overlap at a corner of one gear is measured: along the normal of its mate at its own tip, along its own at the
+/// mate's. The own angle is the first variable.
 #[derive(Clone, Copy, Debug)]
-pub struct TipSpan<const N: usize> {
-    /// Place of the planet's tip [rad].
-    planet: Single<N>,
-    /// Reciprocal of the way to the side gear's tip [1/rad].
+pub struct Measure<const N: usize> {
+    /// The own tip [rad].
+    tip: Single<N>,
+    /// Reciprocal of the way from there to the mate's tip [1/rad].
     per_length: Both<N>,
+    /// −1 for the planet, whose material is below, 1 for the side gear.
+    sign: f64,
 }
 
-impl<const N: usize> TipSpan<N> {
-    /// Span between tips at the places `planet` and `side` [rad].
+impl<const N: usize> Measure<N> {
+    /// For corners of planet and side gear, whose tips are at the places `planet` and `side`.
     #[inline(always)]
-    pub fn new(planet: Single<N>, side: Single<N>) -> Self {
-        let length = Both::of::<1>(side) - Both::of::<0>(planet);
+    pub fn of_both(planet: Single<N>, side: Single<N>) -> [Self; 2] {
+        let length = Both::of(side, 1) - Both::of(planet, 0);
         let per = 1.0 / length.v;
-        Self { planet, per_length: length.through([per, -per * per, 2.0 * per * per * per]) }
+        let per_length = length.through([per, -per * per, 2.0 * per * per * per]);
+        [
+            Self { tip: planet, per_length, sign: -1.0 },
+            Self { tip: side, per_length: per_length.exchanged() * -1.0, sign: 1.0 },
+        ]
     }
 
-    /// Overlap at a ray of gear `OWN` over a facet of its mate [rad], and the height of that facet there [rad].
+    /// Overlap at the ray `own` over the facet `mate`, and the height of that facet there [rad].
     #[inline(always)]
-    pub fn overlap<const OWN: usize>(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
-        let there = mate.height.at::<OWN>(own.u);
-        let (height, own_metric, mate_metric) =
-            (Both::of::<OWN>(own.h), Both::of::<OWN>(own.metric), mate.metric.at::<OWN>(own.u));
-        let share = if OWN == 0 {
-            self.per_length.times::<0>(own.u - self.planet)
-        } else {
-            self.per_length * (Both::of::<1>(own.u) - Both::of::<0>(self.planet))
-        };
-        let (gap, metric) = if OWN == 0 {
-            (height - there, mate_metric + share * (own_metric - mate_metric))
-        } else {
-            (there - height, own_metric + share * (mate_metric - own_metric))
-        };
-        let square = Both::of::<OWN>(own.u * own.u) + there.times::<OWN>(own.h);
+    pub fn overlap(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
+        let (height, metric) = (mate.height.at(own.u), mate.metric.at(own.u));
+        let share = self.per_length.times_first(own.u - self.tip);
+        let metric = metric - share * metric.less_first(own.metric);
+        let gap = height.less_first(own.h) * self.sign;
+        let square = height.times_first(own.h).plus_first(own.u * own.u);
         let square = Both { v: square.v + 1.0, ..square };
-        ((gap * metric).over(square, 1.0 / square.v), there.v)
+        ((gap * metric).over(square, 1.0 / square.v), height.v)
     }
 }

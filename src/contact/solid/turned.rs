@@ -95,31 +95,44 @@ impl<const N: usize> Both<N> {
         Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 3] } }
     }
 
-    /// The same with derivatives by the angle of gear `OWN` before those by that of its mate.
+    /// What depends on variable `i` alone.
     #[inline(always)]
-    pub fn from_own<const OWN: usize>(v: f64, [own, mate]: [f64; 2], [oo, om, mm]: [f64; 3]) -> Self {
-        if OWN == 0 { Self::new(v, [own, mate], [oo, om, mm]) } else { Self::new(v, [mate, own], [mm, om, oo]) }
+    pub fn of(x: Single<N>, i: usize) -> Self {
+        let (mut d, mut dd) = ([0.0; 2], [0.0; 3]);
+        (d[i], dd[2 * i]) = (x.d, x.dd);
+        Self::new(x.v, d, dd)
     }
 
-    /// What belongs to gear `OWN`.
+    /// The same with both variables exchanged.
     #[inline(always)]
-    pub fn of<const OWN: usize>(x: Single<N>) -> Self {
-        Self::from_own::<OWN>(x.v, [x.d, 0.0], [x.dd, 0.0, 0.0])
+    pub fn exchanged(self) -> Self {
+        Self::new(self.v, [self.d[1], self.d[0]], [self.dd[2], self.dd[1], self.dd[0]])
     }
 
-    /// self·x with x of gear `OWN`.
+    /// self·x with x of the first variable.
     #[inline(always)]
-    pub fn times<const OWN: usize>(self, x: Single<N>) -> Self {
-        let (o, m) = (OWN, 1 - OWN);
-        Self::from_own::<OWN>(
+    pub fn times_first(self, x: Single<N>) -> Self {
+        Self::new(
             self.v * x.v,
-            [self.d[o] * x.v + self.v * x.d, self.d[m] * x.v],
+            [self.d[0] * x.v + self.v * x.d, self.d[1] * x.v],
             [
-                self.dd[2 * o] * x.v + self.v * x.dd + 2.0 * self.d[o] * x.d,
-                self.dd[1] * x.v + self.d[m] * x.d,
-                self.dd[2 * m] * x.v,
+                self.dd[0] * x.v + self.v * x.dd + 2.0 * self.d[0] * x.d,
+                self.dd[1] * x.v + self.d[1] * x.d,
+                self.dd[2] * x.v,
             ],
         )
+    }
+
+    /// self + x with x of the first variable.
+    #[inline(always)]
+    pub fn plus_first(self, x: Single<N>) -> Self {
+        Self::new(self.v + x.v, [self.d[0] + x.d, self.d[1]], [self.dd[0] + x.dd, self.dd[1], self.dd[2]])
+    }
+
+    /// self − x with x of the first variable.
+    #[inline(always)]
+    pub fn less_first(self, x: Single<N>) -> Self {
+        Self::new(self.v - x.v, [self.d[0] - x.d, self.d[1]], [self.dd[0] - x.dd, self.dd[1], self.dd[2]])
     }
 
     /// self/by, given 1/by.
@@ -210,8 +223,8 @@ mod tests {
         let root = planet.v.sqrt();
         let planet = planet.through([root, 0.5 / root, -0.25 / (root * planet.v)]) * planet - planet;
         let side = side.over(side * side + side, 1.0 / (side.v * side.v + side.v));
-        let (p, s) = (Both::of::<0>(planet), Both::of::<1>(side));
-        let sum = (p * s + p).times::<1>(side) - s.times::<0>(planet) * 0.3;
+        let (p, s) = (Both::of(planet, 0), Both::of(side, 1));
+        let sum = (p * s).plus_first(planet).exchanged().times_first(side).less_first(side).exchanged() - s * p * 0.3;
         let (sine, cosine) = sum.v.sin_cos();
         let ratio = sum.through([sine, cosine, -sine]).over(p + s * s, 1.0 / (p.v + s.v * s.v));
         // f(a, b) = a² b³
