@@ -114,7 +114,7 @@ impl<const N: usize> Walk<'_, N> {
 pub struct Patch {
     /// Place in the plane of projection [rad].
     pub place: [f64; 2],
-    /// Mean normal into the side gear, in rows of a pose.
+    /// Mean normal into the side gear, in parts of a pose.
     pub normal: [f64; 3],
 }
 
@@ -137,17 +137,17 @@ impl FlankSection<'_> {
     /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
     #[inline(always)]
     fn around<const N: usize>(&self, poses: &[Pose; 2], gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
-        let start = (self.start[gear].max(0.0) as usize).min(self.rays[gear].len().checked_sub(2)?);
-        let (mut i, mut rays) = (start, [self.projected(poses, gear, start)?, self.projected(poses, gear, start + 1)?]);
-        loop {
-            let up = rays[1].u.v < u;
-            if !up && !(rays[0].u.v > u) {
-                return Some((i, rays));
-            }
-            i = i.wrapping_add(if up { 1 } else { usize::MAX });
-            let new = self.projected(poses, gear, i.wrapping_add(usize::from(up)))?;
-            rays = if up { [rays[1], new] } else { [new, rays[0]] };
+        let mut i = (self.start[gear].max(0.0) as usize).min(self.rays[gear].len().checked_sub(2)?);
+        let mut rays = [self.projected(poses, gear, i)?, self.projected(poses, gear, i + 1)?];
+        while rays[1].u.v < u {
+            i += 1;
+            rays = [rays[1], self.projected(poses, gear, i + 1)?];
         }
+        while rays[0].u.v > u {
+            i = i.wrapping_sub(1);
+            rays = [self.projected(poses, gear, i)?, rays[0]];
+        }
+        Some((i, rays))
     }
 
     /// Calls `visit` with each corner that contributes, in two walks from a place inside both flanks: first the way in which
@@ -159,8 +159,8 @@ impl FlankSection<'_> {
         soft: &Softness,
         mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let [planet_tip, _] = project::<N>(self.rays[0].first()?, &self.moved[0], &poses[0]);
-        let [side_tip, _] = project::<N>(self.rays[1].last()?, &self.moved[1], &poses[1]);
+        let (planet_tip, _) = project::<N>(self.rays[0].first()?, &self.moved[0], &poses[0]).parts();
+        let (side_tip, _) = project::<N>(self.rays[1].last()?, &self.moved[1], &poses[1]).parts();
         // contacts of involutes are at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
         let (planet, side) = (self.around::<N>(poses, 0, u)?, self.around::<N>(poses, 1, u)?);
@@ -248,8 +248,9 @@ impl FlankSection<'_> {
                     let normal = self.rays[mate][ray].normal;
                     out.place[0] += 0.5 * weight * u.v;
                     out.place[1] += 0.5 * weight * height;
-                    for (sum, row) in out.normal.iter_mut().zip(&poses[mate]) {
-                        *sum += 0.5 * weight * (row[0] * normal.x + row[1] * normal.y + row[2] * normal.z);
+                    let [away, across, axis] = &poses[mate];
+                    for (i, sum) in out.normal.iter_mut().enumerate() {
+                        *sum += 0.5 * weight * (away[i] * normal.x + across[i] * normal.y + axis[i] * normal.z);
                     }
                 }
             }

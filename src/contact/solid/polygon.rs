@@ -1,10 +1,8 @@
 //! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
 
-use nalgebra::Vector3;
-
 use super::flank::Ray;
 use super::pose::Pose;
-use super::turned::{Both, Single};
+use super::turned::{Both, Single, Twin};
 use crate::numeric::sqrt;
 
 /// A ray in the plane of projection.
@@ -12,17 +10,8 @@ use crate::numeric::sqrt;
 pub struct ProjectedRay<const N: usize> {
     /// Place along the flank [rad].
     pub u: Single<N>,
-    /// Height [rad].
-    pub h: Single<N>,
-    /// n_h √(1 + u² + h²).
-    pub metric: Single<N>,
-}
-
-/// Part along a row of a pose of a direction that turns with its gear.
-#[inline(always)]
-fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
-    let turning = row[0] * w.x + row[1] * w.y;
-    Single::new(turning + row[2] * w.z, row[1] * w.x - row[0] * w.y, -turning)
+    /// Height [rad] and n_h √(1 + u² + h²).
+    level: Twin<N>,
 }
 
 /// How a flank differs from that of aligned gears.
@@ -30,79 +19,60 @@ fn part<const N: usize>(row: &[f64; 3], w: &Vector3<f64>) -> Single<N> {
 pub struct Moved {
     /// Material missing [rad].
     pub relief: f64,
-    /// Displacement, in rows of a pose [rad].
+    /// Displacement, in parts of a pose [rad].
     pub offset: [f64; 3],
 }
 
 /// A ray's place u and height h in the plane of projection.
 #[inline(always)]
-pub fn project<const N: usize>(ray: &Ray, moved: &Moved, pose: &Pose) -> [Single<N>; 2] {
-    let at = ray.direction - ray.normal * moved.relief;
-    let row = |i: usize| {
-        let w = part::<N>(&pose[i], &at);
-        Single { v: w.v + moved.offset[i], ..w }
-    };
-    let (across, along, toward) = (row(0), row(1), row(2));
-    let per = 1.0 / toward.v;
-    [across.over(toward, per), along.over(toward, per)]
+pub fn project<const N: usize>(ray: &Ray, moved: &Moved, [away, across, axis]: &Pose) -> Twin<N> {
+    let (w, o) = (ray.direction - ray.normal * moved.relief, &moved.offset);
+    let turning = |i: usize| away[i] * w.x + across[i] * w.y;
+    let slope = |i: usize| across[i] * w.x - away[i] * w.y;
+    let (flat, rise, toward) = ([turning(0), turning(1)], [slope(0), slope(1)], turning(2));
+    let fixed = |i: usize| axis[i] * w.z + o[i];
+    let in_plane = Twin::new([flat[0] + fixed(0), flat[1] + fixed(1)], rise, [-flat[0], -flat[1]]);
+    let toward = Single::new(toward + fixed(2), slope(2), -toward);
+    in_plane.over(toward, 1.0 / toward.v)
 }
 
 impl<const N: usize> ProjectedRay<N> {
     /// `ray` of a gear in `pose`.
     #[inline(always)]
     pub fn new(ray: &Ray, moved: &Moved, pose: &Pose) -> Self {
-        let [u, h] = project(ray, moved, pose);
+        let (u, h) = project(ray, moved, pose).parts();
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
         let root = sqrt(square.v);
         let half = 0.5 / root;
         let root = square.through([root, half, -half * half / root]);
-        Self { u, h, metric: part(&pose[1], &ray.normal) * root }
+        let ([away, across, axis], n) = (pose, &ray.normal);
+        let turning = away[1] * n.x + across[1] * n.y;
+        let normal = Single::new(turning + axis[1] * n.z, across[1] * n.x - away[1] * n.y, -turning);
+        Self { u, level: Twin::of(h, normal * root) }
     }
 }
 
-/// A quantity that is linear along a facet.
-#[derive(Clone, Copy, Debug, Default)]
-struct Linear<const N: usize> {
-    /// At u = 0.
-    at_zero: Single<N>,
-    /// By u.
-    slope: Single<N>,
-}
-
-impl<const N: usize> Linear<N> {
-    /// At the place `u` of a ray of the other gear, whose angle is the first variable.
-    #[inline(always)]
-    fn at(&self, u: Single<N>) -> Both<N> {
-        let (c, g) = (self.at_zero, self.slope);
-        Both::new(c.v + g.v * u.v, [g.v * u.d, c.d + g.d * u.v], [g.v * u.dd, g.d * u.d, c.dd + g.dd * u.v])
-    }
-}
-
-/// A facet in the plane of projection.
+/// A facet in the plane of projection: height and metric of its points are linear in their places.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProjectedFacet<const N: usize> {
-    height: Linear<N>,
-    metric: Linear<N>,
+    at_zero: Twin<N>,
+    slope: Twin<N>,
 }
 
 impl<const N: usize> ProjectedFacet<N> {
     /// Slope of the height.
     #[inline(always)]
     pub fn slope(&self) -> f64 {
-        self.height.slope.v
+        self.slope.parts().0.v
     }
 
     /// Facet between neighbouring rays.
     #[inline(always)]
     pub fn new(from: &ProjectedRay<N>, to: &ProjectedRay<N>) -> Self {
         let length = to.u - from.u;
-        let per = 1.0 / length.v;
-        let linear = |from: Single<N>, to: Single<N>, u: Single<N>| {
-            let slope = (to - from).over(length, per);
-            Linear { at_zero: from - slope * u, slope }
-        };
-        Self { height: linear(from.h, to.h, from.u), metric: linear(from.metric, to.metric, from.u) }
+        let slope = (to.level - from.level).over(length, 1.0 / length.v);
+        Self { at_zero: from.level - slope.times(from.u), slope }
     }
 }
 
@@ -134,11 +104,12 @@ impl<const N: usize> Measure<N> {
     /// Overlap at the ray `own` over the facet `mate`, and the height of that facet there [rad].
     #[inline(always)]
     pub fn overlap(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
-        let (height, metric) = (mate.height.at(own.u), mate.metric.at(own.u));
+        let (height, metric) = mate.slope.linear(mate.at_zero, own.u);
+        let (own_height, own_metric) = own.level.parts();
         let share = self.per_length.times_first(own.u - self.tip);
-        let metric = metric - share * metric.less_first(own.metric);
-        let gap = height.less_first(own.h) * self.sign;
-        let square = height.times_first(own.h).plus_first(own.u * own.u);
+        let metric = metric - share * metric.less_first(own_metric);
+        let gap = height.less_first(own_height) * self.sign;
+        let square = height.times_first(own_height).plus_first(own.u * own.u);
         let square = Both { v: square.v + 1.0, ..square };
         ((gap * metric).over(square, 1.0 / square.v), height.v)
     }

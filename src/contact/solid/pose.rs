@@ -103,7 +103,8 @@ pub struct Placement {
     axes: [Vector3<f64>; 3],
 }
 
-/// Rows across, along the line of action and toward the pitch point for directions in a tooth's own frame.
+/// Directions of a tooth's own frame (away from the axis, across, along the axis) in parts across, along the line of action
+/// and toward the pitch point.
 pub type Pose = [[f64; 3]; 3];
 
 impl Placement {
@@ -132,7 +133,7 @@ impl Placement {
         }
     }
 
-    /// Displacement of the planet's apex, in rows of a pose [m].
+    /// Displacement of the planet's apex, in parts of a pose [m].
     pub fn offset(&self) -> [f64; 3] {
         self.offset.into()
     }
@@ -143,11 +144,9 @@ impl Placement {
         let angles = teeth.angles(stance, k)?;
         let turned = |gear: usize| {
             let ([s, c], frame) = (angles[gear], &self.frames[gear]);
-            let row = |i: usize| {
-                let (away, across) = (frame[(i, 0)], frame[(i, 1)]);
-                [c * away + s * across, c * across - s * away, frame[(i, 2)]]
-            };
-            [row(0), row(1), row(2)]
+            let away = |i: usize| c * frame[(i, 0)] + s * frame[(i, 1)];
+            let across = |i: usize| c * frame[(i, 1)] - s * frame[(i, 0)];
+            [[away(0), away(1), away(2)], [across(0), across(1), across(2)], [0, 1, 2].map(|i| frame[(i, 2)])]
         };
         Some([turned(0), turned(1)])
     }
@@ -158,7 +157,7 @@ impl Placement {
     }
 
     /// Polar angles on planet and side gear, as they stand, of the place in the direction `point` at cone distance
-    /// `cone` [m], in rows of a pose [rad].
+    /// `cone` [m], in parts of a pose [rad].
     pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
         let on_gears = [point - self.offset / cone, point];
         [0, 1].map(|gear| {
@@ -167,7 +166,7 @@ impl Placement {
         })
     }
 
-    /// A vector in rows of a pose in parts along a_p, a_s and t.
+    /// A vector in parts of a pose in parts along a_p, a_s and t.
     pub fn parts(&self, w: [f64; 3]) -> [f64; 3] {
         let w = Vector3::from(w);
         [0, 1, 2].map(|i| self.axes[i].dot(&w))

@@ -28,6 +28,14 @@ pub struct Both<const N: usize> {
     pub dd: [f64; 3],
 }
 
+/// Two numbers that depend on the angle of the same gear, side by side.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Twin<const N: usize> {
+    v: [f64; 2],
+    d: [f64; 2],
+    dd: [f64; 2],
+}
+
 /// A function of two numbers a, b with its derivatives up to the second.
 #[derive(Clone, Copy, Debug)]
 pub struct Partials {
@@ -86,6 +94,77 @@ impl<const N: usize> Mul for Single<N> {
         let d = self.d * o.v + self.v * o.d;
         Self::new(self.v * o.v, d, self.dd * o.v + self.v * o.dd + 2.0 * self.d * o.d)
     }
+}
+
+impl<const N: usize> Twin<N> {
+    /// Values with their derivatives.
+    #[inline(always)]
+    pub fn new(v: [f64; 2], d: [f64; 2], dd: [f64; 2]) -> Self {
+        Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 2] } }
+    }
+
+    /// Two numbers.
+    #[inline(always)]
+    pub fn of(a: Single<N>, b: Single<N>) -> Self {
+        Self { v: [a.v, b.v], d: [a.d, b.d], dd: [a.dd, b.dd] }
+    }
+
+    /// Both numbers.
+    #[inline(always)]
+    pub fn parts(self) -> (Single<N>, Single<N>) {
+        let part = |i: usize| Single { v: self.v[i], d: self.d[i], dd: self.dd[i] };
+        (part(0), part(1))
+    }
+
+    /// self/by, given 1/by.
+    #[inline(always)]
+    pub fn over(self, by: Single<N>, per: f64) -> Self {
+        let v = times(self.v, per);
+        let d = times(less(self.d, times(v, by.d)), per);
+        let dd = times(less(less(self.dd, times(v, by.dd)), times(d, 2.0 * by.d)), per);
+        Self::new(v, d, dd)
+    }
+
+    /// self·x.
+    #[inline(always)]
+    pub fn times(self, x: Single<N>) -> Self {
+        let d = plus(times(self.d, x.v), times(self.v, x.d));
+        let dd = plus(plus(times(self.dd, x.v), times(self.v, x.dd)), times(self.d, 2.0 * x.d));
+        Self::new(times(self.v, x.v), d, dd)
+    }
+
+    /// `at_zero` + self·x with x of the other gear, whose angle is the first variable of both results.
+    #[inline(always)]
+    pub fn linear(self, at_zero: Self, x: Single<N>) -> (Both<N>, Both<N>) {
+        let v = plus(at_zero.v, times(self.v, x.v));
+        let (first, second) = (times(self.v, x.d), plus(at_zero.d, times(self.d, x.v)));
+        let dd = [times(self.v, x.dd), times(self.d, x.d), plus(at_zero.dd, times(self.dd, x.v))];
+        let part = |i: usize| Both::new(v[i], [first[i], second[i]], [dd[0][i], dd[1][i], dd[2][i]]);
+        (part(0), part(1))
+    }
+}
+
+impl<const N: usize> Sub for Twin<N> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self::new(less(self.v, o.v), less(self.d, o.d), less(self.dd, o.dd))
+    }
+}
+
+#[inline(always)]
+fn plus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+#[inline(always)]
+fn less(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] - b[0], a[1] - b[1]]
+}
+
+#[inline(always)]
+fn times(a: [f64; 2], x: f64) -> [f64; 2] {
+    [a[0] * x, a[1] * x]
 }
 
 impl<const N: usize> Both<N> {
