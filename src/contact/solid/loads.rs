@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::mesh::{SolidMesh, SolidSlice};
+use super::mesh::{PlacedSlice, SolidMesh, SolidSlice};
 use crate::contact::impact::Force;
 use crate::contact::pairs::Flank;
 use crate::contact::state::MeshState;
@@ -50,7 +50,7 @@ impl SolidMesh {
         }
         let (mut largest, mut mean) = (0.0f64, 0.0);
         for slices in [&self.slices, &self.edges] {
-            self.sections::<0>(slices, state.which, state.position, |near, slice, p| {
+            self.sections::<0>(slices, state.which, state.position, |near, PlacedSlice { slice, .. }, p| {
                 if p.v > 0.0 && near.flank == flank && near.s == s {
                     let load = self.elastic.force(self.cone * p.v, 0.0).elastic;
                     largest = largest.max(load);
@@ -66,18 +66,19 @@ impl SolidMesh {
     /// Calls `visit` with every loaded section.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
         let [dq, dx] = state.rate;
-        self.sections::<1>(&self.slices, state.which, state.position, |near, slice, p| {
+        self.sections::<1>(&self.slices, state.which, state.position, |near, placed, p| {
             if p.v <= 0.0 {
                 return;
             }
+            let slice = &placed.slice;
             let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
             let share = slice.share * self.cone / slice.cone;
             let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
-            if let Some(patch) = self.section(near, slice).patch(&near.poses, &self.soft) {
+            if let Some((placement, patch)) = self.patch(near, placed) {
                 let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
                 let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
                 let parts = |w: [f64; 3]| {
-                    let [planet, side, across] = near.placement.parts(w);
+                    let [planet, side, across] = placement.parts(w);
                     [planet, side, sign * across]
                 };
                 visit(&SolidLoad {
@@ -88,7 +89,7 @@ impl SolidMesh {
                     depth: p.v,
                     force,
                     point: parts(point.into()),
-                    polar: near.placement.polars(point, slice.cone),
+                    polar: placement.polars(point, slice.cone),
                     normal: parts(patch.normal),
                 });
             }

@@ -15,9 +15,8 @@
 use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
-use super::overlap::{FlankSection, Softness};
-use super::polygon::Moved;
-use super::pose::{Displacement, Placement, Pose, Teeth};
+use super::overlap::{FlankSection, Patch, Softness};
+use super::pose::{Displacement, Placement, SineCosine, Teeth, TurningRay};
 use super::turned::Both;
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
@@ -61,6 +60,13 @@ const SOFTNESS: f64 = 1.25;
 /// Upper bound of a flank's length [rad].
 const LONGEST: f64 = 1.0;
 
+/// A section with the planet's rays in each placement.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedSlice {
+    pub(super) slice: SolidSlice,
+    planet_rays: Vec<Vec<TurningRay>>,
+}
+
 /// A mesh of solid teeth.
 #[derive(Clone, Debug)]
 pub struct SolidMesh {
@@ -71,12 +77,14 @@ pub struct SolidMesh {
     flanks: Flanks,
     teeth: Teeth,
     candidates: Candidates,
-    pub(super) soft: Softness,
-    pub(super) slices: Vec<SolidSlice>,
+    soft: Softness,
+    pub(super) slices: Vec<PlacedSlice>,
     /// Sections without a share, at which the load is only looked at.
-    pub edges: Vec<SolidSlice>,
-    /// Drive and mirrored coast flank of each planet with each side.
-    placements: Vec<[[Placement; 2]; 2]>,
+    pub(super) edges: Vec<PlacedSlice>,
+    /// Placements that differ, and which of them each planet has with each side, for its drive and mirrored coast flank.
+    placements: Vec<Placement>,
+    placed: Vec<[[usize; 2]; 2]>,
+    side_rays: Vec<TurningRay>,
     half_backlash: f64,
     base_pitch: f64,
     centred: f64,
@@ -92,27 +100,48 @@ impl SolidMesh {
         let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
         let soft = Softness::new(width, relative, LONGEST);
         let slack = slack / pair.inner_cone;
-        let placements = spec
-            .displaced
-            .iter()
-            .map(|sides| sides.map(|d| [Placement::new(pair, &d), Placement::new(pair, &d.mirrored())]))
-            .collect();
-        Self {
+        let mut displacements: Vec<Displacement> = Vec::new();
+        let mut number = |d: Displacement| {
+            displacements.iter().position(|known| *known == d).unwrap_or_else(|| {
+                displacements.push(d);
+                displacements.len() - 1
+            })
+        };
+        let placed = spec.displaced.iter().map(|sides| sides.map(|d| [number(d), number(d.mirrored())])).collect();
+        let mut mesh = Self {
             elastic,
             damping,
             cone: pair.mean_cone,
             candidates: Candidates::new(pair, &flanks, slack + soft.reach(), slack + soft.ahead),
+            side_rays: Placement::new(pair, &Displacement::default()).side_rays(&flanks.rays[1]),
             flanks,
             teeth: Teeth::new(pair),
             slack: slack + soft.ahead,
             soft,
-            slices: spec.slices.clone(),
+            slices: Vec::new(),
             edges: Vec::new(),
-            placements,
+            placements: displacements.iter().map(|d| Placement::new(pair, d)).collect(),
+            placed,
             half_backlash: pair.normal_backlash / 2.0,
             base_pitch: pair.base_pitch,
             centred: pair.centred_position(),
-        }
+        };
+        mesh.slices = mesh.place(&spec.slices);
+        mesh
+    }
+
+    /// The same with sections `edges` at which the load is looked at.
+    pub fn with_edges(mut self, edges: &[SolidSlice]) -> Self {
+        self.edges = self.place(edges);
+        self
+    }
+
+    fn place(&self, slices: &[SolidSlice]) -> Vec<PlacedSlice> {
+        let rays = |slice: &SolidSlice| {
+            let rays = |placement: &Placement| placement.planet_rays(&self.flanks.rays[0], slice.cone, slice.relief);
+            self.placements.iter().map(rays).collect()
+        };
+        slices.iter().map(|slice| PlacedSlice { slice: *slice, planet_rays: rays(slice) }).collect()
     }
 
     /// Sections across the face.
@@ -124,10 +153,10 @@ impl SolidMesh {
     #[inline(always)]
     pub(super) fn sections<const N: usize>(
         &self,
-        slices: &[SolidSlice],
+        slices: &[PlacedSlice],
         which: [usize; 2],
         [q, x]: [f64; 2],
-        mut visit: impl FnMut(&FlankPair, &SolidSlice, Both<N>),
+        mut visit: impl FnMut(&FlankPair, &PlacedSlice, Both<N>),
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
@@ -137,15 +166,15 @@ impl SolidMesh {
             // the mesh repeats with every base pitch
             let turns = libm::round(x / self.base_pitch);
             let x = x - turns * self.base_pitch;
-            let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
+            let placed = self.placed[which[0]][which[1]][usize::from(flank == Flank::Coast)];
             let stance = self.teeth.stance(q, x);
             for k in self.candidates.near(q, x) {
-                let Some(poses) = placement.poses(&self.teeth, &stance, k) else { continue };
+                let Some(angles) = self.teeth.angles(&stance, k) else { continue };
                 let s = self.centred + x + f64::from(k) * self.base_pitch;
                 let number = (-turns as i64).saturating_add(i64::from(k));
-                let near = FlankPair { flank, placement, number, s, poses, start: self.flanks.on_path(s) };
+                let near = FlankPair { flank, placed, number, s, angles, start: self.flanks.on_path(s) };
                 for slice in slices {
-                    if let Some(depth) = self.section(&near, slice).depth::<N>(&near.poses, &self.soft) {
+                    if let Some(depth) = self.section(&near, slice).depth::<N>(&self.soft) {
                         visit(&near, slice, self.teeth.by_position(depth, sign));
                     }
                 }
@@ -154,16 +183,17 @@ impl SolidMesh {
     }
 
     #[inline(always)]
-    pub(super) fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
-        let [planet, side] = &self.flanks.rays;
-        let [across, along, toward] = near.placement.offset();
-        let per = 1.0 / slice.cone;
-        let planet_moved = Moved { relief: slice.relief * per, offset: [across * per, along * per, toward * per] };
-        FlankSection {
-            rays: [planet, side],
-            start: near.start,
-            moved: [planet_moved, Moved::default()],
-        }
+    fn section<'a>(&'a self, near: &FlankPair, slice: &'a PlacedSlice) -> FlankSection<'a> {
+        let rays = [slice.planet_rays[near.placed].as_slice(), &self.side_rays];
+        FlankSection { rays, angles: near.angles, start: near.start }
+    }
+
+    /// The placement of a pair, and where the patch of one of its sections lies.
+    pub(super) fn patch(&self, near: &FlankPair, slice: &PlacedSlice) -> Option<(&Placement, Patch)> {
+        let placement = &self.placements[near.placed];
+        let normal =
+            |gear: usize, ray: usize| placement.turned(gear, near.angles[gear], &self.flanks.rays[gear][ray].normal);
+        self.section(near, slice).patch(&self.soft, normal).map(|patch| (placement, patch))
     }
 
     /// Force of a section that overlaps by `depth` [rad], as if the whole face were in its state.
@@ -177,7 +207,7 @@ impl SolidMesh {
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         let [dq, dx] = state.rate;
-        self.sections::<1>(&self.slices, state.which, state.position, |_, slice, p| {
+        self.sections::<1>(&self.slices, state.which, state.position, |_, PlacedSlice { slice, .. }, p| {
             if p.v > 0.0 {
                 let rate = p.d[0] * dq + p.d[1] * dx;
                 let force = self.respond(p.v, rate);
@@ -194,7 +224,7 @@ impl SolidMesh {
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
         let [dq, dx] = state.rate;
-        self.sections::<2>(&self.slices, state.which, state.position, |_, slice, p| {
+        self.sections::<2>(&self.slices, state.which, state.position, |_, PlacedSlice { slice, .. }, p| {
             if p.v <= 0.0 {
                 return;
             }
@@ -219,7 +249,7 @@ impl SolidMesh {
     /// Elastic energy V [J] of the mesh `which` at position (q, x).
     pub fn energy(&self, which: [usize; 2], position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
-        self.sections::<0>(&self.slices, which, position, |_, slice, p| {
+        self.sections::<0>(&self.slices, which, position, |_, PlacedSlice { slice, .. }, p| {
             if p.v > 0.0 {
                 energy += slice.share * self.elastic.energy(self.cone * p.v);
             }
@@ -229,12 +259,13 @@ impl SolidMesh {
 }
 
 /// A pair of flanks near each other, in the mirror image in which it is a drive flank.
-pub(super) struct FlankPair<'a> {
+pub(super) struct FlankPair {
     pub(super) flank: Flank,
-    pub(super) placement: &'a Placement,
+    /// Number of its placement.
+    placed: usize,
     pub(super) number: i64,
     pub(super) s: f64,
-    pub(super) poses: [Pose; 2],
+    angles: [SineCosine; 2],
     /// Rays on the path of contact.
     start: [f64; 2],
 }

@@ -20,15 +20,16 @@
 //! of the facets' length. For ε → 0 the depth is the greatest overlap, which on involutes is exactly the approach less
 //! the gap of the tip corners, a − g.
 
+use nalgebra::Vector3;
+
 use super::exponential::mean_exponential;
-use super::flank::Ray;
-use super::polygon::{Measure, Moved, ProjectedFacet, ProjectedRay, project};
-use super::pose::Pose;
+use super::polygon::{Measure, ProjectedFacet, ProjectedRay};
+use super::pose::{SineCosine, TurningRay};
 use super::turned::Both;
 use crate::numeric::{TAU, sqrt};
 
-/// Weights below e to this power are left out: of a parabola's integral they are less than the last digits.
-const NEGLIGIBLE: f64 = -30.0;
+/// Weights below e to this power are left out: of a parabola's integral they are erfc √24 = 4·10⁻¹².
+const NEGLIGIBLE: f64 = -24.0;
 
 /// Least ratio of the flanks' distance to their height difference where they touch.
 const LEAST_METRIC: f64 = 0.8;
@@ -74,7 +75,6 @@ struct Corner<const N: usize> {
 /// How far a walk along both polygons has come.
 struct Walk<'a, const N: usize> {
     section: &'a FlankSection<'a>,
-    poses: &'a [Pose; 2],
     measures: &'a [Measure<N>; 2],
     /// 1 to higher places, −1 to lower ones.
     sense: f64,
@@ -92,7 +92,7 @@ impl<const N: usize> Walk<'_, N> {
     fn next(&mut self) -> Option<Corner<N>> {
         if let Some(gear) = self.passed {
             let i = self.index[gear].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
-            let (from, to) = (self.ahead[gear], self.section.projected(self.poses, gear, i)?);
+            let (from, to) = (self.ahead[gear], self.section.projected(gear, i)?);
             if !((to.u.v - from.u.v) * self.sense > 0.0) {
                 return None;
             }
@@ -114,38 +114,38 @@ impl<const N: usize> Walk<'_, N> {
 pub struct Patch {
     /// Place in the plane of projection [rad].
     pub place: [f64; 2],
-    /// Mean normal into the side gear, in parts of a pose.
+    /// Mean normal into the side gear, in rows of a placement.
     pub normal: [f64; 3],
 }
 
 /// A section of both flanks.
 pub struct FlankSection<'a> {
     /// Rays of planet and side gear; along both the planet's root and the side gear's tip come last.
-    pub rays: [&'a [Ray]; 2],
+    pub rays: [&'a [TurningRay]; 2],
+    /// Angles of their teeth.
+    pub angles: [SineCosine; 2],
     /// The rays near which exact flanks would touch on the path of contact, counted along each flank.
     pub start: [f64; 2],
-    /// Material that is missing, and displacement: the planet has both for the pair.
-    pub moved: [Moved; 2],
 }
 
 impl FlankSection<'_> {
     #[inline(always)]
-    fn projected<const N: usize>(&self, poses: &[Pose; 2], gear: usize, i: usize) -> Option<ProjectedRay<N>> {
-        self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, &self.moved[gear], &poses[gear]))
+    fn projected<const N: usize>(&self, gear: usize, i: usize) -> Option<ProjectedRay<N>> {
+        self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, self.angles[gear]))
     }
 
     /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
     #[inline(always)]
-    fn around<const N: usize>(&self, poses: &[Pose; 2], gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
+    fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
         let mut i = (self.start[gear].max(0.0) as usize).min(self.rays[gear].len().checked_sub(2)?);
-        let mut rays = [self.projected(poses, gear, i)?, self.projected(poses, gear, i + 1)?];
+        let mut rays = [self.projected(gear, i)?, self.projected(gear, i + 1)?];
         while rays[1].u.v < u {
             i += 1;
-            rays = [rays[1], self.projected(poses, gear, i + 1)?];
+            rays = [rays[1], self.projected(gear, i + 1)?];
         }
         while rays[0].u.v > u {
             i = i.wrapping_sub(1);
-            rays = [self.projected(poses, gear, i)?, rays[0]];
+            rays = [self.projected(gear, i)?, rays[0]];
         }
         Some((i, rays))
     }
@@ -155,27 +155,32 @@ impl FlankSection<'_> {
     #[inline(always)]
     fn corners<const N: usize>(
         &self,
-        poses: &[Pose; 2],
         soft: &Softness,
         mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let (planet_tip, _) = project::<N>(self.rays[0].first()?, &self.moved[0], &poses[0]).parts();
-        let (side_tip, _) = project::<N>(self.rays[1].last()?, &self.moved[1], &poses[1]).parts();
+        let planet_tip = self.projected::<N>(0, 0)?.u;
+        let side_tip = self.projected::<N>(1, self.rays[1].len().checked_sub(1)?)?.u;
         // contacts of involutes are at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
-        let (planet, side) = (self.around::<N>(poses, 0, u)?, self.around::<N>(poses, 1, u)?);
+        let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);
         let facets = [ProjectedFacet::new(&planet.1[0], &planet.1[1]), ProjectedFacet::new(&side.1[0], &side.1[1])];
         let grows_up = facets[0].slope() > facets[1].slope();
+        // over convex flanks no overlap grows faster than at first
+        let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
+        let (reach, least) = (-NEGLIGIBLE * soft.width, -soft.ahead / LEAST_METRIC);
+        // written so that NaN is apart
+        if !(facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room > least) {
+            return None;
+        }
         let measures = Measure::of_both(planet_tip, side_tip);
         let walk = |up: bool| {
             let (sense, end) = (if up { 1.0 } else { -1.0 }, usize::from(up));
             let (ahead, index) = ([planet.1[end], side.1[end]], [planet.0 + end, side.0 + end]);
-            Walk { section: self, poses, measures: &measures, sense, facets, ahead, index, passed: None }
+            Walk { section: self, measures: &measures, sense, facets, ahead, index, passed: None }
         };
         let (mut forward, mut back) = (walk(grows_up), walk(!grows_up));
         let begin = back.next()?;
-        let (reach, least, mut greatest, mut floor) =
-            (-NEGLIGIBLE * soft.width, -soft.ahead / LEAST_METRIC, f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let (mut greatest, mut floor) = (f64::NEG_INFINITY, f64::NEG_INFINITY);
         for walk in [&mut forward, &mut back] {
             let (mut at, mut begins) = (begin, true);
             loop {
@@ -199,13 +204,13 @@ impl FlankSection<'_> {
     }
 
     /// Depth p [rad] where it is positive, and some distance below.
-    pub fn depth<const N: usize>(&self, poses: &[Pose; 2], soft: &Softness) -> Option<Both<N>> {
+    pub fn depth<const N: usize>(&self, soft: &Softness) -> Option<Both<N>> {
         let per = 1.0 / soft.width;
         // the integral of the walk and the sum of both; what exponents count from
         let (mut integral, mut sum, mut from) = (Both::<N>::default(), Both::<N>::default(), f64::NAN);
         // place, exponent and its exponential of the corner before
         let (mut place, mut before, mut known) = (Both::<N>::default(), Both::<N>::default(), 1.0);
-        self.corners::<N>(poses, soft, |begins, at| {
+        self.corners::<N>(soft, |begins, at| {
             if begins {
                 (sum, integral) = (sum + integral * 1f64.copysign(integral.v), Both::default());
                 from = if from.is_nan() { at.overlap.v } else { from };
@@ -232,12 +237,12 @@ impl FlankSection<'_> {
         })
     }
 
-    /// Where the patch lies.
-    pub fn patch(&self, poses: &[Pose; 2], soft: &Softness) -> Option<Patch> {
-        let from = self.depth::<0>(poses, soft)?.v;
-        let (mut sum, mut out) = (0.0, Patch::default());
+    /// Where the patch lies, given the normal of each ray of a gear in rows of a placement.
+    pub fn patch(&self, soft: &Softness, normal: impl Fn(usize, usize) -> Vector3<f64>) -> Option<Patch> {
+        let from = self.depth::<0>(soft)?.v;
+        let (mut sum, mut place, mut sum_normal) = (0.0, [0.0; 2], Vector3::zeros());
         let mut last: Option<(Corner<0>, f64)> = None;
-        self.corners::<0>(poses, soft, |begins, at| {
+        self.corners::<0>(soft, |begins, at| {
             let exponent = (at.overlap.v - from) / soft.width;
             if let Some((near, before)) = last.filter(|_| !begins) {
                 let ends = [before, exponent];
@@ -245,20 +250,15 @@ impl FlankSection<'_> {
                 sum += weight;
                 for &Corner { u, mate, ray, height, .. } in [&near, at] {
                     // the flank that the corner is pressed into
-                    let normal = self.rays[mate][ray].normal;
-                    out.place[0] += 0.5 * weight * u.v;
-                    out.place[1] += 0.5 * weight * height;
-                    let [away, across, axis] = &poses[mate];
-                    for (i, sum) in out.normal.iter_mut().enumerate() {
-                        *sum += 0.5 * weight * (away[i] * normal.x + across[i] * normal.y + axis[i] * normal.z);
-                    }
+                    sum_normal += normal(mate, ray) * (0.5 * weight);
+                    place[0] += 0.5 * weight * u.v;
+                    place[1] += 0.5 * weight * height;
                 }
             }
             last = Some((*at, exponent));
         })?;
-        let [x, y, z] = out.normal;
-        let length = sqrt(x * x + y * y + z * z);
+        let length = sum_normal.norm();
         (sum > 0.0 && length > 0.0)
-            .then(|| Patch { place: out.place.map(|p| p / sum), normal: out.normal.map(|n| n / length) })
+            .then(|| Patch { place: place.map(|p| p / sum), normal: (sum_normal / length).into() })
     }
 }

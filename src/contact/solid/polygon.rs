@@ -1,7 +1,6 @@
 //! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
 
-use super::flank::Ray;
-use super::pose::Pose;
+use super::pose::{SineCosine, TurningRay};
 use super::turned::{Both, Single, Twin};
 use crate::numeric::sqrt;
 
@@ -14,42 +13,24 @@ pub struct ProjectedRay<const N: usize> {
     level: Twin<N>,
 }
 
-/// How a flank differs from that of aligned gears.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Moved {
-    /// Material missing [rad].
-    pub relief: f64,
-    /// Displacement, in parts of a pose [rad].
-    pub offset: [f64; 3],
-}
-
-/// A ray's place u and height h in the plane of projection.
-#[inline(always)]
-pub fn project<const N: usize>(ray: &Ray, moved: &Moved, [away, across, axis]: &Pose) -> Twin<N> {
-    let (w, o) = (ray.direction - ray.normal * moved.relief, &moved.offset);
-    let turning = |i: usize| away[i] * w.x + across[i] * w.y;
-    let slope = |i: usize| across[i] * w.x - away[i] * w.y;
-    let (flat, rise, toward) = ([turning(0), turning(1)], [slope(0), slope(1)], turning(2));
-    let fixed = |i: usize| axis[i] * w.z + o[i];
-    let in_plane = Twin::new([flat[0] + fixed(0), flat[1] + fixed(1)], rise, [-flat[0], -flat[1]]);
-    let toward = Single::new(toward + fixed(2), slope(2), -toward);
-    in_plane.over(toward, 1.0 / toward.v)
-}
-
 impl<const N: usize> ProjectedRay<N> {
-    /// `ray` of a gear in `pose`.
+    /// `ray` of a tooth at the angle given.
     #[inline(always)]
-    pub fn new(ray: &Ray, moved: &Moved, pose: &Pose) -> Self {
-        let (u, h) = project(ray, moved, pose).parts();
+    pub fn new(ray: &TurningRay, [s, c]: SineCosine) -> Self {
+        let turning = |i: usize| ray.sine[i] * s + ray.cosine[i] * c;
+        let slope = |i: usize| ray.sine[i] * c - ray.cosine[i] * s;
+        let turning = [turning(0), turning(1), turning(2), turning(3)];
+        let v = |i: usize| turning[i] + ray.fixed[i];
+        let part = |i: usize| Single::new(v(i), slope(i), -turning[i]);
+        let in_plane = Twin::new([v(0), v(1)], [slope(0), slope(1)], [-turning[0], -turning[1]]);
+        let toward: Single<N> = part(2);
+        let (u, h) = in_plane.over(toward, 1.0 / toward.v).parts();
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
         let root = sqrt(square.v);
         let half = 0.5 / root;
         let root = square.through([root, half, -half * half / root]);
-        let ([away, across, axis], n) = (pose, &ray.normal);
-        let turning = away[1] * n.x + across[1] * n.y;
-        let normal = Single::new(turning + axis[1] * n.z, across[1] * n.x - away[1] * n.y, -turning);
-        Self { u, level: Twin::of(h, normal * root) }
+        Self { u, level: Twin::of(h, part(3) * root) }
     }
 }
 
@@ -65,6 +46,12 @@ impl<const N: usize> ProjectedFacet<N> {
     #[inline(always)]
     pub fn slope(&self) -> f64 {
         self.slope.parts().0.v
+    }
+
+    /// Height at the place `u`.
+    #[inline(always)]
+    pub fn height(&self, u: f64) -> f64 {
+        self.at_zero.parts().0.v + self.slope() * u
     }
 
     /// Facet between neighbouring rays.

@@ -12,7 +12,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::flank::half_pitch;
+use super::flank::{Ray, half_pitch};
 use super::turned::Both;
 use crate::geometry::Pair;
 use crate::numeric::{TAU, atan2, cos, sin};
@@ -39,7 +39,7 @@ impl Displacement {
 pub const MOST_TEETH: i32 = 6;
 
 /// Sine and cosine of an angle.
-type SineCosine = [f64; 2];
+pub type SineCosine = [f64; 2];
 
 /// Angles of the teeth of both gears.
 #[derive(Clone, Debug)]
@@ -70,9 +70,9 @@ impl Teeth {
         Stance([x * planet, (q + x) * side + self.half_pitch].map(|angle| [sin(angle), cos(angle)]))
     }
 
-    /// Sine and cosine of the angles θ_p and θ_s of the teeth of pair `k`.
+    /// Angles θ_p and θ_s of the teeth of pair `k`, tooth 0 of both in `stance`; `None` beyond the largest number.
     #[inline(always)]
-    fn angles(&self, stance: &Stance, k: i32) -> Option<[SineCosine; 2]> {
+    pub fn angles(&self, stance: &Stance, k: i32) -> Option<[SineCosine; 2]> {
         let k = usize::try_from(k + MOST_TEETH).ok()?;
         let turned = |gear: usize| {
             let ([s, c], [sk, ck]) = (stance.0[gear], self.pitches[gear].get(k)?);
@@ -103,9 +103,18 @@ pub struct Placement {
     axes: [Vector3<f64>; 3],
 }
 
-/// Directions of a tooth's own frame (away from the axis, across, along the axis) in parts across, along the line of action
-/// and toward the pitch point.
-pub type Pose = [[f64; 3]; 3];
+/// A ray that turns with its gear, in four parts: across, along the line of action and toward the pitch point, and the part
+/// of its flank's normal along the line of action.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub struct TurningRay {
+    /// Parts by the sine of the tooth's angle.
+    pub sine: [f64; 4],
+    /// Parts by its cosine.
+    pub cosine: [f64; 4],
+    /// Parts that stay.
+    pub fixed: [f64; 4],
+}
 
 impl Placement {
     /// Placement of the gears of `pair`, displaced by `d`.
@@ -133,22 +142,33 @@ impl Placement {
         }
     }
 
-    /// Displacement of the planet's apex, in parts of a pose [m].
-    pub fn offset(&self) -> [f64; 3] {
-        self.offset.into()
+    /// Rays of the planet's flank `relief` [m] of which is missing, in a section at cone distance `cone` [m].
+    pub fn planet_rays(&self, rays: &[Ray], cone: f64, relief: f64) -> Vec<TurningRay> {
+        rays.iter().map(|ray| self.turning(0, ray, relief / cone, self.offset / cone)).collect()
     }
 
-    /// Both teeth of pair `k`, tooth 0 in `stance`; `None` beyond the largest number.
-    #[inline(always)]
-    pub fn poses(&self, teeth: &Teeth, stance: &Stance, k: i32) -> Option<[Pose; 2]> {
-        let angles = teeth.angles(stance, k)?;
-        let turned = |gear: usize| {
-            let ([s, c], frame) = (angles[gear], &self.frames[gear]);
-            let away = |i: usize| c * frame[(i, 0)] + s * frame[(i, 1)];
-            let across = |i: usize| c * frame[(i, 1)] - s * frame[(i, 0)];
-            [[away(0), away(1), away(2)], [across(0), across(1), across(2)], [0, 1, 2].map(|i| frame[(i, 2)])]
+    /// Rays of the side gear's flank.
+    pub fn side_rays(&self, rays: &[Ray]) -> Vec<TurningRay> {
+        rays.iter().map(|ray| self.turning(1, ray, 0.0, Vector3::zeros())).collect()
+    }
+
+    fn turning(&self, gear: usize, ray: &Ray, relief: f64, offset: Vector3<f64>) -> TurningRay {
+        let frame = &self.frames[gear];
+        let by = |w: Vector3<f64>| {
+            let [away, across, axis] = [0, 1, 2].map(|i| frame.column(i).into_owned());
+            [across * w.x - away * w.y, away * w.x + across * w.y, axis * w.z]
         };
-        Some([turned(0), turned(1)])
+        let (place, normal) = (by(ray.direction - ray.normal * relief), by(ray.normal));
+        let part = |i: usize, moved: Vector3<f64>| {
+            let w = place[i] + moved;
+            [w.x, w.y, w.z, normal[i].y]
+        };
+        TurningRay { sine: part(0, Vector3::zeros()), cosine: part(1, Vector3::zeros()), fixed: part(2, offset) }
+    }
+
+    /// A direction of a tooth of a gear, in rows of this placement, with the tooth at the angle given.
+    pub fn turned(&self, gear: usize, [s, c]: SineCosine, w: &Vector3<f64>) -> Vector3<f64> {
+        self.frames[gear] * Vector3::new(c * w.x - s * w.y, s * w.x + c * w.y, w.z)
     }
 
     /// From the planet's frame, turned by the angle `planet`, to the side gear's, turned by `side` [rad].
@@ -157,7 +177,7 @@ impl Placement {
     }
 
     /// Polar angles on planet and side gear, as they stand, of the place in the direction `point` at cone distance
-    /// `cone` [m], in parts of a pose [rad].
+    /// `cone` [m], in rows of a placement [rad].
     pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
         let on_gears = [point - self.offset / cone, point];
         [0, 1].map(|gear| {
@@ -166,7 +186,7 @@ impl Placement {
         })
     }
 
-    /// A vector in parts of a pose in parts along a_p, a_s and t.
+    /// A vector in rows of a placement in parts along a_p, a_s and t.
     pub fn parts(&self, w: [f64; 3]) -> [f64; 3] {
         let w = Vector3::from(w);
         [0, 1, 2].map(|i| self.axes[i].dot(&w))
