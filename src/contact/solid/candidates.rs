@@ -24,8 +24,11 @@ const MM: f64 = 1e3;
 /// Pieces of a flank.
 const PIECES: usize = 8;
 
-/// Cells per base pitch; within them flanks may overlap by as much as a cell is long.
+/// Cells per base pitch.
 const CELLS: usize = 64;
+
+/// Overlap up to which they hold, in base pitches.
+const DEEPEST: f64 = 1.0 / 64.0;
 
 /// First and last number of the pairs of teeth near each other.
 type Near = [i32; 2];
@@ -84,14 +87,15 @@ impl Candidates {
             half_backlash: pair.normal_backlash / 2.0,
             cells: Vec::new(),
             per_cell: 1.0 / cell,
-            deepest: cell,
+            deepest: DEEPEST * pair.base_pitch,
         };
         // positions from the gap to the overlap up to which the cells hold, by their middle and half their range
-        let (q, half) = (0.5 * (apart - cell) - new.half_backlash, 0.5 * (apart + cell));
+        let deepest = new.deepest;
+        let (q, half) = (0.5 * (apart - deepest) - new.half_backlash, 0.5 * (apart + deepest));
         // what gears move within a cell, each by the turn of its farthest point
         let moved = 0.5 * cell / new.sin_base[0] + (0.5 * cell + half) / new.sin_base[1];
         let middle = |i: usize| cell * (i as f64 + 0.5) - 0.5 * pair.base_pitch;
-        new.cells = (0..CELLS).map(|i| new.search(q, middle(i), moved + cell)).collect();
+        new.cells = (0..CELLS).map(|i| new.search(q, middle(i), moved + deepest)).collect();
         new
     }
 

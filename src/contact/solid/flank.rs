@@ -32,6 +32,8 @@ pub struct Flanks {
     pub sagitta: [f64; 2],
     /// Ray on the path of contact, counted along each flank, at the pitch point and its change by the place s [1/rad].
     on_path: [[f64; 2]; 2],
+    /// Ends of the path of contact [rad].
+    path: [f64; 2],
 }
 
 impl Flanks {
@@ -50,11 +52,13 @@ impl Flanks {
         let from_tip = [0, 1].map(|i| (pair.gears[i].action_arc(pair.gears[i].tip) - pair.pitch_arc[i]) * per_arc[i]);
         let last = (side.len() - 1) as f64;
         let on_path = [[from_tip[0], -per_arc[0]], [last - from_tip[1], -per_arc[1]]];
-        Self { rays: [planet, side], sagitta, on_path }
+        Self { rays: [planet, side], sagitta, on_path, path: [pair.path.low, pair.path.high] }
     }
 
-    /// The rays of both flanks on the path of contact at place `s` [rad], counted along each; beyond its ends too.
-    pub fn on_path(&self, s: f64) -> [f64; 2] {
+    /// The rays of both flanks where exact ones are closest at place `s` [rad], counted along each: on the path of contact,
+    /// or beyond its ends nearly where it ends.
+    pub fn closest(&self, s: f64) -> [f64; 2] {
+        let s = s.max(self.path[0]).min(self.path[1]);
         self.on_path.map(|[at_pitch, per_place]| at_pitch + per_place * s)
     }
 }

@@ -172,7 +172,7 @@ impl SolidMesh {
                 let Some(angles) = self.teeth.angles(&stance, k) else { continue };
                 let s = self.centred + x + f64::from(k) * self.base_pitch;
                 let number = (-turns as i64).saturating_add(i64::from(k));
-                let near = FlankPair { flank, placed, number, s, angles, start: self.flanks.on_path(s) };
+                let near = FlankPair { flank, placed, number, s, angles, start: self.flanks.closest(s) };
                 for slice in slices {
                     if let Some(depth) = self.section(&near, slice).depth::<N>(&self.soft) {
                         visit(&near, slice, self.teeth.by_position(depth, sign));
@@ -266,6 +266,6 @@ pub(super) struct FlankPair {
     pub(super) number: i64,
     pub(super) s: f64,
     angles: [SineCosine; 2],
-    /// Rays on the path of contact.
+    /// Rays that are closest.
     start: [f64; 2],
 }

@@ -23,7 +23,7 @@
 use nalgebra::Vector3;
 
 use super::exponential::mean_exponential;
-use super::polygon::{Measure, ProjectedFacet, ProjectedRay};
+use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
 use super::pose::{SineCosine, TurningRay};
 use super::turned::Both;
 use crate::numeric::{TAU, sqrt};
@@ -124,7 +124,7 @@ pub struct FlankSection<'a> {
     pub rays: [&'a [TurningRay]; 2],
     /// Angles of their teeth.
     pub angles: [SineCosine; 2],
-    /// The rays near which exact flanks would touch on the path of contact, counted along each flank.
+    /// Where to begin: the rays that would be closest on exact flanks, counted along each.
     pub start: [f64; 2],
 }
 
@@ -158,8 +158,8 @@ impl FlankSection<'_> {
         soft: &Softness,
         mut visit: impl FnMut(bool, &Corner<N>),
     ) -> Option<()> {
-        let planet_tip = self.projected::<N>(0, 0)?.u;
-        let side_tip = self.projected::<N>(1, self.rays[1].len().checked_sub(1)?)?.u;
+        let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
+        let side_tip = place::<N>(self.rays[1].last()?, self.angles[1]);
         // contacts of involutes are at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
         let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);

@@ -13,24 +13,33 @@ pub struct ProjectedRay<const N: usize> {
     level: Twin<N>,
 }
 
+/// Part `i` of a ray of a tooth at the angle given.
+#[inline(always)]
+fn part<const N: usize>(ray: &TurningRay, i: usize, [s, c]: SineCosine) -> Single<N> {
+    let turning = ray.sine[i] * s + ray.cosine[i] * c;
+    Single::new(turning + ray.fixed[i], ray.sine[i] * c - ray.cosine[i] * s, -turning)
+}
+
+/// Place along the flank of a ray of a tooth at the angle given [rad].
+#[inline(always)]
+pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
+    let toward = part(ray, 2, angle);
+    part(ray, 0, angle).over(toward, 1.0 / toward.v)
+}
+
 impl<const N: usize> ProjectedRay<N> {
     /// `ray` of a tooth at the angle given.
     #[inline(always)]
-    pub fn new(ray: &TurningRay, [s, c]: SineCosine) -> Self {
-        let turning = |i: usize| ray.sine[i] * s + ray.cosine[i] * c;
-        let slope = |i: usize| ray.sine[i] * c - ray.cosine[i] * s;
-        let turning = [turning(0), turning(1), turning(2), turning(3)];
-        let v = |i: usize| turning[i] + ray.fixed[i];
-        let part = |i: usize| Single::new(v(i), slope(i), -turning[i]);
-        let in_plane = Twin::new([v(0), v(1)], [slope(0), slope(1)], [-turning[0], -turning[1]]);
-        let toward: Single<N> = part(2);
-        let (u, h) = in_plane.over(toward, 1.0 / toward.v).parts();
+    pub fn new(ray: &TurningRay, angle: SineCosine) -> Self {
+        let (across, along) = (part::<N>(ray, 0, angle), part(ray, 1, angle));
+        let (toward, normal) = (part(ray, 2, angle), part(ray, 3, angle));
+        let (u, h) = Twin::of(across, along).over(toward, 1.0 / toward.v).parts();
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
         let root = sqrt(square.v);
         let half = 0.5 / root;
         let root = square.through([root, half, -half * half / root]);
-        Self { u, level: Twin::of(h, part(3) * root) }
+        Self { u, level: Twin::of(h, normal * root) }
     }
 }
 
