@@ -25,7 +25,7 @@ const MM: f64 = 1e3;
 const PIECES: usize = 8;
 
 /// Cells per base pitch.
-const CELLS: usize = 64;
+const CELLS: usize = 128;
 
 /// Overlap up to which they hold, in base pitches.
 const DEEPEST: f64 = 1.0 / 64.0;

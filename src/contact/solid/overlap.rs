@@ -137,15 +137,21 @@ impl FlankSection<'_> {
     /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
     #[inline(always)]
     fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
-        let mut i = (self.start[gear].max(0.0) as usize).min(self.rays[gear].len().checked_sub(2)?);
-        let mut rays = [self.projected(gear, i)?, self.projected(gear, i + 1)?];
-        while rays[1].u.v < u {
-            i += 1;
-            rays = [rays[1], self.projected(gear, i + 1)?];
-        }
-        while rays[0].u.v > u {
-            i = i.wrapping_sub(1);
-            rays = [self.projected(gear, i)?, rays[0]];
+        let last = self.rays[gear].len().checked_sub(2)?;
+        let mut i = (self.start[gear].max(0.0) as usize).min(last);
+        let mut rays = [self.projected::<N>(gear, i)?, self.projected(gear, i + 1)?];
+        if !(rays[0].u.v <= u && u <= rays[1].u.v) {
+            // facets are nearly alike
+            let ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
+            i = ((i as f64 + ahead).max(0.0) as usize).min(last);
+            let at = |i: usize| self.rays[gear].get(i).map(|ray| place::<0>(ray, self.angles[gear]).v);
+            while at(i + 1)? < u {
+                i += 1;
+            }
+            while at(i)? > u {
+                i = i.checked_sub(1)?;
+            }
+            rays = [self.projected(gear, i)?, self.projected(gear, i + 1)?];
         }
         Some((i, rays))
     }
