@@ -93,11 +93,12 @@ impl<const N: usize> Walk<'_, N> {
         if let Some(gear) = self.passed {
             let i = self.index[gear].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
             let (from, to) = (self.ahead[gear], self.section.projected(gear, i)?);
+            self.facets[gear] = ProjectedFacet::new(&from, &to);
+            (self.ahead[gear], self.index[gear]) = (to, i);
+            // written so that NaN is no way on
             if !((to.u.v - from.u.v) * self.sense > 0.0) {
                 return None;
             }
-            self.facets[gear] = ProjectedFacet::new(&from, &to);
-            (self.ahead[gear], self.index[gear]) = (to, i);
         }
         let own = usize::from((self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0);
         self.passed = Some(own);
@@ -159,11 +160,7 @@ impl FlankSection<'_> {
     /// Calls `visit` with each corner that contributes, in two walks from a place inside both flanks: first the way in which
     /// the overlap grows, and then, beginning with the same corner, the other way. With `true` a walk begins.
     #[inline(always)]
-    fn corners<const N: usize>(
-        &self,
-        soft: &Softness,
-        mut visit: impl FnMut(bool, &Corner<N>),
-    ) -> Option<()> {
+    fn corners<const N: usize>(&self, soft: &Softness, mut visit: impl FnMut(bool, &Corner<N>)) -> Option<()> {
         let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
         let side_tip = place::<N>(self.rays[1].last()?, self.angles[1]);
         // contacts of involutes are at u = 0 or at a tip

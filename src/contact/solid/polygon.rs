@@ -13,27 +13,25 @@ pub struct ProjectedRay<const N: usize> {
     level: Twin<N>,
 }
 
-/// Part `i` of a ray of a tooth at the angle given.
+/// A pair of parts of a ray of a tooth at the angle given.
 #[inline(always)]
-fn part<const N: usize>(ray: &TurningRay, i: usize, [s, c]: SineCosine) -> Single<N> {
-    let turning = ray.sine[i] * s + ray.cosine[i] * c;
-    Single::new(turning + ray.fixed[i], ray.sine[i] * c - ray.cosine[i] * s, -turning)
+fn parts<const N: usize>(ray: &TurningRay, pair: usize, angle: SineCosine) -> Twin<N> {
+    Twin::turning(ray.sine[pair], ray.cosine[pair], ray.fixed[pair], angle)
 }
 
 /// Place along the flank of a ray of a tooth at the angle given [rad].
 #[inline(always)]
 pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
-    let toward = part(ray, 2, angle);
-    part(ray, 0, angle).over(toward, 1.0 / toward.v)
+    let ((across, _), (toward, _)) = (parts(ray, 0, angle).parts(), parts(ray, 1, angle).parts());
+    across.over(toward, 1.0 / toward.v)
 }
 
 impl<const N: usize> ProjectedRay<N> {
     /// `ray` of a tooth at the angle given.
     #[inline(always)]
     pub fn new(ray: &TurningRay, angle: SineCosine) -> Self {
-        let (across, along) = (part::<N>(ray, 0, angle), part(ray, 1, angle));
-        let (toward, normal) = (part(ray, 2, angle), part(ray, 3, angle));
-        let (u, h) = Twin::of(across, along).over(toward, 1.0 / toward.v).parts();
+        let (toward, normal) = parts(ray, 1, angle).parts();
+        let (u, h) = parts(ray, 0, angle).over(toward, 1.0 / toward.v).parts();
         let square = u * u + h * h;
         let square = Single { v: square.v + 1.0, ..square };
         let root = sqrt(square.v);

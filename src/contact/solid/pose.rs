@@ -103,17 +103,17 @@ pub struct Placement {
     axes: [Vector3<f64>; 3],
 }
 
-/// A ray that turns with its gear, in four parts: across, along the line of action and toward the pitch point, and the part
-/// of its flank's normal along the line of action.
+/// A ray that turns with its gear, in two pairs of parts: across and along the line of action; toward the pitch point, and
+/// the part of its flank's normal along the line of action.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub struct TurningRay {
     /// Parts by the sine of the tooth's angle.
-    pub sine: [f64; 4],
+    pub sine: [[f64; 2]; 2],
     /// Parts by its cosine.
-    pub cosine: [f64; 4],
+    pub cosine: [[f64; 2]; 2],
     /// Parts that stay.
-    pub fixed: [f64; 4],
+    pub fixed: [[f64; 2]; 2],
 }
 
 impl Placement {
@@ -161,7 +161,7 @@ impl Placement {
         let (place, normal) = (by(ray.direction - ray.normal * relief), by(ray.normal));
         let part = |i: usize, moved: Vector3<f64>| {
             let w = place[i] + moved;
-            [w.x, w.y, w.z, normal[i].y]
+            [[w.x, w.y], [w.z, normal[i].y]]
         };
         TurningRay { sine: part(0, Vector3::zeros()), cosine: part(1, Vector3::zeros()), fixed: part(2, offset) }
     }

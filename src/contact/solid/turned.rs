@@ -103,6 +103,13 @@ impl<const N: usize> Twin<N> {
         Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 2] } }
     }
 
+    /// `sine`·sin θ + `cosine`·cos θ + `fixed`, given sine and cosine of the angle θ.
+    #[inline(always)]
+    pub fn turning(sine: [f64; 2], cosine: [f64; 2], fixed: [f64; 2], [s, c]: [f64; 2]) -> Self {
+        let turning = plus(times(sine, s), times(cosine, c));
+        Self::new(plus(turning, fixed), less(times(sine, c), times(cosine, s)), times(turning, -1.0))
+    }
+
     /// Two numbers.
     #[inline(always)]
     pub fn of(a: Single<N>, b: Single<N>) -> Self {
@@ -240,8 +247,7 @@ impl<const N: usize> Both<N> {
         let (aa, ab, bb) = (products(&a.d, &a.d), products(&a.d, &b.d), products(&b.d, &b.d));
         let (half_aa, half_bb) = (0.5 * f.dd[0], 0.5 * f.dd[2]);
         let d = |i: usize| f.d[0] * a.d[i] + f.d[1] * b.d[i];
-        let dd =
-            |i: usize| f.d[0] * a.dd[i] + f.d[1] * b.dd[i] + half_aa * aa[i] + f.dd[1] * ab[i] + half_bb * bb[i];
+        let dd = |i: usize| f.d[0] * a.dd[i] + f.d[1] * b.dd[i] + half_aa * aa[i] + f.dd[1] * ab[i] + half_bb * bb[i];
         Self::new(f.v, [d(0), d(1)], [dd(0), dd(1), dd(2)])
     }
 }
@@ -324,7 +330,8 @@ mod tests {
             assert_eq!((exact.v, exact.v, exact.d), (plain.v, slopes.v, slopes.d));
             assert_eq!((plain.d, slopes.dd), ([0.0; 2], [0.0; 3]));
             let at = |x: f64, y: f64| formula::<1>(x, y);
-            for (i, [low, high]) in [[at(x - h, y), at(x + h, y)], [at(x, y - h), at(x, y + h)]].into_iter().enumerate() {
+            for (i, [low, high]) in [[at(x - h, y), at(x + h, y)], [at(x, y - h), at(x, y + h)]].into_iter().enumerate()
+            {
                 let by = |f: &dyn Fn(&Both<1>) -> f64| (f(&high) - f(&low)) / (2.0 * h);
                 let size = 1.0 + exact.dd.iter().fold(0.0f64, |m, d| m.max(d.abs()));
                 assert!((exact.d[i] - by(&|f| f.v)).abs() < 1e-8 * size);
