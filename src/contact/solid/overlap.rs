@@ -139,12 +139,12 @@ impl FlankSection<'_> {
     #[inline(always)]
     fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
         let last = self.rays[gear].len().checked_sub(2)?;
-        let mut i = (self.start[gear].max(0.0) as usize).min(last);
+        let mut i = (self.start[gear] as u32 as usize).min(last);
         let mut rays = [self.projected::<N>(gear, i)?, self.projected(gear, i + 1)?];
         if !(rays[0].u.v <= u && u <= rays[1].u.v) {
             // facets are nearly alike
             let ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
-            i = ((i as f64 + ahead).max(0.0) as usize).min(last);
+            i = ((i as f64 + ahead) as u32 as usize).min(last);
             let at = |i: usize| self.rays[gear].get(i).map(|ray| place::<0>(ray, self.angles[gear]).v);
             while at(i + 1)? < u {
                 i += 1;
@@ -209,28 +209,35 @@ impl FlankSection<'_> {
     /// Depth p [rad] where it is positive, and some distance below.
     pub fn depth<const N: usize>(&self, soft: &Softness) -> Option<Both<N>> {
         let per = 1.0 / soft.width;
-        // the integral of the walk and the sum of both; what exponents count from
+        // the integral of a walk and the sum of both; what exponents count from
         let (mut integral, mut sum, mut from) = (Both::<N>::default(), Both::<N>::default(), f64::NAN);
-        // place, exponent and its exponential of the corner before
-        let (mut place, mut before, mut known) = (Both::<N>::default(), Both::<N>::default(), 1.0);
+        // exponent of a corner and its exponential: where walks begin and of the corner before, with the place of that
+        let mut begin = (Both::<N>::default(), 1.0);
+        let (mut place, mut before) = (Both::<N>::default(), begin);
         self.corners::<N>(soft, |begins, at| {
             if begins {
+                if from.is_nan() {
+                    from = at.overlap.v;
+                    begin.0 = Both { v: 0.0, ..at.overlap } * per;
+                }
                 (sum, integral) = (sum + integral * 1f64.copysign(integral.v), Both::default());
-                from = if from.is_nan() { at.overlap.v } else { from };
+                (place, before) = (at.u, begin);
+                return;
             }
             if at.overlap.v > from + HIGH * soft.width {
                 let shift = (from - at.overlap.v) * per;
                 let less = libm::exp(shift);
-                (sum, integral) = (sum * less, integral * less);
-                (from, before.v, known) = (at.overlap.v, before.v + shift, known * less);
+                (sum, integral, from) = (sum * less, integral * less, at.overlap.v);
+                for (exponent, exponential) in [&mut before, &mut begin] {
+                    exponent.v += shift;
+                    *exponential *= less;
+                }
             }
             let exponent = Both { v: at.overlap.v - from, ..at.overlap } * per;
             let exponential = libm::exp(exponent.v);
-            if !begins {
-                let mean = mean_exponential([before.v, exponent.v], [known, exponential]);
-                integral = integral + (at.u - place) * Both::through_both(before, exponent, &mean);
-            }
-            (place, before, known) = (at.u, exponent, exponential);
+            let mean = mean_exponential([before.0.v, exponent.v], [before.1, exponential]);
+            integral = integral + (at.u - place) * Both::through_both(before.0, exponent, &mean);
+            (place, before) = (at.u, (exponent, exponential));
         })?;
         let sum = sum + integral * 1f64.copysign(integral.v);
         (sum.v > 0.0).then(|| {
