@@ -43,7 +43,7 @@ pub struct Candidates {
     pieces: [usize; 2],
     /// Number of the last tooth; the first one has its negative.
     last: i32,
-    margin: f64,
+    apart: f64,
     /// Where the gears stand if not displaced.
     aligned: Placement,
     sin_base: [f64; 2],
@@ -62,9 +62,8 @@ impl std::fmt::Debug for Candidates {
 }
 
 impl Candidates {
-    /// Trees of the flanks of `pair`, whose pieces are near each other within `margin` [rad]. Flanks can touch up to a
-    /// gap of `apart` between aligned gears in the same position [rad].
-    pub fn new(pair: &Pair, flanks: &Flanks, margin: f64, apart: f64) -> Self {
+    /// Trees of the flanks of `pair`, which touch up to a gap of `apart` between aligned gears in the same position [rad].
+    pub fn new(pair: &Pair, flanks: &Flanks, apart: f64) -> Self {
         let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MOST_TEETH);
         let cuts = [0, 1].map(|i| cuts(flanks.rays[i].len()));
         let tree = |i: usize, ahead: f64| {
@@ -81,7 +80,7 @@ impl Candidates {
             trees: [tree(0, 0.0), tree(1, half_pitch(&pair.gears[1]))],
             pieces: [cuts[0].len() - 1, cuts[1].len() - 1],
             last,
-            margin,
+            apart,
             aligned: Placement::new(pair, &Displacement::default()),
             sin_base: pair.sin_base(),
             half_backlash: pair.normal_backlash / 2.0,
@@ -117,7 +116,7 @@ impl Candidates {
     /// meets only that of the tooth ahead: the tooth itself is in between.
     fn search(&self, q: f64, x: f64, deep: f64) -> Near {
         let turn: Matrix3<f64> = self.aligned.between([x / self.sin_base[0], (q + x) / self.sin_base[1]]);
-        let (size, margin) = (turn.abs(), (self.margin + deep) * MM);
+        let (size, margin) = (turn.abs(), (self.apart + deep) * MM);
         let check = |planet: &BvhNode, side: &BvhNode| {
             let (p_low, p_high) = (planet.mins().to_array(), planet.maxs().to_array());
             let (s_low, s_high) = (side.mins().to_array(), side.maxs().to_array());

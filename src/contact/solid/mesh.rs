@@ -15,9 +15,10 @@
 use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
-use super::overlap::{FlankSection, Patch, Softness};
+use super::overlap::{Patch, Softness};
 use super::pose::{Displacement, Placement, SineCosine, Teeth, TurningRay};
 use super::turned::Both;
+use super::walk::FlankSection;
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
 use crate::contact::pairs::Flank;
@@ -112,7 +113,7 @@ impl SolidMesh {
             elastic,
             damping,
             cone: pair.mean_cone,
-            candidates: Candidates::new(pair, &flanks, slack + soft.reach(), slack + soft.ahead),
+            candidates: Candidates::new(pair, &flanks, slack + soft.ahead),
             side_rays: Placement::new(pair, &Displacement::default()).side_rays(&flanks.rays[1]),
             flanks,
             teeth: Teeth::new(pair),

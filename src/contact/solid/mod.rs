@@ -14,3 +14,4 @@ pub mod overlap;
 mod polygon;
 pub mod pose;
 mod turned;
+mod walk;

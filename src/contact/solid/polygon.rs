@@ -86,7 +86,7 @@ impl<const N: usize> Measure<N> {
     /// For corners of planet and side gear, whose tips are at the places `planet` and `side`.
     #[inline(always)]
     pub fn of_both(planet: Single<N>, side: Single<N>) -> [Self; 2] {
-        let length = Both::of(side, 1) - Both::of(planet, 0);
+        let length = Both::of_first(side).exchanged() - Both::of_first(planet);
         let per = 1.0 / length.v;
         let per_length = length.through([per, -per * per, 2.0 * per * per * per]);
         [

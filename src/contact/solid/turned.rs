@@ -181,12 +181,10 @@ impl<const N: usize> Both<N> {
         Self { v, d: if N > 0 { d } else { [0.0; 2] }, dd: if N > 1 { dd } else { [0.0; 3] } }
     }
 
-    /// What depends on variable `i` alone.
+    /// What depends on the first variable alone.
     #[inline(always)]
-    pub fn of(x: Single<N>, i: usize) -> Self {
-        let (mut d, mut dd) = ([0.0; 2], [0.0; 3]);
-        (d[i], dd[2 * i]) = (x.d, x.dd);
-        Self::new(x.v, d, dd)
+    pub fn of_first(x: Single<N>) -> Self {
+        Self::new(x.v, [x.d, 0.0], [x.dd, 0.0, 0.0])
     }
 
     /// The same with both variables exchanged.
@@ -308,7 +306,7 @@ mod tests {
         let root = planet.v.sqrt();
         let planet = planet.through([root, 0.5 / root, -0.25 / (root * planet.v)]) * planet - planet;
         let side = side.over(side * side + side, 1.0 / (side.v * side.v + side.v));
-        let (p, s) = (Both::of(planet, 0), Both::of(side, 1));
+        let (p, s) = (Both::of_first(planet), Both::of_first(side).exchanged());
         let sum = (p * s).plus_first(planet).exchanged().times_first(side).less_first(side).exchanged() - s * p * 0.3;
         let (sine, cosine) = sum.v.sin_cos();
         let ratio = sum.through([sine, cosine, -sine]).over(p + s * s, 1.0 / (p.v + s.v * s.v));
