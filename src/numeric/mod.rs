@@ -5,10 +5,8 @@ mod elementary;
 mod jet;
 mod minimum;
 mod scalar;
-mod smooth;
 
 pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sqrt, tan};
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
 pub use scalar::{Dual, Scalar};
-pub use smooth::{Curved, Partials, Smooth};

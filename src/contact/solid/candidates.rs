@@ -159,3 +159,26 @@ fn around(rays: &[Ray], azimuth: f64) -> Aabb {
     });
     Aabb::from_points(points)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn cells_name_every_pair_that_the_trees_find_in_any_position() {
+        for apart in [1e-5, 5e-3] {
+            let pair = Pair::new(&GearSpec::default());
+            let near = Candidates::new(&pair, &Flanks::new(&pair, 0.03, 24), apart);
+            for i in 0..2_000 {
+                // golden ratios spread positions evenly
+                let (f, g) = (0.618_033_988_749_895 * f64::from(i), 0.414_213_562_373_095 * f64::from(i));
+                let deep = (g - g.floor()) * (near.deepest + apart) - apart;
+                let (q, x) = (-near.half_backlash - deep, (f - f.floor() - 0.5) * pair.base_pitch);
+                let ([first, last], named) = (near.search(q, x, deep), near.near(q, x));
+                assert!(first > last || named.contains(&first) && named.contains(&last), "{q} {x}: {first} {last}");
+                assert!(named.count() <= 4, "{q} {x}");
+            }
+        }
+    }
+}
