@@ -2,11 +2,16 @@
 //! out, and for counting instructions.
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
+<<<<<<< HEAD
 //! "reversal" of the loads every 50 steps, "fixed_step=SIZE", VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing
 //! but steps is counted.
+=======
+//! "reversal" of the loads every 50 steps, "fixed_step=SIZE", "solid=FACETS" for solid teeth; "unread" leaves the forces at
+//! the end unread, so that nothing but steps is counted.
+>>>>>>> w-solid
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{EFFECTS, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{EFFECTS, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
 use bevel_differential::variables::{Access, table};
 
 /// Sets the variable `name` to `value`.
@@ -67,8 +72,16 @@ fn main() {
                 Some(("fixed_step", size)) => {
                     (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
                 }
+<<<<<<< HEAD
                 Some((name, value)) => set(&mut p, &mut i, name, value.parse().expect("a number")),
                 None => switch(&mut p, &mut i, name),
+=======
+                Some(("solid", facets)) => {
+                    p.scene.gear_contact = GearContact::Solid;
+                    p.solid.facets = facets.parse().expect("a number of facets");
+                }
+                _ => switch(&mut p, &mut i, name),
+>>>>>>> w-solid
             },
         }
     }

@@ -6,11 +6,9 @@ mod jet;
 mod minimum;
 mod root;
 mod scalar;
-mod smooth;
 
 pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sin_cos, sqrt, tan};
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
 pub use root::rising_root;
 pub use scalar::{Dual, Scalar};
-pub use smooth::{Curved, Partials, Smooth};

@@ -1,10 +1,12 @@
-//! Teeth that can touch, and where on their flanks, found by overlapping boxes around pieces of both gears' flanks.
+//! Teeth that can touch, found by overlapping boxes around pieces of both gears' flanks.
 //!
 //! Both gears have a tree of such boxes in their own frame; both trees are traversed together. As flanks consist of rays
 //! through the apex, boxes enclose directions, on a sphere of one metre in millimetres: there a
 //! piece of a flank is short, whereas a box around it from toe to heel would hold half a tooth.
-
-use std::ops::RangeInclusive;
+//!
+//! As the mesh repeats with every base pitch, the teeth near each other are found once for cells of positions, with boxes
+//! larger by what gears move within a cell. A cell may name a tooth too many, whose overlap then turns out to be
+//! negative, but none too few.
 
 use nalgebra::Matrix3;
 use parry3d_f64::bounding_volume::Aabb;
@@ -12,43 +14,57 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use super::flank::{Flanks, Ray, half_pitch};
+use super::pose::{Displacement, MOST_TEETH, Placement};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin};
 
 /// Millimetres per metre: the unit of lengths in the trees.
 const MM: f64 = 1e3;
 
-/// Largest number of teeth examined on either side of the middle.
-const MOST: i32 = 6;
-const MOST_TEETH: usize = 2 * MOST as usize + 1;
-
 /// Pieces of a flank.
 const PIECES: usize = 8;
 
-/// Trees of both gears' drive flanks.
+/// Cells per base pitch.
+const CELLS: usize = 128;
+
+/// Overlap up to which they hold, in base pitches.
+const DEEPEST: f64 = 1.0 / 64.0;
+
+/// First and last number of the pairs of teeth near each other.
+type Near = [i32; 2];
+
+/// No pairs.
+const NONE: Near = [0, -1];
+
+/// Drive flanks of both gears.
 #[derive(Clone)]
 pub struct Candidates {
     trees: [Bvh; 2],
-    /// Rays at the ends of the pieces.
-    cuts: [Vec<usize>; 2],
+    pieces: [usize; 2],
     /// Number of the last tooth; the first one has its negative.
     last: i32,
-    margin: f64,
+    apart: f64,
+    /// Where the gears stand if not displaced.
+    aligned: Placement,
+    sin_base: [f64; 2],
+    half_backlash: f64,
+    /// Cells in order of x from −½ to ½ base pitch.
+    cells: Vec<Near>,
+    per_cell: f64,
+    /// Overlap up to which the cells hold [rad].
+    deepest: f64,
 }
-
-/// Pieces of both flanks that are near each other, first and last.
-type Pieces = [[usize; 2]; 2];
 
 impl std::fmt::Debug for Candidates {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.debug_struct("Candidates").field("last", &self.last).field("cuts", &self.cuts).finish_non_exhaustive()
+        f.debug_struct("Candidates").field("last", &self.last).field("cells", &self.cells).finish_non_exhaustive()
     }
 }
 
 impl Candidates {
-    /// Trees of the flanks of `pair`, whose pieces are near each other within `margin` [rad].
-    pub fn new(pair: &Pair, flanks: &Flanks, margin: f64) -> Self {
-        let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MOST);
+    /// Trees of the flanks of `pair`, which touch up to a gap of `apart` between aligned gears in the same position [rad].
+    pub fn new(pair: &Pair, flanks: &Flanks, apart: f64) -> Self {
+        let last = ((pair.path.contact_ratio / 2.0) as i32 + 2).min(MOST_TEETH);
         let cuts = [0, 1].map(|i| cuts(flanks.rays[i].len()));
         let tree = |i: usize, ahead: f64| {
             let gear = &pair.gears[i];
@@ -59,15 +75,48 @@ impl Candidates {
             }
             Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes)
         };
-        Self { trees: [tree(0, 0.0), tree(1, half_pitch(&pair.gears[1]))], cuts, last, margin: margin * MM }
+        let cell = pair.base_pitch / CELLS as f64;
+        let mut new = Self {
+            trees: [tree(0, 0.0), tree(1, half_pitch(&pair.gears[1]))],
+            pieces: [cuts[0].len() - 1, cuts[1].len() - 1],
+            last,
+            apart,
+            aligned: Placement::new(pair, &Displacement::default()),
+            sin_base: pair.sin_base(),
+            half_backlash: pair.normal_backlash / 2.0,
+            cells: Vec::new(),
+            per_cell: 1.0 / cell,
+            deepest: DEEPEST * pair.base_pitch,
+        };
+        // positions from the gap to the overlap up to which the cells hold, by their middle and half their range
+        let deepest = new.deepest;
+        let (q, half) = (0.5 * (apart - deepest) - new.half_backlash, 0.5 * (apart + deepest));
+        // what gears move within a cell, each by the turn of its farthest point
+        let moved = 0.5 * cell / new.sin_base[0] + (0.5 * cell + half) / new.sin_base[1];
+        let middle = |i: usize| cell * (i as f64 + 0.5) - 0.5 * pair.base_pitch;
+        new.cells = (0..CELLS).map(|i| new.search(q, middle(i), moved + deepest)).collect();
+        new
     }
 
-    /// Calls `visit` with the number of each pair of flanks that may touch and the rays of both that may, the planet being
-    /// turned by `turn` in the side gear's frame and its flanks up to `deep` [rad] inside those of the side gear. A flank
-    /// meets only that of the tooth ahead: the tooth itself is in between.
+    /// Numbers of the pairs of flanks that may touch at (q, x), x within half a base pitch from 0 [rad].
     #[inline]
-    pub fn near(&self, turn: Matrix3<f64>, deep: f64, mut visit: impl FnMut(i32, [RangeInclusive<usize>; 2])) {
-        let (size, margin) = (turn.abs(), self.margin + deep * MM);
+    pub fn near(&self, q: f64, x: f64) -> std::ops::RangeInclusive<i32> {
+        let deep = -q - self.half_backlash;
+        let middle = (CELLS / 2) as f64;
+        let [first, last] = if deep <= self.deepest {
+            let cell = (x * self.per_cell + middle).max(0.0) as usize;
+            self.cells[cell.min(CELLS - 1)]
+        } else {
+            self.search(q, x, deep)
+        };
+        first..=last
+    }
+
+    /// The same by traversing the trees, flanks being up to `deep` [rad] inside each other or moved by as much. A flank
+    /// meets only that of the tooth ahead: the tooth itself is in between.
+    fn search(&self, q: f64, x: f64, deep: f64) -> Near {
+        let turn: Matrix3<f64> = self.aligned.between([x / self.sin_base[0], (q + x) / self.sin_base[1]]);
+        let (size, margin) = (turn.abs(), (self.apart + deep) * MM);
         let check = |planet: &BvhNode, side: &BvhNode| {
             let (p_low, p_high) = (planet.mins().to_array(), planet.maxs().to_array());
             let (s_low, s_high) = (side.mins().to_array(), side.maxs().to_array());
@@ -81,24 +130,16 @@ impl Candidates {
                 apart.abs() <= reach + 2.0 * margin
             })
         };
-        let pieces = [self.cuts[0].len() - 1, self.cuts[1].len() - 1];
-        let mut found: [Option<Pieces>; MOST_TEETH] = [None; MOST_TEETH];
+        let mut near: Option<Near> = None;
         for (planet, side) in self.trees[0].leaf_pairs(&self.trees[1], check) {
-            let (planet, side) = (planet as usize, side as usize);
-            let (tooth, here) = (planet / pieces[0], [planet % pieces[0], side % pieces[1]]);
-            if tooth == side / pieces[1] {
-                let known = found[tooth].get_or_insert(here.map(|p| [p, p]));
-                for (range, p) in known.iter_mut().zip(here) {
-                    *range = [range[0].min(p), range[1].max(p)];
-                }
+            let tooth = planet as usize / self.pieces[0];
+            if tooth == side as usize / self.pieces[1] {
+                let k = tooth as i32 - self.last;
+                let [first, last] = near.unwrap_or([k, k]);
+                near = Some([first.min(k), last.max(k)]);
             }
         }
-        for (tooth, pieces) in found.iter().enumerate() {
-            if let Some(pieces) = pieces {
-                let rays = [0, 1].map(|i| self.cuts[i][pieces[i][0]]..=self.cuts[i][pieces[i][1] + 1]);
-                visit(tooth as i32 - self.last, rays);
-            }
-        }
+        near.unwrap_or(NONE)
     }
 }
 
@@ -117,4 +158,27 @@ fn around(rays: &[Ray], azimuth: f64) -> Aabb {
         Vector::new(c * r.x - s * r.y, s * r.x + c * r.y, r.z) * MM
     });
     Aabb::from_points(points)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn cells_name_every_pair_that_the_trees_find_in_any_position() {
+        for apart in [1e-5, 5e-3] {
+            let pair = Pair::new(&GearSpec::default());
+            let near = Candidates::new(&pair, &Flanks::new(&pair, 0.03, 24), apart);
+            for i in 0..2_000 {
+                // golden ratios spread positions evenly
+                let (f, g) = (0.618_033_988_749_895 * f64::from(i), 0.414_213_562_373_095 * f64::from(i));
+                let deep = (g - g.floor()) * (near.deepest + apart) - apart;
+                let (q, x) = (-near.half_backlash - deep, (f - f.floor() - 0.5) * pair.base_pitch);
+                let ([first, last], named) = (near.search(q, x, deep), near.near(q, x));
+                assert!(first > last || named.contains(&first) && named.contains(&last), "{q} {x}: {first} {last}");
+                assert!(named.count() <= 4, "{q} {x}");
+            }
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Mean of the exponential function over an interval: the integral over a piece of a contact patch.
 
-use crate::numeric::{Partials, sqrt};
+use super::turned::Partials;
+use crate::numeric::sqrt;
 
 /// Mean of e^x for x from a to b, with its derivatives, given e^a and e^b.
 #[inline(always)]

@@ -30,6 +30,10 @@ pub struct Flanks {
     pub rays: [Vec<Ray>; 2],
     /// Greatest height of the flanks' arcs over their facets, planet and side gear [rad].
     pub sagitta: [f64; 2],
+    /// Ray on the path of contact, counted along each flank, at the pitch point and its change by the place s [1/rad].
+    on_path: [[f64; 2]; 2],
+    /// Ends of the path of contact [rad].
+    path: [f64; 2],
 }
 
 impl Flanks {
@@ -42,7 +46,20 @@ impl Flanks {
         let side: Vec<Ray> = polars(s, &feet[1], facets).map(|polar| into_side(ray(s, polar, -1.0))).collect();
         let [mut planet, side] = [planet, side].map(prolonged);
         planet.reverse();
-        Self { rays: [planet, side], sagitta: [0, 1].map(|i| sagitta(&pair.gears[i], &feet[i], facets)) }
+        let sagitta = [0, 1].map(|i| sagitta(&pair.gears[i], &feet[i], facets));
+        // rolled arcs grow along the planet's flank toward its tip, where its rays begin, and so do the side gear's
+        let per_arc = [0, 1].map(|i| facets as f64 / (pair.gears[i].action_arc(pair.gears[i].tip) - feet[i].start_arc));
+        let from_tip = [0, 1].map(|i| (pair.gears[i].action_arc(pair.gears[i].tip) - pair.pitch_arc[i]) * per_arc[i]);
+        let last = (side.len() - 1) as f64;
+        let on_path = [[from_tip[0], -per_arc[0]], [last - from_tip[1], -per_arc[1]]];
+        Self { rays: [planet, side], sagitta, on_path, path: [pair.path.low, pair.path.high] }
+    }
+
+    /// The rays of both flanks where exact ones are closest at place `s` [rad], counted along each: on the path of contact,
+    /// or beyond its ends nearly where it ends.
+    pub fn closest(&self, s: f64) -> [f64; 2] {
+        let s = s.max(self.path[0]).min(self.path[1]);
+        self.on_path.map(|[at_pitch, per_place]| at_pitch + per_place * s)
     }
 }
 

@@ -2,11 +2,10 @@
 
 use nalgebra::Vector3;
 
-use super::mesh::{SolidMesh, SolidSlice, slope};
+use super::mesh::{PlacedSlice, SolidMesh, SolidSlice};
 use crate::contact::impact::Force;
 use crate::contact::pairs::Flank;
 use crate::contact::state::MeshState;
-use crate::numeric::Dual;
 
 /// A loaded section of one pair.
 #[derive(Clone, Copy, Debug)]
@@ -51,19 +50,13 @@ impl SolidMesh {
         }
         let (mut largest, mut mean) = (0.0f64, 0.0);
         for slices in [&self.slices, &self.edges] {
-            self.sections(
-                slices,
-                state.which,
-                state.position,
-                |v, _, _| v,
-                |near, slice, p: f64| {
-                    if p > 0.0 && near.flank == flank && near.s == s {
-                        let load = self.elastic.force(self.cone * p, 0.0).elastic;
-                        largest = largest.max(load);
-                        mean += slice.share * load;
-                    }
-                },
-            );
+            self.sections::<0>(slices, state.which, state.position, |near, PlacedSlice { slice, .. }, p| {
+                if p.v > 0.0 && near.flank == flank && near.s == s {
+                    let load = self.elastic.force(self.cone * p.v, 0.0).elastic;
+                    largest = largest.max(load);
+                    mean += slice.share * load;
+                }
+            });
         }
         let factor = largest / mean;
         // written so that NaN gives 1
@@ -73,19 +66,19 @@ impl SolidMesh {
     /// Calls `visit` with every loaded section.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&SolidLoad)) {
         let [dq, dx] = state.rate;
-        self.sections(&self.slices, state.which, state.position, slope, |near, slice, p: Dual<2>| {
+        self.sections::<1>(&self.slices, state.which, state.position, |near, placed, p| {
             if p.v <= 0.0 {
                 return;
             }
+            let slice = &placed.slice;
             let whole = self.respond(p.v, p.d[0] * dq + p.d[1] * dx);
             let share = slice.share * self.cone / slice.cone;
             let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
-            let poses = near.placement.poses(near.q, near.x, near.k);
-            if let Some(patch) = self.section(near, slice).patch(&poses, &self.soft) {
+            if let Some((placement, patch)) = self.patch(near, placed) {
                 let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
                 let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
                 let parts = |w: [f64; 3]| {
-                    let [planet, side, across] = near.placement.parts(w);
+                    let [planet, side, across] = placement.parts(w);
                     [planet, side, sign * across]
                 };
                 visit(&SolidLoad {
@@ -96,7 +89,7 @@ impl SolidMesh {
                     depth: p.v,
                     force,
                     point: parts(point.into()),
-                    polar: near.placement.polars(point, slice.cone),
+                    polar: placement.polars(point, slice.cone),
                     normal: parts(patch.normal),
                 });
             }

@@ -12,19 +12,19 @@
 //! the resultant acts at R_m and V is that of tooth pairs on the path of contact. On misaligned or crowned flanks
 //! every section carries the load of its own overlap.
 
-use std::ops::RangeInclusive;
-
 use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
-use super::overlap::{FlankSection, Softness};
-use super::pose::{Displacement, Placement};
+use super::overlap::{Patch, Softness};
+use super::pose::{Displacement, Placement, SineCosine, Teeth, TurningRay};
+use super::turned::Both;
+use super::walk::FlankSection;
 use crate::contact::damping::Damping;
 use crate::contact::impact::{Force, Impact};
 use crate::contact::pairs::Flank;
 use crate::contact::state::{MeshForce, MeshJacobian, MeshState};
 use crate::geometry::Pair;
-use crate::numeric::{Curved, Dual, Smooth, tan};
+use crate::numeric::tan;
 
 /// A section across the face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +61,13 @@ const SOFTNESS: f64 = 1.25;
 /// Upper bound of a flank's length [rad].
 const LONGEST: f64 = 1.0;
 
+/// A section with the planet's rays in each placement.
+#[derive(Clone, Debug)]
+pub(super) struct PlacedSlice {
+    pub(super) slice: SolidSlice,
+    planet_rays: Vec<Vec<TurningRay>>,
+}
+
 /// A mesh of solid teeth.
 #[derive(Clone, Debug)]
 pub struct SolidMesh {
@@ -70,13 +77,16 @@ pub struct SolidMesh {
     pub damping: Damping,
     pub(super) cone: f64,
     flanks: Flanks,
+    teeth: Teeth,
     candidates: Candidates,
-    pub(super) soft: Softness,
-    pub(super) slices: Vec<SolidSlice>,
+    soft: Softness,
+    pub(super) slices: Vec<PlacedSlice>,
     /// Sections without a share, at which the load is only looked at.
-    pub edges: Vec<SolidSlice>,
-    /// Drive and mirrored coast flank of each planet with each side.
-    placements: Vec<[[Placement; 2]; 2]>,
+    pub(super) edges: Vec<PlacedSlice>,
+    /// Placements that differ, and which of them each planet has with each side, for its drive and mirrored coast flank.
+    placements: Vec<Placement>,
+    placed: Vec<[[usize; 2]; 2]>,
+    side_rays: Vec<TurningRay>,
     half_backlash: f64,
     base_pitch: f64,
     centred: f64,
@@ -91,27 +101,49 @@ impl SolidMesh {
         let width = SOFTNESS * spec.smoothing * (flanks.sagitta[0] + flanks.sagitta[1]);
         let relative = 1.0 / (1.0 / tan(pair.pitch_arc[0]) + 1.0 / tan(pair.pitch_arc[1]));
         let soft = Softness::new(width, relative, LONGEST);
-        let ahead = soft.ahead;
-        let placements = spec
-            .displaced
-            .iter()
-            .map(|sides| sides.map(|d| [Placement::new(pair, &d), Placement::new(pair, &d.mirrored())]))
-            .collect();
-        Self {
+        let slack = slack / pair.inner_cone;
+        let mut displacements: Vec<Displacement> = Vec::new();
+        let mut number = |d: Displacement| {
+            displacements.iter().position(|known| *known == d).unwrap_or_else(|| {
+                displacements.push(d);
+                displacements.len() - 1
+            })
+        };
+        let placed = spec.displaced.iter().map(|sides| sides.map(|d| [number(d), number(d.mirrored())])).collect();
+        let mut mesh = Self {
             elastic,
             damping,
             cone: pair.mean_cone,
-            candidates: Candidates::new(pair, &flanks, slack / pair.inner_cone + soft.reach()),
+            candidates: Candidates::new(pair, &flanks, slack + soft.ahead),
+            side_rays: Placement::new(pair, &Displacement::default()).side_rays(&flanks.rays[1]),
             flanks,
+            teeth: Teeth::new(pair),
+            slack: slack + soft.ahead,
             soft,
-            slices: spec.slices.clone(),
+            slices: Vec::new(),
             edges: Vec::new(),
-            placements,
+            placements: displacements.iter().map(|d| Placement::new(pair, d)).collect(),
+            placed,
             half_backlash: pair.normal_backlash / 2.0,
             base_pitch: pair.base_pitch,
             centred: pair.centred_position(),
-            slack: slack / pair.inner_cone + ahead,
-        }
+        };
+        mesh.slices = mesh.place(&spec.slices);
+        mesh
+    }
+
+    /// The same with sections `edges` at which the load is looked at.
+    pub fn with_edges(mut self, edges: &[SolidSlice]) -> Self {
+        self.edges = self.place(edges);
+        self
+    }
+
+    fn place(&self, slices: &[SolidSlice]) -> Vec<PlacedSlice> {
+        let rays = |slice: &SolidSlice| {
+            let rays = |placement: &Placement| placement.planet_rays(&self.flanks.rays[0], slice.cone, slice.relief);
+            self.placements.iter().map(rays).collect()
+        };
+        slices.iter().map(|slice| PlacedSlice { slice: *slice, planet_rays: rays(slice) }).collect()
     }
 
     /// Sections across the face.
@@ -119,56 +151,51 @@ impl SolidMesh {
         self.slices.len()
     }
 
-    /// Visits each of `slices` of each pair near contact with its overlap as a function of (q, x), slopes by (q, x) included.
-    #[inline]
-    pub(super) fn sections<T: Smooth>(
+    /// Visits each of `slices` of each pair near contact with its overlap [rad] by (q, x), with derivatives up to order `N`.
+    #[inline(always)]
+    pub(super) fn sections<const N: usize>(
         &self,
-        slices: &[SolidSlice],
+        slices: &[PlacedSlice],
         which: [usize; 2],
         [q, x]: [f64; 2],
-        variable: impl Fn(f64, usize, f64) -> T,
-        mut visit: impl FnMut(&FlankPair, &SolidSlice, T),
+        mut visit: impl FnMut(&FlankPair, &PlacedSlice, Both<N>),
     ) {
         for (flank, sign) in [(Flank::Drive, 1.0), (Flank::Coast, -1.0)] {
             let (q, x) = (sign * q, sign * x);
-            let deepest = -q - self.half_backlash + self.slack;
-            if deepest <= 0.0 {
+            if -q - self.half_backlash + self.slack <= 0.0 {
                 continue;
             }
             // the mesh repeats with every base pitch
             let turns = libm::round(x / self.base_pitch);
             let x = x - turns * self.base_pitch;
-            let (tq, tx) = (variable(q, 0, sign), variable(x, 1, sign));
-            let placement = &self.placements[which[0]][which[1]][usize::from(flank == Flank::Coast)];
-            self.candidates.near(placement.between(q, x), deepest, |k, rays| {
-                let near = FlankPair {
-                    rays,
-                    flank,
-                    placement,
-                    number: (-turns as i64).saturating_add(i64::from(k)),
-                    s: self.centred + x + f64::from(k) * self.base_pitch,
-                    q,
-                    x,
-                    k,
-                };
-                let poses = placement.poses(tq, tx, k);
+            let placed = self.placed[which[0]][which[1]][usize::from(flank == Flank::Coast)];
+            let stance = self.teeth.stance(q, x);
+            for k in self.candidates.near(q, x) {
+                let Some(angles) = self.teeth.angles(&stance, k) else { continue };
+                let s = self.centred + x + f64::from(k) * self.base_pitch;
+                let number = (-turns as i64).saturating_add(i64::from(k));
+                let near = FlankPair { flank, placed, number, s, angles, start: self.flanks.closest(s) };
                 for slice in slices {
-                    if let Some(depth) = self.section(&near, slice).depth(&poses, &self.soft) {
-                        visit(&near, slice, depth);
+                    if let Some(depth) = self.section(&near, slice).depth::<N>(&self.soft) {
+                        visit(&near, slice, self.teeth.by_position(depth, sign));
                     }
                 }
-            });
+            }
         }
     }
 
-    pub(super) fn section<'a>(&'a self, near: &FlankPair, slice: &SolidSlice) -> FlankSection<'a> {
-        let [planet, side] = &self.flanks.rays;
-        FlankSection {
-            rays: [&planet[near.rays[0].clone()], &side[near.rays[1].clone()]],
-            tips: [&planet[0], &side[side.len() - 1]],
-            relief: slice.relief / slice.cone,
-            offset: near.placement.offset().map(|w| w / slice.cone),
-        }
+    #[inline(always)]
+    fn section<'a>(&'a self, near: &FlankPair, slice: &'a PlacedSlice) -> FlankSection<'a> {
+        let rays = [slice.planet_rays[near.placed].as_slice(), &self.side_rays];
+        FlankSection { rays, angles: near.angles, start: near.start }
+    }
+
+    /// The placement of a pair, and where the patch of one of its sections lies.
+    pub(super) fn patch(&self, near: &FlankPair, slice: &PlacedSlice) -> Option<(&Placement, Patch)> {
+        let placement = &self.placements[near.placed];
+        let normal =
+            |gear: usize, ray: usize| placement.turned(gear, near.angles[gear], &self.flanks.rays[gear][ray].normal);
+        self.section(near, slice).patch(&self.soft, normal).map(|patch| (placement, patch))
     }
 
     /// Force of a section that overlaps by `depth` [rad], as if the whole face were in its state.
@@ -182,7 +209,7 @@ impl SolidMesh {
     pub fn force(&self, state: &MeshState) -> MeshForce {
         let mut sum = MeshForce::default();
         let [dq, dx] = state.rate;
-        self.sections(&self.slices, state.which, state.position, slope, |_, slice, p: Dual<2>| {
+        self.sections::<1>(&self.slices, state.which, state.position, |_, PlacedSlice { slice, .. }, p| {
             if p.v > 0.0 {
                 let rate = p.d[0] * dq + p.d[1] * dx;
                 let force = self.respond(p.v, rate);
@@ -199,7 +226,7 @@ impl SolidMesh {
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         let (mut sum, mut by) = (MeshForce::default(), MeshJacobian::default());
         let [dq, dx] = state.rate;
-        self.sections(&self.slices, state.which, state.position, curve, |_, slice, p: Curved| {
+        self.sections::<2>(&self.slices, state.which, state.position, |_, PlacedSlice { slice, .. }, p| {
             if p.v <= 0.0 {
                 return;
             }
@@ -224,44 +251,23 @@ impl SolidMesh {
     /// Elastic energy V [J] of the mesh `which` at position (q, x).
     pub fn energy(&self, which: [usize; 2], position: [f64; 2]) -> f64 {
         let mut energy = 0.0;
-        self.sections(
-            &self.slices,
-            which,
-            position,
-            |v, _, _| v,
-            |_, slice, p: f64| {
-                if p > 0.0 {
-                    energy += slice.share * self.elastic.energy(self.cone * p);
-                }
-            },
-        );
+        self.sections::<0>(&self.slices, which, position, |_, PlacedSlice { slice, .. }, p| {
+            if p.v > 0.0 {
+                energy += slice.share * self.elastic.energy(self.cone * p.v);
+            }
+        });
         energy
     }
 }
 
 /// A pair of flanks near each other, in the mirror image in which it is a drive flank.
-pub(super) struct FlankPair<'a> {
+pub(super) struct FlankPair {
     pub(super) flank: Flank,
-    pub(super) placement: &'a Placement,
-    /// Rays of planet and side gear.
-    pub(super) rays: [RangeInclusive<usize>; 2],
+    /// Number of its placement.
+    placed: usize,
     pub(super) number: i64,
     pub(super) s: f64,
-    pub(super) q: f64,
-    pub(super) x: f64,
-    pub(super) k: i32,
-}
-
-/// Variable `i` with its slope.
-pub(super) fn slope(v: f64, i: usize, slope: f64) -> Dual<2> {
-    let mut dual = Dual { v, d: [0.0; 2] };
-    dual.d[i] = slope;
-    dual
-}
-
-/// Variable `i` with its slope and no curvature.
-fn curve(v: f64, i: usize, slope: f64) -> Curved {
-    let mut curved = Curved::constant(v);
-    curved.d[i] = slope;
-    curved
+    angles: [SineCosine; 2],
+    /// Rays that are closest.
+    start: [f64; 2],
 }

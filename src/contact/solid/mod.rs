@@ -13,3 +13,5 @@ pub mod mesh;
 pub mod overlap;
 mod polygon;
 pub mod pose;
+mod turned;
+mod walk;

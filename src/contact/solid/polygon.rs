@@ -1,68 +1,110 @@
-//! Flanks as polygons in the plane of projection: their rays there, and the overlap of two of them at a place.
+//! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
 
-use super::flank::Ray;
-use super::pose::Pose;
-use crate::numeric::{Smooth, sqrt};
+use super::pose::{SineCosine, TurningRay};
+use super::turned::{Both, Single, Twin};
+use crate::numeric::sqrt;
 
 /// A ray in the plane of projection.
-#[derive(Clone, Copy, Default)]
-pub struct ProjectedRay<T> {
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ProjectedRay<const N: usize> {
     /// Place along the flank [rad].
-    pub u: T,
-    /// Height [rad].
-    pub h: T,
-    /// n_h √(1 + u² + h²).
-    pub metric: T,
+    pub u: Single<N>,
+    /// Height [rad] and n_h √(1 + u² + h²).
+    level: Twin<N>,
 }
 
-/// A ray's place u and height h in the plane of projection.
+/// A pair of parts of a ray of a tooth at the angle given.
 #[inline(always)]
-pub fn project<T: Smooth>(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> [T; 2] {
-    let at = ray.direction - ray.normal * relief;
-    let [across, along, toward]: [T; 3] = std::array::from_fn(|i| {
-        let row = &pose[i];
-        row[0] * at.x + row[1] * at.y + row[2] * at.z + offset[i]
-    });
-    let per = toward.reciprocal();
-    [across * per, along * per]
+fn parts<const N: usize>(ray: &TurningRay, pair: usize, angle: SineCosine) -> Twin<N> {
+    Twin::turning(ray.sine[pair], ray.cosine[pair], ray.fixed[pair], angle)
 }
 
-impl<T: Smooth> ProjectedRay<T> {
-    #[inline(always)]
-    /// `ray` of a gear in `pose`, `relief` [rad] of its flank missing, displaced by `offset` [rad].
-    pub fn new(ray: &Ray, relief: f64, pose: &Pose<T>, offset: [f64; 3]) -> Self {
-        let [u, h] = project(ray, relief, pose, offset);
-        let (row, normal) = (&pose[1], &ray.normal);
-        let part = row[0] * normal.x + row[1] * normal.y + row[2] * normal.z;
-        let square = u * u + h * h + 1.0;
-        let root = sqrt(square.value());
-        let root = square.through([root, 0.5 / root, -0.25 / (root * square.value())]);
-        Self { u, h, metric: part * root }
-    }
+/// Place along the flank of a ray of a tooth at the angle given [rad].
+#[inline(always)]
+pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
+    let ((across, _), (toward, _)) = (parts(ray, 0, angle).parts(), parts(ray, 1, angle).parts());
+    across.over(toward, 1.0 / toward.v)
+}
 
-    /// Point and metric of the facet from `self` to `next` at `u`.
+impl<const N: usize> ProjectedRay<N> {
+    /// `ray` of a tooth at the angle given.
     #[inline(always)]
-    pub fn until(&self, next: &Self, u: T) -> [T; 2] {
-        let share = (u - self.u) * (next.u - self.u).reciprocal();
-        [self.h + share * (next.h - self.h), self.metric + share * (next.metric - self.metric)]
+    pub fn new(ray: &TurningRay, angle: SineCosine) -> Self {
+        let (toward, normal) = parts(ray, 1, angle).parts();
+        let (u, h) = parts(ray, 0, angle).over(toward, 1.0 / toward.v).parts();
+        let square = u * u + h * h;
+        let square = Single { v: square.v + 1.0, ..square };
+        let root = sqrt(square.v);
+        let half = 0.5 / root;
+        let root = square.through([root, half, -half * half / root]);
+        Self { u, level: Twin::of(h, normal * root) }
     }
 }
 
-/// From the planet's tip to the side gear's.
-#[derive(Clone, Copy)]
-pub struct TipSpan<T> {
-    /// Place of the planet's tip [rad].
-    pub low: T,
-    /// Reciprocal of the way to the side gear's tip [1/rad].
-    pub per_length: T,
+/// A facet in the plane of projection: height and metric of its points are linear in their places.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ProjectedFacet<const N: usize> {
+    at_zero: Twin<N>,
+    slope: Twin<N>,
 }
 
-impl<T: Smooth> TipSpan<T> {
-    /// Overlap at `u` of the surfaces with height and metric of `planet` and `side`.
+impl<const N: usize> ProjectedFacet<N> {
+    /// Slope of the height.
     #[inline(always)]
-    pub fn overlap(&self, u: T, planet: [T; 2], side: [T; 2]) -> T {
-        let share = (u - self.low) * self.per_length;
-        let metric = side[1] + share * (planet[1] - side[1]);
-        (planet[0] - side[0]) * metric * (u * u + planet[0] * side[0] + 1.0).reciprocal()
+    pub fn slope(&self) -> f64 {
+        self.slope.parts().0.v
+    }
+
+    /// Height at the place `u`.
+    #[inline(always)]
+    pub fn height(&self, u: f64) -> f64 {
+        self.at_zero.parts().0.v + self.slope() * u
+    }
+
+    /// Facet between neighbouring rays.
+    #[inline(always)]
+    pub fn new(from: &ProjectedRay<N>, to: &ProjectedRay<N>) -> Self {
+        let length = to.u - from.u;
+        let slope = (to.level - from.level).over(length, 1.0 / length.v);
+        Self { at_zero: from.level - slope.times(from.u), slope }
+    }
+}
+
+/// How the overlap at a corner of one gear is measured: along the normal of its mate at its own tip, along its own at the
+/// mate's. The own angle is the first variable.
+#[derive(Clone, Copy, Debug)]
+pub struct Measure<const N: usize> {
+    /// The own tip [rad].
+    tip: Single<N>,
+    /// Reciprocal of the way from there to the mate's tip [1/rad].
+    per_length: Both<N>,
+    /// −1 for the planet, whose material is below, 1 for the side gear.
+    sign: f64,
+}
+
+impl<const N: usize> Measure<N> {
+    /// For corners of planet and side gear, whose tips are at the places `planet` and `side`.
+    #[inline(always)]
+    pub fn of_both(planet: Single<N>, side: Single<N>) -> [Self; 2] {
+        let length = Both::of_first(side).exchanged() - Both::of_first(planet);
+        let per = 1.0 / length.v;
+        let per_length = length.through([per, -per * per, 2.0 * per * per * per]);
+        [
+            Self { tip: planet, per_length, sign: -1.0 },
+            Self { tip: side, per_length: per_length.exchanged() * -1.0, sign: 1.0 },
+        ]
+    }
+
+    /// Overlap at the ray `own` over the facet `mate`, and the height of that facet there [rad].
+    #[inline(always)]
+    pub fn overlap(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
+        let (height, metric) = mate.slope.linear(mate.at_zero, own.u);
+        let (own_height, own_metric) = own.level.parts();
+        let share = self.per_length.times_first(own.u - self.tip);
+        let metric = metric - share * metric.less_first(own_metric);
+        let gap = height.less_first(own_height) * self.sign;
+        let square = height.times_first(own_height).plus_first(own.u * own.u);
+        let square = Both { v: square.v + 1.0, ..square };
+        ((gap * metric).over(square, 1.0 / square.v), height.v)
     }
 }

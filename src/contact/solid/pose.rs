@@ -12,9 +12,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::flank::half_pitch;
+use super::flank::{Ray, half_pitch};
+use super::turned::Both;
 use crate::geometry::Pair;
-use crate::numeric::{Smooth, atan2, cos, sin};
+use crate::numeric::{TAU, atan2, cos, sin};
 
 /// Rigid displacement of a planet against its side gear, as its drive flank sees it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,12 +35,66 @@ impl Displacement {
     }
 }
 
+/// Largest number of a tooth on either side of the middle.
+pub const MOST_TEETH: i32 = 6;
+
+/// Sine and cosine of an angle.
+pub type SineCosine = [f64; 2];
+
+/// Angles of the teeth of both gears.
+#[derive(Clone, Debug)]
+pub struct Teeth {
+    per_sin_base: [f64; 2],
+    half_pitch: f64,
+    /// Whole pitches from −[`MOST_TEETH`] to [`MOST_TEETH`] of planet and side gear.
+    pitches: [Vec<SineCosine>; 2],
+}
+
+/// Where tooth 0 of both gears stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Stance([SineCosine; 2]);
+
+impl Teeth {
+    /// Teeth of `pair`.
+    pub fn new(pair: &Pair) -> Self {
+        let pitches = pair.gears.map(|gear| {
+            let angle = |k: i32| TAU * f64::from(k) / f64::from(gear.teeth);
+            (-MOST_TEETH..=MOST_TEETH).map(|k| [sin(angle(k)), cos(angle(k))]).collect()
+        });
+        Self { per_sin_base: pair.sin_base().map(|s| 1.0 / s), half_pitch: half_pitch(&pair.gears[1]), pitches }
+    }
+
+    /// Tooth 0 of both gears at (q, x) [rad].
+    pub fn stance(&self, q: f64, x: f64) -> Stance {
+        let [planet, side] = self.per_sin_base;
+        Stance([x * planet, (q + x) * side + self.half_pitch].map(|angle| [sin(angle), cos(angle)]))
+    }
+
+    /// Angles θ_p and θ_s of the teeth of pair `k`, tooth 0 of both in `stance`; `None` beyond the largest number.
+    #[inline(always)]
+    pub fn angles(&self, stance: &Stance, k: i32) -> Option<[SineCosine; 2]> {
+        let k = usize::try_from(k + MOST_TEETH).ok()?;
+        let turned = |gear: usize| {
+            let ([s, c], [sk, ck]) = (stance.0[gear], self.pitches[gear].get(k)?);
+            Some([s * ck + c * sk, c * ck - s * sk])
+        };
+        Some([turned(0)?, turned(1)?])
+    }
+
+    /// What depends on the angles θ_p and θ_s, by (q, x) instead, of which the mirror image has the negatives for the
+    /// `sign` −1.
+    #[inline(always)]
+    pub fn by_position<const N: usize>(&self, f: Both<N>, sign: f64) -> Both<N> {
+        let [planet, side] = self.per_sin_base;
+        let [by_planet, by_side] = [f.d[0] * planet, f.d[1] * side];
+        let [pp, ps, ss] = [f.dd[0] * planet * planet, f.dd[1] * planet * side, f.dd[2] * side * side];
+        Both::new(f.v, [sign * by_side, sign * (by_planet + by_side)], [ss, ps + ss, pp + 2.0 * ps + ss])
+    }
+}
+
 /// Constants of the placement.
 #[derive(Clone, Debug)]
 pub struct Placement {
-    sin_base: [f64; 2],
-    base_pitch: f64,
-    half_pitch: f64,
     /// Rows across, along the line of action and toward the pitch point; columns of each gear's (away, t, axis).
     frames: [Matrix3<f64>; 2],
     /// Displacement in these rows [m].
@@ -48,8 +103,18 @@ pub struct Placement {
     axes: [Vector3<f64>; 3],
 }
 
-/// Rows across, along the line of action and toward the pitch point for directions in a tooth's own frame.
-pub type Pose<T> = [[T; 3]; 3];
+/// A ray that turns with its gear, in two pairs of parts: across and along the line of action; toward the pitch point, and
+/// the part of its flank's normal along the line of action.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub struct TurningRay {
+    /// Parts by the sine of the tooth's angle.
+    pub sine: [[f64; 2]; 2],
+    /// Parts by its cosine.
+    pub cosine: [[f64; 2]; 2],
+    /// Parts that stay.
+    pub fixed: [[f64; 2]; 2],
+}
 
 impl Placement {
     /// Placement of the gears of `pair`, displaced by `d`.
@@ -71,49 +136,48 @@ impl Placement {
         let lean = Matrix3::new(cl, 0.0, -sl, 0.0, 1.0, 0.0, sl, 0.0, cl);
         let moved = planet_axis * d.along[0] + side_axis * d.along[1] + across * d.across;
         Self {
-            sin_base: pair.sin_base(),
-            base_pitch: pair.base_pitch,
-            half_pitch: half_pitch(&pair.gears[1]),
             frames: [chart * lean, chart * Matrix3::from_columns(&[side_away, across, side_axis])],
             offset: chart * moved,
             axes: [chart * planet_axis, chart * side_axis, chart * across],
         }
     }
 
-    /// Displacement of the planet's apex, in rows of a pose [m].
-    pub fn offset(&self) -> [f64; 3] {
-        self.offset.into()
+    /// Rays of the planet's flank `relief` [m] of which is missing, in a section at cone distance `cone` [m].
+    pub fn planet_rays(&self, rays: &[Ray], cone: f64, relief: f64) -> Vec<TurningRay> {
+        rays.iter().map(|ray| self.turning(0, ray, relief / cone, self.offset / cone)).collect()
     }
 
-    /// Angles θ_p and θ_s of the teeth of pair `k` [rad].
-    fn angles<T: Smooth>(&self, q: T, x: T, k: i32) -> [T; 2] {
-        let travel = x + f64::from(k) * self.base_pitch;
-        [travel * (1.0 / self.sin_base[0]), (travel + q) * (1.0 / self.sin_base[1]) + self.half_pitch]
+    /// Rays of the side gear's flank.
+    pub fn side_rays(&self, rays: &[Ray]) -> Vec<TurningRay> {
+        rays.iter().map(|ray| self.turning(1, ray, 0.0, Vector3::zeros())).collect()
     }
 
-    /// Both teeth of pair `k` at (q, x) [rad].
-    #[inline(always)]
-    pub fn poses<T: Smooth>(&self, q: T, x: T, k: i32) -> [Pose<T>; 2] {
-        let angles = self.angles(q, x, k);
-        [0, 1].map(|gear| {
-            let (angle, frame) = (angles[gear], &self.frames[gear]);
-            let (s, c) = (sin(angle.value()), cos(angle.value()));
-            let (sine, cosine) = (angle.through([s, c, -s]), angle.through([c, -s, -c]));
-            std::array::from_fn(|row| {
-                let (away, across) = (frame[(row, 0)], frame[(row, 1)]);
-                [cosine * away + sine * across, cosine * across - sine * away, T::constant(frame[(row, 2)])]
-            })
-        })
+    fn turning(&self, gear: usize, ray: &Ray, relief: f64, offset: Vector3<f64>) -> TurningRay {
+        let frame = &self.frames[gear];
+        let by = |w: Vector3<f64>| {
+            let [away, across, axis] = [0, 1, 2].map(|i| frame.column(i).into_owned());
+            [across * w.x - away * w.y, away * w.x + across * w.y, axis * w.z]
+        };
+        let (place, normal) = (by(ray.direction - ray.normal * relief), by(ray.normal));
+        let part = |i: usize, moved: Vector3<f64>| {
+            let w = place[i] + moved;
+            [[w.x, w.y], [w.z, normal[i].y]]
+        };
+        TurningRay { sine: part(0, Vector3::zeros()), cosine: part(1, Vector3::zeros()), fixed: part(2, offset) }
     }
 
-    /// From the planet's frame, turned with its tooth 0, to the side gear's, turned with its gap 0.
-    pub fn between(&self, q: f64, x: f64) -> Matrix3<f64> {
-        let [planet, side] = [x / self.sin_base[0], (q + x) / self.sin_base[1]];
+    /// A direction of a tooth of a gear, in rows of this placement, with the tooth at the angle given.
+    pub fn turned(&self, gear: usize, [s, c]: SineCosine, w: &Vector3<f64>) -> Vector3<f64> {
+        self.frames[gear] * Vector3::new(c * w.x - s * w.y, s * w.x + c * w.y, w.z)
+    }
+
+    /// From the planet's frame, turned by the angle `planet`, to the side gear's, turned by `side` [rad].
+    pub fn between(&self, [planet, side]: [f64; 2]) -> Matrix3<f64> {
         about_axis(-side) * self.frames[1].transpose() * self.frames[0] * about_axis(planet)
     }
 
     /// Polar angles on planet and side gear, as they stand, of the place in the direction `point` at cone distance
-    /// `cone` [m], in rows of a pose [rad].
+    /// `cone` [m], in rows of a placement [rad].
     pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
         let on_gears = [point - self.offset / cone, point];
         [0, 1].map(|gear| {
@@ -122,7 +186,7 @@ impl Placement {
         })
     }
 
-    /// A vector in rows of a pose in parts along a_p, a_s and t.
+    /// A vector in rows of a placement in parts along a_p, a_s and t.
     pub fn parts(&self, w: [f64; 3]) -> [f64; 3] {
         let w = Vector3::from(w);
         [0, 1, 2].map(|i| self.axes[i].dot(&w))

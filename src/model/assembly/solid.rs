@@ -46,9 +46,7 @@ pub fn mesh(
         + errors.side_axial_offset.abs()
         + 2.0 * errors.axis_offset.abs()
         + pair.outer_cone * errors.shaft_angle_error.abs();
-    let mut mesh = SolidMesh::new(pair, &solids, elastic, damping, slack);
-    mesh.edges = edges;
-    mesh
+    SolidMesh::new(pair, &solids, elastic, damping, slack).with_edges(&edges)
 }
 
 /// Whether planets stand differently before their side gears.

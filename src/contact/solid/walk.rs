@@ -1,0 +1,156 @@
+//! The way along both polygons of a section, corner by corner, as far as their overlap contributes to the load.
+
+use super::overlap::Softness;
+use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
+use super::pose::{SineCosine, TurningRay};
+use super::turned::Both;
+
+/// Least ratio of the flanks' distance to their height difference where they touch.
+const LEAST_METRIC: f64 = 0.8;
+
+/// A corner of one flank over a facet of the other.
+#[derive(Clone, Copy, Default)]
+pub struct Corner<const N: usize> {
+    /// Place [rad].
+    pub u: Both<N>,
+    /// Overlap [rad].
+    pub overlap: Both<N>,
+    /// The gear of the facet.
+    pub mate: usize,
+    /// The lower ray of the facet.
+    pub ray: usize,
+    /// Height of the facet there [rad].
+    pub height: f64,
+}
+
+/// What follows the walks along both polygons.
+pub trait Follow<const N: usize> {
+    /// A walk begins at this corner, the same for both walks.
+    fn begin(&mut self, at: &Corner<N>);
+    /// The next corner.
+    fn pass(&mut self, at: &Corner<N>);
+}
+
+/// How far a walk along both polygons has come.
+struct Walk<'a, const N: usize> {
+    section: &'a FlankSection<'a>,
+    measures: &'a [Measure<N>; 2],
+    /// 1 to higher places, −1 to lower ones.
+    sense: f64,
+    /// The facets of planet and side gear at the place, and the rays at which they end.
+    facets: [ProjectedFacet<N>; 2],
+    ahead: [ProjectedRay<N>; 2],
+    index: [usize; 2],
+}
+
+impl<const N: usize> Walk<'_, N> {
+    /// The gear of the next corner, and the corner.
+    #[inline(always)]
+    fn corner(&self) -> (usize, Corner<N>) {
+        let own = usize::from((self.ahead[1].u.v - self.ahead[0].u.v) * self.sense < 0.0);
+        let (at, mate) = (&self.ahead[own], 1 - own);
+        let (overlap, height) = self.measures[own].overlap(at, &self.facets[mate]);
+        let u = Both::of_first(at.u);
+        let (u, overlap) = if own == 0 { (u, overlap) } else { (u.exchanged(), overlap.exchanged()) };
+        let ray = self.index[mate].wrapping_sub(usize::from(self.sense > 0.0));
+        (own, Corner { u, overlap, mate, ray, height })
+    }
+
+    /// Passes the next corner, of gear `own`; `false` where its flank ends.
+    #[inline(always)]
+    fn advance(&mut self, own: usize) -> bool {
+        let i = self.index[own].wrapping_add(if self.sense > 0.0 { 1 } else { usize::MAX });
+        let Some(to) = self.section.projected(own, i) else { return false };
+        let from = self.ahead[own];
+        self.facets[own] = ProjectedFacet::new(&from, &to);
+        (self.ahead[own], self.index[own]) = (to, i);
+        (to.u.v - from.u.v) * self.sense > 0.0
+    }
+}
+
+/// A section of both flanks.
+pub struct FlankSection<'a> {
+    /// Rays of planet and side gear; along both the planet's root and the side gear's tip come last.
+    pub rays: [&'a [TurningRay]; 2],
+    /// Angles of their teeth.
+    pub angles: [SineCosine; 2],
+    /// Where to begin: the rays that would be closest on exact flanks, counted along each.
+    pub start: [f64; 2],
+}
+
+impl FlankSection<'_> {
+    #[inline(always)]
+    fn projected<const N: usize>(&self, gear: usize, i: usize) -> Option<ProjectedRay<N>> {
+        self.rays[gear].get(i).map(|ray| ProjectedRay::new(ray, self.angles[gear]))
+    }
+
+    /// The rays before and behind the place `u` on a flank, and the number of the first; `None` off the flank.
+    #[inline(always)]
+    fn around<const N: usize>(&self, gear: usize, u: f64) -> Option<(usize, [ProjectedRay<N>; 2])> {
+        let last = self.rays[gear].len().checked_sub(2)?;
+        let mut i = (self.start[gear] as u32 as usize).min(last);
+        let mut rays = [self.projected::<N>(gear, i)?, self.projected(gear, i + 1)?];
+        if !(rays[0].u.v <= u && u <= rays[1].u.v) {
+            // facets are nearly alike
+            let ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
+            i = ((i as f64 + ahead) as u32 as usize).min(last);
+            let at = |i: usize| self.rays[gear].get(i).map(|ray| place::<0>(ray, self.angles[gear]).v);
+            while at(i + 1)? < u {
+                i += 1;
+            }
+            while at(i)? > u {
+                i = i.checked_sub(1)?;
+            }
+            rays = [self.projected(gear, i)?, self.projected(gear, i + 1)?];
+        }
+        Some((i, rays))
+    }
+
+    /// Two walks from a place inside both flanks along the corners that contribute: first the way in which the overlap grows,
+    /// and then, from the same corner, the other way. `None` where the flanks are apart.
+    #[inline(always)]
+    pub fn walk<const N: usize>(&self, soft: &Softness, follow: &mut impl Follow<N>) -> Option<()> {
+        let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
+        let side_tip = place::<N>(self.rays[1].last()?, self.angles[1]);
+        // contacts of involutes are at u = 0 or at a tip
+        let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
+        let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);
+        let facets = [ProjectedFacet::new(&planet.1[0], &planet.1[1]), ProjectedFacet::new(&side.1[0], &side.1[1])];
+        let grows_up = facets[0].slope() > facets[1].slope();
+        // over convex flanks no overlap grows faster than at first
+        let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
+        let (reach, least) = (soft.deep(), -soft.ahead / LEAST_METRIC);
+        // written so that NaN is apart
+        if !(facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room > least) {
+            return None;
+        }
+        let measures = Measure::of_both(planet_tip, side_tip);
+        let walk = |up: bool| {
+            let (sense, end) = (if up { 1.0 } else { -1.0 }, usize::from(up));
+            let (ahead, index) = ([planet.1[end], side.1[end]], [planet.0 + end, side.0 + end]);
+            Walk { section: self, measures: &measures, sense, facets, ahead, index }
+        };
+        let (mut forward, mut back) = (walk(grows_up), walk(!grows_up));
+        let (own, begin) = back.corner();
+        let goes_back = back.advance(own);
+        let mut greatest = begin.overlap.v;
+        for (walk, mut goes_on) in [(&mut forward, true), (&mut back, goes_back)] {
+            follow.begin(&begin);
+            while goes_on {
+                let (own, at) = walk.corner();
+                follow.pass(&at);
+                if at.overlap.v > greatest {
+                    greatest = at.overlap.v;
+                }
+                let floor = if greatest > least { greatest - reach } else { greatest };
+                // between convex flanks the overlap has a single maximum
+                goes_on = at.overlap.v >= floor && walk.advance(own);
+            }
+            // written so that NaN is apart
+            if !(greatest > least) {
+                return None;
+            }
+        }
+        Some(())
+    }
+}
