@@ -2,7 +2,7 @@
 //! out, and for counting instructions.
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
-//! "reversal" of the loads every 50 steps, "fixed_step=SIZE"; "unread" leaves the forces at the end unread, so that nothing
+//! "reversal" of the loads every 50 steps, "varying" loads, a little before every step, "fixed_step=SIZE"; "unread" leaves the forces at the end unread, so that nothing
 //! but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
@@ -61,7 +61,7 @@ fn main() {
     }
     for name in effects {
         match name.as_str() {
-            "unread" | "reversal" => {}
+            "unread" | "reversal" | "varying" => {}
             "rolling" => p.scene.start = Start::Rolling,
             name => match name.split_once('=') {
                 Some(("fixed_step", size)) => {
@@ -72,11 +72,16 @@ fn main() {
         }
     }
     let mut simulation = Simulation::start(&p, &i, 0.0).expect("the scene starts");
-    let reversal = effects.iter().any(|e| e == "reversal");
+    let [reversal, varying] = ["reversal", "varying"].map(|name| effects.iter().any(|e| e == name));
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for k in 1..=steps.parse::<u32>().expect("a number of steps") {
         if reversal && k % 50 == 0 {
             i.load_torque = i.load_torque.map(|torque| -torque);
+            simulation.set_inputs(&i);
+        }
+        if varying {
+            let more = if k % 2 == 0 { 0.1 } else { -0.1 };
+            i.load_torque = i.load_torque.map(|torque| torque + more * f64::from(k % 7));
             simulation.set_inputs(&i);
         }
         one_communication_step(&mut simulation, f64::from(k) * 1e-3);

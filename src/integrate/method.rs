@@ -1,16 +1,15 @@
 //! Interface of one-step methods: all that the driver, the step-size control and the tests use of them.
 
+use super::course::Extension;
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<const N: usize> {
-    /// Solution at the end of the step.
-    pub end: Point<N>,
-    /// Continuous extension at the middle of the step.
-    pub middle: Point<N>,
-    /// Estimate of the local error of `end`.
+    /// The motion from the begin of the step to its end.
+    pub extension: Extension<N>,
+    /// Estimate of the local error of its end.
     pub error: Point<N>,
 }
 

@@ -196,8 +196,10 @@ impl Simulation {
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;
-                let outcome =
+                let outcome = equations.admit(&end);
+                if outcome.is_ok() {
                     equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
+                }
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, 0.0, &mut anchors);
                 equations.anchor(&anchors);
