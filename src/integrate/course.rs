@@ -3,6 +3,8 @@
 //! A step whose error is small enough is pending until a time beyond its end is asked for. Up to there its continuous
 //! extension tells the motion, at times that the steps do not depend on.
 
+use serde::{Deserialize, Serialize};
+
 use super::system::Point;
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
@@ -39,7 +41,7 @@ impl<const N: usize> Extension<N> {
 }
 
 /// How a step came about, for the control of the next ones.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Attempt {
     /// Size of the step [s].
     pub h: f64,

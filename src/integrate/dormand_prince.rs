@@ -55,7 +55,7 @@ impl Method for DormandPrince {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &ErrorNorm<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
@@ -79,6 +79,7 @@ impl Method for DormandPrince {
         combine(&mut bends[0], &[h, -1.0], 1.0, &[k[0], change]);
         combine(&mut bends[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
         combine(&mut bends[2], &[-1.0], 1.0, &[quartic]);
-        Some(Trial { extension: Extension { start: *start, end, bends }, error })
+        let size = norm.judge(&error, &end);
+        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
     }
 }

@@ -198,7 +198,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
         let trial = method.step(system, (point, course.time), lin, h, &norm, statistics);
-        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &norm));
+        let error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
         match trial {
             Some(Trial { extension, .. }) if error <= 1.0 => {
                 let ends = ((point, course.time), (&extension.end, course.time + h));
@@ -290,19 +290,4 @@ impl Control {
         self.last = h;
         self.last_error = error.max(LEAST_REMEMBERED_ERROR);
     }
-}
-
-/// Largest component of the error over what is allowed; NaN if anything is not finite.
-#[inline(always)]
-fn error_norm<const N: usize>(trial: &Trial<N>, norm: &ErrorNorm<N>) -> f64 {
-    let weight = &norm.weights;
-    let (mut largest, mut sum) = (0.0f64, 0.0);
-    for i in 0..N {
-        let q = (trial.error.q[i] * weight.q[i]).abs();
-        let v = (trial.error.v[i] * weight.v[i]).abs();
-        largest = largest.max(q).max(v);
-        // max() ignores NaN, a sum does not, nor does a product with zero
-        sum += q + v + 0.0 * (trial.extension.end.q[i] + trial.extension.end.v[i]);
-    }
-    if sum.is_finite() { largest / norm.tolerance } else { f64::NAN }
 }

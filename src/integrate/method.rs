@@ -11,6 +11,8 @@ pub struct Trial<const N: usize> {
     pub extension: Extension<N>,
     /// Estimate of the local error of its end.
     pub error: Point<N>,
+    /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`]. Where it is above 1, nobody asks for bends.
+    pub size: f64,
 }
 
 /// Weighted norm of errors relative to the tolerance: it accepts steps and stops iterations within them.
@@ -31,6 +33,21 @@ impl<const N: usize> ErrorNorm<N> {
             largest = largest.max((of.q[i] * self.weights.q[i]).abs()).max((of.v[i] * self.weights.v[i]).abs());
         }
         largest / self.tolerance
+    }
+
+    /// Largest component of the error of a step to `end` over the allowed one; NaN if anything is not finite.
+    #[inline(always)]
+    pub fn judge(&self, error: &Point<N>, end: &Point<N>) -> f64 {
+        let weight = &self.weights;
+        let (mut largest, mut sum) = (0.0f64, 0.0);
+        for i in 0..N {
+            let q = (error.q[i] * weight.q[i]).abs();
+            let v = (error.v[i] * weight.v[i]).abs();
+            largest = largest.max(q).max(v);
+            // max() ignores NaN, a sum does not, nor does a product with zero
+            sum += q + v + 0.0 * (end.q[i] + end.v[i]);
+        }
+        if sum.is_finite() { largest / self.tolerance } else { f64::NAN }
     }
 }
 

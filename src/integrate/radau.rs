@@ -140,7 +140,9 @@ impl Method for Radau {
         for (bend, weights) in bends.iter_mut().zip(&BENDS) {
             combine(bend, weights, 1.0, &z);
         }
-        Some(Trial { extension: Extension { start: *start, end: shifted(start, &z[2]), bends }, error })
+        let end = shifted(start, &z[2]);
+        let size = norm.judge(&error, &end);
+        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
     }
 }
 

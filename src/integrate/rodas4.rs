@@ -22,11 +22,11 @@ impl Method for Rodas4 {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &ErrorNorm<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS4.c.len() as u64;
-        rosenbrock::step(&RODAS4, system, (start, time), lin, h)
+        rosenbrock::step(&RODAS4, system, (start, time), lin, h, norm)
     }
 }
 

@@ -11,7 +11,7 @@
 
 use super::block::Block;
 use super::course::Extension;
-use super::method::{Trial, combine};
+use super::method::{ErrorNorm, Trial, combine};
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
@@ -53,6 +53,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     (start, time): (&Point<N>, f64),
     lin: &Linearisation<N, E::Power>,
     h: f64,
+    norm: &ErrorNorm<N>,
 ) -> Option<Trial<N>> {
     let block = Block::new(system, lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
@@ -90,8 +91,11 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     let error = u[S - 1];
     let (mut end, mut bends) = (y, [Point::ZERO; 3]);
     combine(&mut end, &[1.0], 1.0, &[error]);
-    for (bend, weights) in bends.iter_mut().zip(tableau.bends) {
-        combine(bend, weights, 1.0, &u);
+    let size = norm.judge(&error, &end);
+    if size <= 1.0 {
+        for (bend, weights) in bends.iter_mut().zip(tableau.bends) {
+            combine(bend, weights, 1.0, &u);
+        }
     }
-    Some(Trial { extension: Extension { start: *start, end, bends }, error })
+    Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
 }

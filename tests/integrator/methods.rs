@@ -11,7 +11,7 @@ pub trait Known: Method {
     /// Order of the solution.
     const ORDER: u32;
     /// Order of the continuous extension.
-    const MIDDLE: u32;
+    const EXTENSION: u32;
     /// Order k of the error h^k/λ under smooth forcing much stiffer than the step; `None` if there is no stable step.
     const FORCED: Option<u32>;
 }
@@ -19,14 +19,14 @@ pub trait Known: Method {
 impl Known for Rodas5P {
     const METHOD: Self = Rodas5P;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 4;
+    const EXTENSION: u32 = 4;
     const FORCED: Option<u32> = Some(3);
 }
 
 impl Known for Rodas4 {
     const METHOD: Self = Rodas4;
     const ORDER: u32 = 4;
-    const MIDDLE: u32 = 3;
+    const EXTENSION: u32 = 3;
     // the order is lost: its inner stages are of order 1 only
     const FORCED: Option<u32> = Some(1);
 }
@@ -34,14 +34,14 @@ impl Known for Rodas4 {
 impl Known for Radau {
     const METHOD: Self = Radau;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 3;
+    const EXTENSION: u32 = 3;
     const FORCED: Option<u32> = Some(3);
 }
 
 impl Known for DormandPrince {
     const METHOD: Self = DormandPrince;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 4;
+    const EXTENSION: u32 = 4;
     const FORCED: Option<u32> = None;
 }
 
@@ -106,7 +106,7 @@ pub fn fixed<M: Known, const N: usize, S: SecondOrder<N>>(
     count: u32,
 ) -> Point<N> {
     for _ in 0..count {
-        at = step::<M, N, S>(s, &at, length / f64::from(count)).end;
+        at = step::<M, N, S>(s, &at, length / f64::from(count)).extension.end;
     }
     at
 }

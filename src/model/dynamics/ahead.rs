@@ -12,7 +12,7 @@ use crate::model::scene::layout::MAX_DOF;
 type Motion = [[f64; MAX_DOF]; 2];
 
 /// A step that is not completed at the present time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ahead {
     /// Inputs that act in it.
     pub inputs: Inputs,
@@ -27,13 +27,16 @@ pub struct Ahead {
 }
 
 impl Ahead {
-    /// The pending step of `course`, if there is one.
-    pub fn new<const N: usize>(course: &Course<N, Power>, clock: Clock, inputs: &Inputs) -> Option<Self> {
-        let Pending { attempt, extension, power, energy, .. } = course.pending.as_ref()?;
-        let Extension { start, end, bends } = extension;
-        let (attempt, power, energy) = (*attempt, *power, *energy);
-        let (start, end, bends) = (stored(start), stored(end), [0, 1, 2].map(|k| stored(&bends[k])));
-        Some(Self { inputs: *inputs, clock, attempt, start, end, bends, power, energy })
+    /// Becomes the step `pending`.
+    pub fn set<const N: usize>(&mut self, pending: &Pending<N, Power>, clock: Clock, inputs: &Inputs) {
+        let Extension { start, end, bends } = &pending.extension;
+        (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
+        (self.power, self.energy) = (pending.power, pending.energy);
+        store(start, &mut self.start);
+        store(end, &mut self.end);
+        for (bend, stored) in bends.iter().zip(&mut self.bends) {
+            store(bend, stored);
+        }
     }
 
     /// The course of the integration, as far as this step tells it.
@@ -81,11 +84,9 @@ impl Ahead {
     }
 }
 
-fn stored<const N: usize>(point: &Point<N>) -> Motion {
-    let mut motion = [[0.0; MAX_DOF]; 2];
+fn store<const N: usize>(point: &Point<N>, motion: &mut Motion) {
     motion[0][..N].copy_from_slice(&point.q);
     motion[1][..N].copy_from_slice(&point.v);
-    motion
 }
 
 fn restored<const N: usize>(motion: &Motion) -> Point<N> {

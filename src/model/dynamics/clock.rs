@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Times on the integrator's clock [s].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clock {
     /// End of the last completed step.
     pub time: f64,

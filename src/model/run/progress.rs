@@ -48,9 +48,13 @@ pub fn complete(model: &Model, state: &mut State) {
     keep_together(model, state);
 }
 
-/// Integrates to `until` [s].
-pub fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
-    let before = (*state, *inputs);
+/// Integrates to `until` [s]. If values are not finite then, it returns to what was `before`.
+pub fn integrate(
+    model: &Model,
+    (inputs, state): (&mut Inputs, &mut State),
+    before: &(State, Inputs),
+    until: f64,
+) -> Result<(), StepFailure> {
     let mut budget = stretch::budget(model);
     while state.time < until {
         let (begin, breaks) = (state.time, onset(model, state));
@@ -68,7 +72,7 @@ pub fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f
         break_tooth(model, inputs, state);
     }
     if !state.is_valid() {
-        (*state, *inputs) = before;
+        (*state, *inputs) = *before;
         return Err(StepFailure::not_finite(state.time));
     }
     Ok(())

@@ -144,15 +144,16 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
-        let shown = state.ahead.map(|_| *state);
-        match (progress::integrate(model, inputs, state, until), shown) {
+        let before = (*state, *inputs);
+        let outcome = progress::integrate(model, (inputs, state), &before, until);
+        match outcome {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            (Err(failure), Some(shown)) if failure.time < shown.time => {
-                *state = shown;
+            Err(failure) if failure.time < before.0.time => {
+                *state = before.0;
                 begin_anew(model, inputs, state);
-                progress::integrate(model, inputs, state, until)
+                progress::integrate(model, (inputs, state), &before, until)
             }
-            (outcome, _) => outcome,
+            outcome => outcome,
         }
     }
 

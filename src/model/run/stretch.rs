@@ -10,7 +10,6 @@ use crate::integrate::{
     Step,
 };
 use crate::model::assembly::model::{Gears, Model};
-use crate::model::dynamics::ahead::Ahead;
 use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
@@ -63,7 +62,8 @@ pub struct Stretch<'a> {
 }
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
-/// be set back.
+/// be set back. Compiled once for each size, whoever calls it.
+#[inline(never)]
 pub fn integrate<const N: usize, E: Recorded<N>>(
     mut equations: E,
     model: &Model,
@@ -79,7 +79,7 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
         expected: clock.expected,
         ..Course::new(state.point(), clock.time, clock.end)
     };
-    if let Some(ahead) = state.ahead.take() {
+    if let Some(ahead) = &state.ahead {
         ahead.resume(&mut course);
         course.end_at(clock.end);
     }
@@ -117,7 +117,12 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
     state.friction = *equations.friction_state();
     state.set_point(&course.point);
     clock.time = course.time;
-    state.ahead = if outcome.is_ok() { Ahead::new(&course, *clock, inputs) } else { None };
+    match &course.pending {
+        Some(pending) if outcome.is_ok() => {
+            state.ahead.get_or_insert_default().set(pending, *clock, inputs);
+        }
+        _ => state.ahead = None,
+    }
     outcome.map_err(|failure| explain(failure, begin + clock.time, model))
 }
 
