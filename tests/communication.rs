@@ -181,11 +181,12 @@ fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
             ends.advance(stop).unwrap();
             within.advance(stop).unwrap();
             let (a, b) = (within.ledger(), ends.ledger());
-            let turned_over = 1.0 + b.heat.iter().sum::<f64>().abs();
-            for (x, y) in a.heat.iter().zip(&b.heat) {
-                assert!((x - y).abs() < 1e-3 * turned_over, "{} at {stop}: {:?} {:?}", scene.name, a.heat, b.heat);
-            }
-            assert!(a.energy_residual.abs() < 1e-3, "{} at {stop}: {}", scene.name, a.energy_residual);
+            // ten tolerances of the energy turned over
+            let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * (1.0 + b.heat.iter().sum::<f64>());
+            let heats = a.heat.iter().zip(&b.heat).all(|(&x, &y)| close(x, y));
+            let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| close(x, y));
+            assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
+            assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
             // reading leaves no trace
             let read = *within.state();
             within.ledger();
@@ -242,11 +243,11 @@ fn a_failure_beyond_a_point_does_not_show_at_it() {
     };
     assert!(reached >= 200, "{reached}: {refused}");
     assert!(refused.time >= f64::from(reached) * h * (1.0 - 1e-12), "{refused}");
-    // relieved just before, the run goes on
+    // relieved in time, the run goes on
     let mut relieved = scene.start();
-    relieved.advance(0.99 * failure.time).unwrap();
+    relieved.advance(0.3 * failure.time).unwrap();
     relieved.set_inputs(&Inputs { load_torque: [0.0; 2], ..scene.inputs });
-    relieved.advance(1.1 * failure.time).unwrap();
+    relieved.advance(3.0 * failure.time).unwrap();
 }
 
 #[test]

@@ -12,6 +12,9 @@ pub trait Known: Method {
     const ORDER: u32;
     /// Order of the continuous extension.
     const EXTENSION: u32;
+    /// Tolerance with which single steps are taken: none is refused for its error, but iterations within a step go so far
+    /// that they add nothing to it.
+    const TOLERANCE: f64 = 1e6;
     /// Order k of the error h^k/λ under smooth forcing much stiffer than the step; `None` if there is no stable step.
     const FORCED: Option<u32>;
 }
@@ -35,6 +38,7 @@ impl Known for Radau {
     const METHOD: Self = Radau;
     const ORDER: u32 = 5;
     const EXTENSION: u32 = 3;
+    const TOLERANCE: f64 = 1e-11;
     const FORCED: Option<u32> = Some(3);
 }
 
@@ -78,9 +82,6 @@ macro_rules! with_every_method {
 }
 pub(crate) use with_every_method;
 
-/// So accurate that iterations within a step add nothing to its error.
-const ITERATE: f64 = 1e-11;
-
 /// One step of size `h`. A method that needs no derivatives gets unusable ones.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
@@ -94,7 +95,7 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
         let (acceleration, power) = s.evaluate_at(at, time);
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
     };
-    let norm = ErrorNorm { weights: s.weights(at), tolerance: ITERATE };
+    let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
     M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()
 }
 
