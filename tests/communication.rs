@@ -118,12 +118,17 @@ fn motion_at_and_between_the_ends_of_steps_is_within_ten_tolerances() {
 /// Changes at a communication point after which the integration begins anew.
 type Change = fn(&mut Simulation, &Scene);
 
-const CHANGES: [(&str, Change); 3] = [
+const CHANGES: [(&str, Change); 4] = [
     ("an input", |s, scene| {
         let load_torque = scene.inputs.load_torque.map(|torque| 1.1 * torque);
         s.set_inputs(&Inputs { load_torque, ..scene.inputs });
     }),
     ("derivatives of inputs", |s, _| s.set_input_derivatives(Some(bevel_differential::model::InputDerivatives::ZERO))),
+    ("states", |s, _| {
+        let mut states = s.states();
+        states[0] += 1e-6;
+        s.set_states(&states);
+    }),
     ("a parameter", |s, scene| {
         let mut parameters = scene.parameters;
         parameters.contact.damping *= 1.5;
