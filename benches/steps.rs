@@ -2,13 +2,8 @@
 //! out, and for counting instructions.
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
-<<<<<<< HEAD
-//! "reversal" of the loads every 50 steps, "fixed_step=SIZE", VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing
-//! but steps is counted.
-=======
-//! "reversal" of the loads every 50 steps, "fixed_step=SIZE", "solid=FACETS" for solid teeth; "unread" leaves the forces at
-//! the end unread, so that nothing but steps is counted.
->>>>>>> w-solid
+//! "reversal" of the loads every 50 steps, "varying" loads, a little before every step, "fixed_step=SIZE", "solid=FACETS"
+//! for solid teeth, VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing but steps is counted.
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{EFFECTS, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
@@ -66,31 +61,32 @@ fn main() {
     }
     for name in effects {
         match name.as_str() {
-            "unread" | "reversal" => {}
+            "unread" | "reversal" | "varying" => {}
             "rolling" => p.scene.start = Start::Rolling,
             name => match name.split_once('=') {
                 Some(("fixed_step", size)) => {
                     (p.solver.method, p.solver.fixed_step) = (Method::FixedStep, size.parse().expect("a size"));
                 }
-<<<<<<< HEAD
-                Some((name, value)) => set(&mut p, &mut i, name, value.parse().expect("a number")),
-                None => switch(&mut p, &mut i, name),
-=======
                 Some(("solid", facets)) => {
                     p.scene.gear_contact = GearContact::Solid;
                     p.solid.facets = facets.parse().expect("a number of facets");
                 }
-                _ => switch(&mut p, &mut i, name),
->>>>>>> w-solid
+                Some((name, value)) => set(&mut p, &mut i, name, value.parse().expect("a number")),
+                None => switch(&mut p, &mut i, name),
             },
         }
     }
     let mut simulation = Simulation::start(&p, &i, 0.0).expect("the scene starts");
-    let reversal = effects.iter().any(|e| e == "reversal");
+    let [reversal, varying] = ["reversal", "varying"].map(|name| effects.iter().any(|e| e == name));
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for k in 1..=steps.parse::<u32>().expect("a number of steps") {
         if reversal && k % 50 == 0 {
             i.load_torque = i.load_torque.map(|torque| -torque);
+            simulation.set_inputs(&i);
+        }
+        if varying {
+            let more = if k % 2 == 0 { 0.1 } else { -0.1 };
+            i.load_torque = i.load_torque.map(|torque| torque + more * f64::from(k % 7));
             simulation.set_inputs(&i);
         }
         one_communication_step(&mut simulation, f64::from(k) * 1e-3);
