@@ -88,7 +88,17 @@ impl<const N: usize> SoftIntegral<N> {
     fn new(soft: &Softness) -> Self {
         let (zero, one) = (Both::default(), (Both::default(), 1.0));
         let (width, per) = (soft.width, 1.0 / soft.width);
-        Self { width, per, from: f64::NAN, high: f64::NAN, sum: zero, walked: zero, begin: one, before: one, place: zero }
+        Self {
+            width,
+            per,
+            from: f64::NAN,
+            high: f64::NAN,
+            sum: zero,
+            walked: zero,
+            begin: one,
+            before: one,
+            place: zero,
+        }
     }
 
     /// Adds the walk that ends to the sum.

@@ -87,10 +87,7 @@ impl<const N: usize> Measure<N> {
         let length = Both::of_first(side).exchanged() - Both::of_first(planet);
         let per = 1.0 / length.v;
         let per_length = length.through([per, -per * per, 2.0 * per * per * per]);
-        [
-            Self { tip: planet, per_length },
-            Self { tip: side, per_length: per_length.exchanged() * -1.0 },
-        ]
+        [Self { tip: planet, per_length }, Self { tip: side, per_length: per_length.exchanged() * -1.0 }]
     }
 
     /// Overlap at the ray `own` of the side gear over the facet `mate`, or with rays and facets exchanged its negative; and
