@@ -68,11 +68,12 @@ pub struct Patch {
 
 /// ∫ exp(δ/ε) du along both walks, and its derivatives.
 struct SoftIntegral<const N: usize> {
-    /// ε and 1/ε.
+    /// ε [rad] and 1/ε.
     width: f64,
     per: f64,
-    /// Overlap that exponents count from [rad].
+    /// Overlap that exponents count from, and the largest that they may [rad].
     from: f64,
+    high: f64,
     /// The integrals of both walks together, and that of this walk.
     sum: Both<N>,
     walked: Both<N>,
@@ -87,7 +88,17 @@ impl<const N: usize> SoftIntegral<N> {
     fn new(soft: &Softness) -> Self {
         let (zero, one) = (Both::default(), (Both::default(), 1.0));
         let (width, per) = (soft.width, 1.0 / soft.width);
-        Self { width, per, from: f64::NAN, sum: zero, walked: zero, begin: one, before: one, place: zero }
+        Self {
+            width,
+            per,
+            from: f64::NAN,
+            high: f64::NAN,
+            sum: zero,
+            walked: zero,
+            begin: one,
+            before: one,
+            place: zero,
+        }
     }
 
     /// Adds the walk that ends to the sum.
@@ -98,12 +109,18 @@ impl<const N: usize> SoftIntegral<N> {
         self.walked = Both::default();
     }
 
-    /// Lets exponents count from `from`.
+    #[inline(always)]
+    fn count_from(&mut self, from: f64) {
+        (self.from, self.high) = (from, from + HIGH * self.width);
+    }
+
+    /// Lets exponents count from the greater overlap `from`.
     #[inline(always)]
     fn rescale(&mut self, from: f64) {
         let shift = (self.from - from) * self.per;
         let less = libm::exp(shift);
-        (self.sum, self.walked, self.from) = (self.sum * less, self.walked * less, from);
+        (self.sum, self.walked) = (self.sum * less, self.walked * less);
+        self.count_from(from);
         for (exponent, exponential) in [&mut self.before, &mut self.begin] {
             exponent.v += shift;
             *exponential *= less;
@@ -127,7 +144,7 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
     #[inline(always)]
     fn begin(&mut self, at: &Corner<N>) {
         if self.from.is_nan() {
-            self.from = at.overlap.v;
+            self.count_from(at.overlap.v);
             self.begin.0 = Both { v: 0.0, ..at.overlap } * self.per;
         }
         self.finish();
@@ -136,7 +153,7 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
 
     #[inline(always)]
     fn pass(&mut self, at: &Corner<N>) {
-        if at.overlap.v > self.from + HIGH * self.width {
+        if at.overlap.v > self.high {
             self.rescale(at.overlap.v);
         }
         let exponent = Both { v: at.overlap.v - self.from, ..at.overlap } * self.per;

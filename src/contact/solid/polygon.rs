@@ -78,8 +78,6 @@ pub struct Measure<const N: usize> {
     tip: Single<N>,
     /// Reciprocal of the way from there to the mate's tip [1/rad].
     per_length: Both<N>,
-    /// −1 for the planet, whose material is below, 1 for the side gear.
-    sign: f64,
 }
 
 impl<const N: usize> Measure<N> {
@@ -89,20 +87,18 @@ impl<const N: usize> Measure<N> {
         let length = Both::of_first(side).exchanged() - Both::of_first(planet);
         let per = 1.0 / length.v;
         let per_length = length.through([per, -per * per, 2.0 * per * per * per]);
-        [
-            Self { tip: planet, per_length, sign: -1.0 },
-            Self { tip: side, per_length: per_length.exchanged() * -1.0, sign: 1.0 },
-        ]
+        [Self { tip: planet, per_length }, Self { tip: side, per_length: per_length.exchanged() * -1.0 }]
     }
 
-    /// Overlap at the ray `own` over the facet `mate`, and the height of that facet there [rad].
+    /// Overlap at the ray `own` of the side gear over the facet `mate`, or with rays and facets exchanged its negative; and
+    /// the height of the facet there [rad].
     #[inline(always)]
     pub fn overlap(&self, own: &ProjectedRay<N>, mate: &ProjectedFacet<N>) -> (Both<N>, f64) {
         let (height, metric) = mate.slope.linear(mate.at_zero, own.u);
         let (own_height, own_metric) = own.level.parts();
         let share = self.per_length.times_first(own.u - self.tip);
         let metric = metric - share * metric.less_first(own_metric);
-        let gap = height.less_first(own_height) * self.sign;
+        let gap = height.less_first(own_height);
         let square = height.times_first(own_height).plus_first(own.u * own.u);
         let square = Both { v: square.v + 1.0, ..square };
         ((gap * metric).over(square, 1.0 / square.v), height.v)

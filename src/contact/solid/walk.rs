@@ -51,7 +51,7 @@ impl<const N: usize> Walk<'_, N> {
         let (at, mate) = (&self.ahead[own], 1 - own);
         let (overlap, height) = self.measures[own].overlap(at, &self.facets[mate]);
         let u = Both::of_first(at.u);
-        let (u, overlap) = if own == 0 { (u, overlap) } else { (u.exchanged(), overlap.exchanged()) };
+        let (u, overlap) = if own == 0 { (u, overlap * -1.0) } else { (u.exchanged(), overlap.exchanged()) };
         let ray = self.index[mate].wrapping_sub(usize::from(self.sense > 0.0));
         (own, Corner { u, overlap, mate, ray, height })
     }
@@ -133,7 +133,9 @@ impl FlankSection<'_> {
         let (mut forward, mut back) = (walk(grows_up), walk(!grows_up));
         let (own, begin) = back.corner();
         let goes_back = back.advance(own);
+        let floor_of = |greatest: f64| if greatest > least { greatest - reach } else { greatest };
         let mut greatest = begin.overlap.v;
+        let mut floor = floor_of(greatest);
         for (walk, mut goes_on) in [(&mut forward, true), (&mut back, goes_back)] {
             follow.begin(&begin);
             while goes_on {
@@ -141,8 +143,8 @@ impl FlankSection<'_> {
                 follow.pass(&at);
                 if at.overlap.v > greatest {
                     greatest = at.overlap.v;
+                    floor = floor_of(greatest);
                 }
-                let floor = if greatest > least { greatest - reach } else { greatest };
                 // between convex flanks the overlap has a single maximum
                 goes_on = at.overlap.v >= floor && walk.advance(own);
             }
