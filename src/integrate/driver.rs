@@ -168,7 +168,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
             }
             (unbalanced, after_rejection) = (0, false);
             control.accept::<M>(size, cut, error, pending.attempt.after_rejection);
-            control.on_kink = to_kink;
+            control.on_kink = to_kink && pending.part == 1.0;
             statistics.accepted += 1;
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
