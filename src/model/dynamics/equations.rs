@@ -13,7 +13,7 @@
 
 use super::power::Power;
 use super::state::State;
-use crate::contact::mesh::{MeshForce, MeshState};
+use crate::contact::mesh::{Law, MeshForce, MeshState};
 use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
 use crate::model::effect_kinds::friction::Friction;
@@ -32,6 +32,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const W
     driven: bool,
     pub(in crate::model) friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
+    rubs: bool,
     pub(in crate::model) fault: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
@@ -64,14 +65,21 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         let (input_derivatives, driven) =
             (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
         let friction = WITH_EFFECTS.then(|| teeth.additions.bodies.friction(state.lock, &inputs, &input_derivatives));
+        let rubs = friction.as_ref().is_some_and(Friction::is_any);
         let (friction_state, fault) = (state.friction, state.fault);
-        Self { teeth, inputs, input_derivatives, driven, friction_state, friction, fault, offset, wrapped }
+        Self { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped }
     }
 
     /// Dry friction on all bodies.
     #[inline(always)]
     pub(in crate::model) fn friction(&self) -> &Friction {
         self.friction.as_ref().unwrap_or(&Friction::NONE)
+    }
+
+    /// Whether there is any.
+    #[inline(always)]
+    pub(in crate::model) fn rubs(&self) -> bool {
+        WITH_EFFECTS && self.rubs
     }
 
     /// Whether inputs change while they act.
@@ -107,6 +115,22 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
             rate: [side * speed - travel_rate, travel_rate],
             which: [self.teeth.plan.group(g).planet, s],
         }
+    }
+
+    /// A group before `g` whose plain meshes are in the same state to the last bit: what its teeth do, those of `g` do too.
+    /// Planets that are simulated one by one move together until something tells them apart, such as a tooth that breaks.
+    #[inline(always)]
+    pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
+        if G == 1 || matches!(self.teeth.mesh.law, Law::Solid(_)) {
+            return None;
+        }
+        let same = |i: usize, j: usize| at.q[i] == at.q[j] && at.v[i] == at.v[j];
+        (0..g).find(|&h| {
+            self.teeth.plan.group(g).phase == self.teeth.plan.group(h).phase
+                && self.offset[g] == self.offset[h]
+                && same(Self::PLANET + g, Self::PLANET + h)
+                && (P == 0 || same(Self::PIN + g, Self::PIN + h))
+        })
     }
 
     /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
@@ -253,6 +277,10 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         let mut sum = [0.0; N];
         let mut load = [[MeshForce::default(); 2]; G];
         for g in 0..G {
+            if let Some(twin) = self.twin(at, g) {
+                load[g] = load[twin];
+                continue;
+            }
             for s in 0..2 {
                 load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
             }
@@ -263,10 +291,12 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
 
     /// Elastic energy of all meshes [J].
     pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
-        in_pairs(G, |g| {
+        let mut energy = [0.0; G];
+        for g in 0..G {
             let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
-            self.members(g) * (of(0) + of(1))
-        })
+            energy[g] = self.twin(at, g).map_or_else(|| of(0) + of(1), |twin| energy[twin]);
+        }
+        in_pairs(G, |g| self.members(g) * energy[g])
     }
 
     /// Kinetic energy [J].

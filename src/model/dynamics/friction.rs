@@ -93,8 +93,21 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         all
     }
 
-    /// Adds the torques and the heat of dry friction.
+    /// Adds the torques and the heat of dry friction under the loads on its surfaces.
+    #[inline(always)]
     pub(in crate::model) fn add_friction(
+        &self,
+        at: &Point<N>,
+        surface_loads: impl FnOnce() -> [SurfaceLoad; FRICTION_BODIES],
+        sum: &mut [f64; N],
+        power: &mut Power,
+    ) {
+        if self.rubs() {
+            self.rub(at, &surface_loads(), sum, power);
+        }
+    }
+
+    fn rub(
         &self,
         at: &Point<N>,
         surface_loads: &[SurfaceLoad; FRICTION_BODIES],
@@ -137,6 +150,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Derivatives of dry friction by the motion of the bodies it holds.
     pub(in crate::model) fn friction_slopes(&self, j: &mut Jacobian<N>) {
+        if !self.rubs() {
+            return;
+        }
         for i in self.bodies_with_friction() {
             let [k, c] = self.friction().on(i).torque_slopes(&self.friction_state[i]);
             let body = self.freedom_of(i);
@@ -244,7 +260,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
     pub(in crate::model) fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if !self.friction().is_any() || !self.awaits_load(end.0) {
+        if !self.rubs() || !self.awaits_load(end.0) {
             return None;
         }
         let surface_loads = [start, end].map(|(at, time)| self.surface_loads(at, time));
@@ -260,7 +276,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Distance of each friction from its switch, where it acts.
     pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES] {
         let mut margins = [None; FRICTION_BODIES];
-        if WITH_EFFECTS && self.friction().is_any() {
+        if self.rubs() {
             let surface_loads = self.surface_loads(at, 0.0);
             for i in self.bodies_with_friction() {
                 let margin =
@@ -273,7 +289,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
     pub(in crate::model) fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
-        if !self.friction().is_any() || !self.awaits_load(at) {
+        if !self.rubs() || !self.awaits_load(at) {
             return false;
         }
         let surface_loads = self.surface_loads(at, time);
@@ -284,6 +300,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
     #[inline(always)]
     pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+        if !self.rubs() {
+            return;
+        }
         for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
             anchors[i] = self.friction().on(i).drag(anchors[i], self.slip(at, i).position, power.limit[i]);
         }

@@ -153,8 +153,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 power.heat[place] = in_pairs(G, |g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
         }
-        let (sides, planets) = self.mesh_surface_loads(at, &loads);
-        self.add_friction(at, &self.surface_loads_of(&sides, &planets), sum, power);
+        let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, &loads));
+        if let Some((sides, planets)) = &surfaces {
+            self.add_friction(at, || self.surface_loads_of(sides, planets), sum, power);
+        }
         if let Some(j) = slopes {
             let block = |part: usize| {
                 std::array::from_fn(|g| {
@@ -166,8 +168,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             };
             self.add_blocks(&block(0), &mut j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
-            self.friction_slopes_by_loads(&loads, &planets, j);
-            self.friction_slopes_by_orbit(at, j);
+            if let Some((_, planets)) = &surfaces {
+                self.friction_slopes_by_loads(&loads, planets, j);
+                self.friction_slopes_by_orbit(at, j);
+            }
         }
     }
 

@@ -36,6 +36,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let mut load = [[MeshForce::default(); 2]; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
         for g in 0..G {
+            if let Some(twin) = self.twin(at, g) {
+                (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
+                continue;
+            }
             for s in 0..2 {
                 let (force, jacobian) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
                 load[g][s] = force;

@@ -37,7 +37,19 @@ pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
-    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
+    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, visit: impl FnMut(&ToothLoad)) {
+        self.visit_loads(at, g, s, |contact| parts(pair, &self.teeth.mesh, contact), visit);
+    }
+
+    /// The same with the parts of the normal on the path of contact as `parts` gives them: not all who visit read them.
+    pub(super) fn visit_loads(
+        &self,
+        at: &Point<N>,
+        g: usize,
+        s: usize,
+        parts: impl Fn(&ToothPair) -> [f64; 3],
+        mut visit: impl FnMut(&ToothLoad),
+    ) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
         let wrapped = self.wrapped(g, s);
@@ -105,7 +117,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 depth: contact.depth * mesh.cone,
                 normal: force.total,
                 friction: 0.0,
-                parts: parts(pair, mesh, contact),
+                parts: parts(contact),
                 touch: None,
             });
         });

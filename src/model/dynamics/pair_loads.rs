@@ -24,15 +24,21 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             }
             visit(load);
         };
-        self.tooth_loads(pair, at, g, s, |slice| match &mut open {
-            Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
-            _ => {
-                let next = PairLoad::new(slice, self.face_load_factor(pair, at, g, slice));
-                if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
-                    close(&mut load);
+        self.visit_loads(
+            at,
+            g,
+            s,
+            |_| [0.0; 3],
+            |slice| match &mut open {
+                Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
+                _ => {
+                    let next = PairLoad::new(slice, self.face_load_factor(pair, at, g, slice));
+                    if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
+                        close(&mut load);
+                    }
                 }
-            }
-        });
+            },
+        );
         if let Some((_, mut load)) = open {
             close(&mut load);
         }

@@ -156,6 +156,12 @@ impl State {
 
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
+        self.is_sound() && self.ahead.as_ref().is_none_or(Ahead::is_valid)
+    }
+
+    /// The same where a step has just been taken: what is ahead has passed its error test, which nothing does that is not
+    /// finite.
+    pub fn is_sound(&self) -> bool {
         let numbers = [
             self.time,
             self.work,
@@ -179,7 +185,6 @@ impl State {
             && self.control.after_kink > 0.0
             && self.held >= 0.0
             && self.begun.is_none_or(f64::is_finite)
-            && self.ahead.as_ref().is_none_or(Ahead::is_valid)
     }
 }
 

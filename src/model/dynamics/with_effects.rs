@@ -37,7 +37,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     let (forces, heat) = self.tooth_torques(at);
                     *sum = forces;
                     power.heat[CONTACT_HEAT] = heat;
-                    self.add_friction(at, &self.surface_loads_of(&[], &[]), sum, power);
+                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 }
                 self.act_on_bodies(at, sum, imposed, power);
             }
@@ -48,6 +48,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     let mut load = [[MeshForce::default(); 2]; G];
                     let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
                     for g in 0..G {
+                        if let Some(twin) = self.twin(at, g) {
+                            (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
+                            continue;
+                        }
                         for s in 0..2 {
                             let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
                             load[g][s] = force;
@@ -59,7 +63,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     self.add_blocks(&position, &mut j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
                     power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
-                    self.add_friction(at, &self.surface_loads_of(&[], &[]), sum, power);
+                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 }
                 self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, power);

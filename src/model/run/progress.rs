@@ -71,7 +71,7 @@ pub fn integrate(
         state.time = end;
         break_tooth(model, inputs, state);
     }
-    if !state.is_valid() {
+    if !state.is_sound() {
         (*state, *inputs) = *before;
         return Err(StepFailure::not_finite(state.time));
     }
