@@ -4,7 +4,6 @@ mod accuracy;
 mod alike;
 mod continuation;
 mod driven;
-mod going_on;
 mod impact;
 mod methods;
 mod order;

@@ -2,9 +2,7 @@
 //! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
 
 pub mod accepted;
-pub mod ahead;
 pub mod bias;
-pub mod clock;
 pub mod cycle;
 pub mod equations;
 mod friction;

@@ -9,7 +9,6 @@ mod failure;
 mod hints;
 mod imposed;
 mod ledger;
-mod progress;
 mod readings;
 mod reports;
 mod sensitivity;
