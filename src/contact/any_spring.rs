@@ -37,6 +37,10 @@ impl AnySpring {
     }
 }
 
+/// The place of a law that is the same everywhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Anywhere;
+
 /// K dᵉ of the penetration at a cone distance, whatever the place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Power {
@@ -47,13 +51,15 @@ pub struct Power {
 }
 
 impl Spring for Power {
-    type Place = ();
+    type Place = Anywhere;
 
     #[inline(always)]
-    fn place(&self, _: f64) {}
+    fn place(&self, _: f64) -> Anywhere {
+        Anywhere
+    }
 
     #[inline(always)]
-    fn respond(&self, _: &(), p: f64) -> Elastic {
+    fn respond(&self, _: &Anywhere, p: f64) -> Elastic {
         let d = p * self.cone;
         let force = self.law.force(d, 0.0);
         Elastic {
@@ -80,13 +86,15 @@ impl Linear {
 }
 
 impl Spring for Linear {
-    type Place = ();
+    type Place = Anywhere;
 
     #[inline(always)]
-    fn place(&self, _: f64) {}
+    fn place(&self, _: f64) -> Anywhere {
+        Anywhere
+    }
 
     #[inline(always)]
-    fn respond(&self, _: &(), p: f64) -> Elastic {
+    fn respond(&self, _: &Anywhere, p: f64) -> Elastic {
         let torque = self.stiffness * p;
         Elastic { energy: 0.5 * torque * p, torque, stiffness: self.stiffness, ..Elastic::default() }
     }

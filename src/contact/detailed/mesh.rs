@@ -209,18 +209,24 @@ impl Detailed {
         thrust: bool,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let mut opening = self.opening(teeth, name, pair.s);
-        let arcs =
-            if self.seats || thrust || self.friction.is_some() { self.directions.arcs(pair.s) } else { Arcs::NONE };
-        let axial = if self.seats { self.directions.axial(&arcs) } else { [0.0; 2] };
-        let parts = if OPEN {
-            opening.displace(state.position[2], axial);
-            self.face.loaded(pair.depth, &opening)
-        } else {
-            [Part::of(&self.whole), Part::NONE]
-        };
-        if OPEN && parts.iter().all(Part::is_empty) {
+        let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
+        let mut parts = [Part::of(&self.whole), Part::NONE];
+        if OPEN {
+            opening = self.opening(teeth, name, pair.s);
+            if self.seats {
+                arcs = self.directions.arcs(pair.s);
+                axial = self.directions.axial(&arcs);
+                opening.displace(state.position[2], axial);
+            }
+            parts = self.face.loaded(pair.depth, &opening);
+        }
+        // most pairs that are near do not touch
+        let is_clear = if OPEN { parts.iter().all(Part::is_empty) } else { pair.depth <= 0.0 };
+        if is_clear {
             return;
+        }
+        if !(OPEN && self.seats) && (thrust || self.friction.is_some()) {
+            arcs = self.directions.arcs(pair.s);
         }
         let motion = PairMotion::<OPEN>::new(pair, &opening, axial, state);
         let rubbing = self.friction.as_ref().map(|law| {

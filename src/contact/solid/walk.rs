@@ -120,8 +120,8 @@ impl FlankSection<'_> {
         // over convex flanks no overlap grows faster than at first
         let room = if grows_up { side_tip.v - u } else { planet_tip.v - u };
         let (reach, least) = (soft.deep(), -soft.ahead / LEAST_METRIC);
-        // written so that NaN is apart
-        if !(facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room > least) {
+        let farthest = facets[0].height(u) - facets[1].height(u) + (facets[0].slope() - facets[1].slope()) * room;
+        if farthest.is_nan() || farthest <= least {
             return None;
         }
         let measures = Measure::of_both(planet_tip, side_tip);
@@ -148,8 +148,7 @@ impl FlankSection<'_> {
                 // between convex flanks the overlap has a single maximum
                 goes_on = at.overlap.v >= floor && walk.advance(own);
             }
-            // written so that NaN is apart
-            if !(greatest > least) {
+            if greatest.is_nan() || greatest <= least {
                 return None;
             }
         }
