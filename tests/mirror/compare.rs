@@ -110,9 +110,11 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
     for (i, row) in outputs().iter().enumerate() {
         let Some(line) = line_of(row.name) else { continue };
         let Mapped { output: to, factor, added, magnitude } = map[i];
-        // a mesh that carries next to nothing has no certain number of pairs
+        // a mesh that carries next to nothing has no certain number of pairs; nor has any after other steps, as the parts of
+        // a face come and go at once, be it with the least force
         let load = row.name.strip_suffix("_pairs").map(|mesh| output(&format!("{mesh}_normal_force")));
-        let certain = |k: usize| load.is_none_or(|load| base.values[k][load] > close(k) * scales[load]);
+        let carries = |k: usize, load: usize| base.values[k][load] > close(k) * scales[load];
+        let certain = |k: usize| load.is_none_or(|load| k < apart && carries(k, load));
         let scale = scales[i].max(f64::MIN_POSITIVE);
         // counts of steps say nothing before they differ; their size does
         let is_count = row.name.starts_with("solver.");

@@ -25,8 +25,10 @@ const OTHERWISE: usize = 20;
 const SHARE: f64 = 0.7;
 const SHARE_OF_ONE: f64 = 0.2;
 
-/// Per scene, images that take steps of their own where their twins do not: one in twenty.
+/// Per scene, images that take steps of their own where their twins do not: one in twenty, as far as so few scenes tell,
+/// to two standard deviations.
 const ALONE: f64 = 0.05;
+const DEVIATIONS: f64 = 2.0;
 
 /// Compares a scene with its image; `None` if there is no such scene.
 fn compared(scene: &Scene, view: View) -> Option<Findings> {
@@ -74,7 +76,9 @@ fn report(view: View, found: &Findings) {
     println!("{view:?}: {} scenes, {:.3} of all values, largest {:?}", found.scenes, found.share(), found.largest);
     assert!(found.wrong.is_empty(), "{} differ\n{}", found.wrong.len(), found.wrong.join("\n"));
     assert!(found.share() > SHARE, "{}", found.share());
-    assert!(found.alone as f64 <= ALONE * found.scenes as f64, "{} images take steps of their own", found.alone);
+    let expected = ALONE * found.scenes as f64;
+    let most = expected + DEVIATIONS * expected.sqrt();
+    assert!(found.alone as f64 <= most, "{} images take steps of their own", found.alone);
 }
 
 #[test]
