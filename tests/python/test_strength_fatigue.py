@@ -70,6 +70,8 @@ def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(dr
 
 def test_standing_teeth_that_carry_unevenly_are_damaged_by_the_stress_at_the_worst_of_the_face(drive, literals):
     line = {"contact.law": literals["contact.law"]["line"], "effects.tooth_errors": True}
+    # crowned teeth under a small load are in balance beside the middle, from where free planets roll to and fro
+    line["scene.planet_spin"] = "imposed"
     even, _ = pulses(drive, 50.0, 900.0, line)
     for errors in [{"tooth_errors.crowning": 60e-6}, {"tooth_errors.side_axial_offset": 1e-4}]:
         for sign in (1.0, -1.0):
