@@ -84,7 +84,12 @@ impl Face {
 
     /// A face between cone distances `inner` and `outer` [m] under any law.
     pub fn sliced(inner: f64, outer: f64) -> Self {
-        Self::Sliced([inner, outer], nodes(&GAUSS_EIGHT, [inner, outer]))
+        Self::Sliced([inner, outer], Self::fixed_points([inner, outer]))
+    }
+
+    /// The points over the part between two cone distances [m] that serve any law.
+    pub fn fixed_points(ends: [f64; 2]) -> [Node; FIXED] {
+        nodes(&GAUSS_EIGHT, ends)
     }
 
     /// A face whose law has its resultant at one slice.
