@@ -11,6 +11,7 @@
 //! The first stage is the driver's evaluation at the start of a step for the ledger, so that the last stage need not be
 //! passed on from step to step.
 
+use super::course::Extension;
 use super::method::{ErrorNorm, Method, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -54,7 +55,7 @@ impl Method for DormandPrince {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &ErrorNorm<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
@@ -69,13 +70,16 @@ impl Method for DormandPrince {
 
         let mut error = Point::ZERO;
         combine(&mut error, &ERROR, h, &k);
-        // Θ = 1/2: the cubic through both ends and their slopes, and the quartic term
-        let mut middle = Point::ZERO;
-        for i in 0..N {
-            middle.q[i] = 0.5 * (start.q[i] + end.q[i]) + 0.125 * h * (k[0].q[i] - k[6].q[i]);
-            middle.v[i] = 0.5 * (start.v[i] + end.v[i]) + 0.125 * h * (k[0].v[i] - k[6].v[i]);
-        }
-        combine(&mut middle, &QUARTIC, h / 16.0, &k);
-        Some(Trial { end, middle, error })
+        // the cubic through both ends and their slopes, and the quartic term
+        let mut quartic = Point::ZERO;
+        combine(&mut quartic, &QUARTIC, h, &k);
+        let mut change = end;
+        combine(&mut change, &[-1.0], 1.0, &[*start]);
+        let mut bends = [Point::ZERO; 3];
+        combine(&mut bends[0], &[h, -1.0], 1.0, &[k[0], change]);
+        combine(&mut bends[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
+        combine(&mut bends[2], &[-1.0], 1.0, &[quartic]);
+        let size = norm.judge(&error, &end);
+        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
     }
 }

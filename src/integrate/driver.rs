@@ -5,6 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::course::{Attempt, Course, Pending};
 use super::method::{ErrorNorm, Method, Trial};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -31,7 +32,7 @@ impl Control {
     }
 }
 
-/// An accepted step, as passed to the observer.
+/// A completed step, as passed to the observer.
 pub struct Step<'a, const N: usize, P> {
     /// Step size [s].
     pub h: f64,
@@ -100,7 +101,7 @@ pub struct SolverContext<'a> {
     pub budget: &'a mut u64,
 }
 
-/// Integrates from `time` to `until` by `method`, calling `observe` after each accepted step, which may end the
+/// Integrates from `time` to `until` by `method`, calling `observe` after each completed step, which may end the
 /// integration early. Every attempt at a step is taken from the budget, so that the caller bounds the work.
 pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     method: &M,
@@ -109,21 +110,86 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     time: &mut f64,
     until: f64,
     context: SolverContext,
+    observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
+) -> Result<(), Failure<E>> {
+    let mut course = Course::new(*point, *time, until);
+    let outcome = proceed(method, system, &mut course, until, context, observe);
+    (*point, *time) = (course.point, course.time);
+    outcome
+}
+
+/// Integrates until the pending step of `course` contains `until` [s] or the equations end there, calling `observe` after
+/// each completed step, which may end the integration early.
+///
+/// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
+/// completed, and thus leaves no trace.
+pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
+    method: &M,
+    system: &S,
+    course: &mut Course<N, S::Power>,
+    until: f64,
+    context: SolverContext,
     mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let SolverContext { tolerance, control, statistics, budget } = context;
-    // what a double can resolve of the time axis
-    let resolution = 4.0 * f64::EPSILON * until.abs().max(time.abs()).max(1e-9);
-    let mut just_rejected = false;
-    let mut switch_at = f64::INFINITY;
-    let mut lin = linearise::<N, M, S>(system, (point, *time), statistics);
-    let mut energy = system.energy(point);
+    let resolution = course.resolution;
+    let ends = until + resolution >= course.end;
+    let mut after_rejection = false;
     let mut unbalanced = 0;
+    let mut switch_at = f64::INFINITY;
+    let mut begin: Option<(Linearisation<N, S::Power>, [f64; 2])> = None;
+    let is_resumed = course.pending.is_some();
     loop {
+        if let Some(pending) = &course.pending {
+            let Attempt { h: size, error, cut, to_kink, .. } = pending.attempt;
+            let h = size * pending.part;
+            let mut reached = course.time + h;
+            let done = course.end - reached <= resolution;
+            if reached + resolution >= until && !(done && ends) {
+                return Ok(());
+            }
+            if done {
+                reached = course.end;
+            }
+            let end = pending.extension.at(pending.part);
+            let (_, middle) = system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h);
+            let next = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
+            let last = next.as_ref().map_or_else(|| system.evaluate_at(&end, reached).1, |lin| lin.power);
+            statistics.evaluations += 1 + u64::from(done);
+            let power = [pending.power, middle, last];
+            let energy = system.energy(&end);
+            let imbalance = system.imbalance([pending.energy, energy], h, &power) / (LEDGER * tolerance);
+            if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
+                (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
+                statistics.rejected_ledger += 1;
+                control.next = h / (M::root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
+                course.pending = None;
+                continue;
+            }
+            (unbalanced, after_rejection) = (0, false);
+            control.accept::<M>(size, cut, error, pending.attempt.after_rejection);
+            control.on_kink = to_kink && pending.part == 1.0;
+            statistics.accepted += 1;
+            let start = std::mem::replace(&mut course.point, end);
+            course.time = reached;
+            course.pending = None;
+            let step = Step { h, time: reached, start: &start, end: &end, power };
+            let flow = observe(step).map_err(Failure::Refused)?;
+            match next {
+                Some(next) if flow == AfterStep::Continue => begin = Some((next, energy)),
+                _ => return Ok(()),
+            }
+        }
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
-        let remaining = until - *time;
+        let point = &course.point;
+        let (lin, energy) = begin.get_or_insert_with(|| {
+            // that of a step which was pending before this call was counted then
+            let counts = (!is_resumed).then_some(&mut *statistics);
+            (linearise::<N, M, S>(system, (point, course.time), counts), system.energy(point))
+        });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
-        let (mut h, mut cut) = fit(wanted.max(resolution), remaining);
+        let remaining = course.remaining();
+        let (mut h, mut cut) = fit(wanted.min(course.longest).max(resolution), remaining);
         let mut to_kink = false;
         if h > switch_at {
             (h, cut) = (switch_at, true);
@@ -131,52 +197,23 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
             (h, cut, to_kink) = (h * fraction, true, true);
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
-        let trial = method.step(system, (point, *time), &lin, h, &norm, statistics);
-        let error = trial.as_ref().map_or(f64::NAN, |t| error_norm(t, &norm));
+        let trial = method.step(system, (point, course.time), lin, h, &norm, statistics);
+        let error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
         match trial {
-            Some(trial) if error <= 1.0 => {
-                if let Some(fraction) =
-                    system.crossing((point, *time), (&trial.end, *time + h)).filter(|_| h > resolution)
-                {
+            Some(Trial { extension, .. }) if error <= 1.0 => {
+                let ends = ((point, course.time), (&extension.end, course.time + h));
+                if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
                     statistics.rejected_switch += 1;
                     switch_at = (h * fraction).max(resolution);
                     continue;
                 }
                 switch_at = f64::INFINITY;
-                let reached = if h == remaining { until } else { *time + h };
-                let done = until - reached <= resolution;
-                let (_, middle) = system.evaluate_at(&trial.middle, *time + 0.5 * h);
-                let next = (!done).then(|| linearise::<N, M, S>(system, (&trial.end, reached), statistics));
-                let end = next.as_ref().map_or_else(|| system.evaluate_at(&trial.end, reached).1, |lin| lin.power);
-                statistics.evaluations += 1 + u64::from(done);
-                let power = [lin.power, middle, end];
-                let energies = [energy, system.energy(&trial.end)];
-                let imbalance = system.imbalance(energies, h, &power) / (LEDGER * tolerance);
-                if imbalance > 1.0 && unbalanced < UNBALANCED {
-                    unbalanced += 1;
-                    statistics.rejected_ledger += 1;
-                    just_rejected = true;
-                    control.next = h / (M::root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
-                    continue;
-                }
-                unbalanced = 0;
-                energy = energies[1];
-                control.accept::<M>(h, cut, error, just_rejected);
-                control.on_kink = to_kink;
-                just_rejected = false;
-                statistics.accepted += 1;
-                let start = *point;
-                *point = trial.end;
-                *time = reached;
-                let flow =
-                    observe(Step { h, time: reached, start: &start, end: point, power }).map_err(Failure::Refused)?;
-                match next {
-                    Some(next) if flow == AfterStep::Continue => lin = next,
-                    _ => return Ok(()),
-                }
+                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
+                let (power, energy) = (lin.power, *energy);
+                course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
             }
             _ => {
-                just_rejected = true;
+                after_rejection = true;
                 switch_at = f64::INFINITY;
                 control.next = h / if error.is_finite() {
                     statistics.rejected_error += 1;
@@ -190,6 +227,15 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 }
             }
         }
+    }
+}
+
+impl<const N: usize, P> Course<N, P> {
+    /// Time that is left to the end of the equations, or to where it is expected [s].
+    #[inline(always)]
+    fn remaining(&self) -> f64 {
+        let is_ahead = self.expected > self.time + self.resolution;
+        (if is_ahead { self.expected.min(self.end) } else { self.end }) - self.time
     }
 }
 
@@ -211,14 +257,16 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 fn linearise<const N: usize, M: Method, S: SecondOrder<N>>(
     system: &S,
     (point, time): (&Point<N>, f64),
-    statistics: &mut Statistics,
+    mut statistics: Option<&mut Statistics>,
 ) -> Linearisation<N, S::Power> {
-    statistics.evaluations += 1;
+    if let Some(statistics) = &mut statistics {
+        statistics.evaluations += 1;
+        statistics.jacobians += u64::from(M::IMPLICIT);
+    }
     if !M::IMPLICIT {
         let (acceleration, power) = system.evaluate_at(point, time);
         return Linearisation { acceleration, by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power };
     }
-    statistics.jacobians += 1;
     system.linearise_at(point, time)
 }
 
@@ -242,19 +290,4 @@ impl Control {
         self.last = h;
         self.last_error = error.max(LEAST_REMEMBERED_ERROR);
     }
-}
-
-/// Largest component of the error over what is allowed; NaN if anything is not finite.
-#[inline(always)]
-fn error_norm<const N: usize>(trial: &Trial<N>, norm: &ErrorNorm<N>) -> f64 {
-    let weight = &norm.weights;
-    let (mut largest, mut sum) = (0.0f64, 0.0);
-    for i in 0..N {
-        let q = (trial.error.q[i] * weight.q[i]).abs();
-        let v = (trial.error.v[i] * weight.v[i]).abs();
-        largest = largest.max(q).max(v);
-        // max() ignores NaN, a sum does not, nor does a product with zero
-        sum += q + v + 0.0 * (trial.end.q[i] + trial.end.v[i]);
-    }
-    if sum.is_finite() { largest / norm.tolerance } else { f64::NAN }
 }

@@ -1,17 +1,18 @@
 //! Interface of one-step methods: all that the driver, the step-size control and the tests use of them.
 
+use super::course::Extension;
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
 pub struct Trial<const N: usize> {
-    /// Solution at the end of the step.
-    pub end: Point<N>,
-    /// Continuous extension at the middle of the step.
-    pub middle: Point<N>,
-    /// Estimate of the local error of `end`.
+    /// The motion from the begin of the step to its end.
+    pub extension: Extension<N>,
+    /// Estimate of the local error of its end.
     pub error: Point<N>,
+    /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`]. Where it is above 1, nobody asks for bends.
+    pub size: f64,
 }
 
 /// Weighted norm of errors relative to the tolerance: it accepts steps and stops iterations within them.
@@ -32,6 +33,21 @@ impl<const N: usize> ErrorNorm<N> {
             largest = largest.max((of.q[i] * self.weights.q[i]).abs()).max((of.v[i] * self.weights.v[i]).abs());
         }
         largest / self.tolerance
+    }
+
+    /// Largest component of the error of a step to `end` over the allowed one; NaN if anything is not finite.
+    #[inline(always)]
+    pub fn judge(&self, error: &Point<N>, end: &Point<N>) -> f64 {
+        let weight = &self.weights;
+        let (mut largest, mut sum) = (0.0f64, 0.0);
+        for i in 0..N {
+            let q = (error.q[i] * weight.q[i]).abs();
+            let v = (error.v[i] * weight.v[i]).abs();
+            largest = largest.max(q).max(v);
+            // max() ignores NaN, a sum does not, nor does a product with zero
+            sum += q + v + 0.0 * (end.q[i] + end.v[i]);
+        }
+        if sum.is_finite() { largest / self.tolerance } else { f64::NAN }
     }
 }
 

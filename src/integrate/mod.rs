@@ -5,6 +5,7 @@
 
 mod block;
 mod complex;
+mod course;
 mod dormand_prince;
 mod driver;
 mod dyn_system;
@@ -18,8 +19,9 @@ mod rosenbrock;
 mod statistics;
 mod system;
 
+pub use course::{Attempt, Course, Extension, Pending, bent};
 pub use dormand_prince::DormandPrince;
-pub use driver::{AfterStep, Control, Failure, SolverContext, Step, advance};
+pub use driver::{AfterStep, Control, Failure, SolverContext, Step, advance, proceed};
 pub use dyn_system::{DynSecondOrder, DynSystem};
 pub use fixed::advance_fixed;
 pub use method::{ErrorNorm, Method, Trial};

@@ -8,7 +8,7 @@
 //!
 //! Error estimate of order 3 (ibid., (8.19) and (8.20)): (γ/h − J) e = f(y₀) + Σ e_i Z_i / h. It does not decrease with
 //! the stiffness of a motion that is damped at once; where it is too large it is evaluated again with f(y₀ + e) for f(y₀),
-//! which corrects this. The middle is that of the collocation polynomial, of order 3.
+//! which corrects this. The continuous extension is the collocation polynomial, of order 3.
 //!
 //! Unlike the code RADAU5 of the same authors, no step passes anything to the next: the Jacobian is the one at the start,
 //! and stages start from the motion linearised there (by time too), which the first iteration from Z = 0 gives without an
@@ -16,6 +16,7 @@
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
+use super::course::Extension;
 use super::method::{ErrorNorm, Method, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -135,9 +136,13 @@ impl Method for Radau {
             real.solve(system, &lin.by_position, &mut error);
             counts.evaluations += 1;
         }
-        let mut middle = *start;
-        combine(&mut middle, &MIDDLE, 1.0, &z);
-        Some(Trial { end: shifted(start, &z[2]), middle, error })
+        let mut bends = [Point::ZERO; 3];
+        for (bend, weights) in bends.iter_mut().zip(&BENDS) {
+            combine(bend, weights, 1.0, &z);
+        }
+        let end = shifted(start, &z[2]);
+        let size = norm.judge(&error, &end);
+        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
     }
 }
 
@@ -148,23 +153,30 @@ fn shifted<const N: usize>(from: &Point<N>, by: &Point<N>) -> Point<N> {
     to
 }
 
-/// Values at 1/2 of the polynomials that are 1 at one of the stages and 0 at the others and at the start.
-const MIDDLE: [f64; 3] = middle();
+/// Weights of the stages in the bends of the collocation polynomial. With w_i = (Z_i/c_i − Z_3)/(1 − c_i) of the inner
+/// stages, b₀ + c_i b₁ = w_i.
+const BENDS: [[f64; 3]; 2] = bends();
 
-const fn middle() -> [f64; 3] {
-    let mut weights = [0.0; 3];
+const fn bends() -> [[f64; 3]; 2] {
+    let mut bends = [[0.0; 3]; 2];
+    let per_distance = 1.0 / (C[1] - C[0]);
     let mut i = 0;
-    while i < 3 {
-        let (a, b) = (C[(i + 1) % 3], C[(i + 2) % 3]);
-        weights[i] = 0.5 * (0.5 - a) * (0.5 - b) / (C[i] * (C[i] - a) * (C[i] - b));
+    while i < 2 {
+        let (own, other) = (1.0 / (C[i] * (1.0 - C[i])), C[1 - i]);
+        let sign = if i == 0 { -1.0 } else { 1.0 };
+        bends[1][i] = sign * per_distance * own;
+        bends[0][i] = -sign * per_distance * own * other;
+        bends[1][2] -= sign * per_distance / (1.0 - C[i]);
+        bends[0][2] += sign * per_distance * other / (1.0 - C[i]);
         i += 1;
     }
-    weights
+    bends
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::integrate::bent;
 
     fn product(a: &[[f64; 3]; 3], b: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
@@ -188,10 +200,13 @@ mod tests {
     }
 
     #[test]
-    fn error_estimate_and_middle_are_exact_for_what_they_should_be() {
+    fn error_estimate_and_bends_are_exact_for_what_they_should_be() {
         for n in 1..=3 {
             let sum = |weights: &[f64; 3]| -> f64 { (0..3).map(|i| weights[i] * C[i].powi(n)).sum() };
-            assert!((sum(&MIDDLE) - 0.5f64.powi(n)).abs() < 1e-14);
+            for at in [0.1, 0.5, 0.9] {
+                let bends = [sum(&BENDS[0]), sum(&BENDS[1]), 0.0];
+                assert!((bent(0.0, 1.0, bends, at) - at.powi(n)).abs() < 1e-14);
+            }
             // h f(y₀) + Σ e_i Z_i is h⁴ for y = t, t², t³
             let slope = if n == 1 { 1.0 } else { 0.0 };
             assert!((slope + sum(&ESTIMATE)).abs() < 1e-13, "{n}");

@@ -22,11 +22,11 @@ impl Method for Rodas4 {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &ErrorNorm<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS4.c.len() as u64;
-        rosenbrock::step(&RODAS4, system, (start, time), lin, h)
+        rosenbrock::step(&RODAS4, system, (start, time), lin, h, norm)
     }
 }
 
@@ -52,11 +52,11 @@ const RODAS4: Tableau<6> = Tableau {
             -6.058_818_238_834_054,
         ],
     ],
-    middle: middle(),
+    bends: &BENDS,
 };
 
-/// Rows of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ H₃U)).
-const H: [[f64; 6]; 2] = [
+/// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ H₃U)).
+const BENDS: [[f64; 6]; 2] = [
     [
         10.126_235_083_445_86,
         -7.487_995_877_610_167,
@@ -74,13 +74,3 @@ const H: [[f64; 6]; 2] = [
         0.0,
     ],
 ];
-
-const fn middle() -> [f64; 6] {
-    let mut weights = [0.0; 6];
-    let mut j = 0;
-    while j < 6 {
-        weights[j] = 0.25 * (H[0][j] + 0.5 * H[1][j]);
-        j += 1;
-    }
-    weights
-}

@@ -22,11 +22,11 @@ impl Method for Rodas5P {
         (start, time): (&Point<N>, f64),
         lin: &Linearisation<N, S::Power>,
         h: f64,
-        _: &ErrorNorm<N>,
+        norm: &ErrorNorm<N>,
         counts: &mut Statistics,
     ) -> Option<Trial<N>> {
         counts.evaluations += RODAS5P.c.len() as u64;
-        rosenbrock::step(&RODAS5P, system, (start, time), lin, h)
+        rosenbrock::step(&RODAS5P, system, (start, time), lin, h, norm)
     }
 }
 
@@ -76,11 +76,11 @@ const RODAS5P: Tableau<8> = Tableau {
             -9.488_616_523_096_27,
         ],
     ],
-    middle: middle(),
+    bends: &BENDS,
 };
 
-/// Rows of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ (H₃U + Θ H₄U))).
-const H: [[f64; 8]; 3] = [
+/// Weights of the continuous extension y(Θ) = (1−Θ) y₀ + Θ (y₁ + (1−Θ) (H₂U + Θ (H₃U + Θ H₄U))).
+const BENDS: [[f64; 8]; 3] = [
     [
         25.948_786_856_663_858,
         -2.557_972_484_584_623_5,
@@ -112,13 +112,3 @@ const H: [[f64; 8]; 3] = [
         4.883_087_185_713_722,
     ],
 ];
-
-const fn middle() -> [f64; 8] {
-    let mut weights = [0.0; 8];
-    let mut j = 0;
-    while j < 8 {
-        weights[j] = 0.25 * (H[0][j] + 0.5 * (H[1][j] + 0.5 * H[2][j]));
-        j += 1;
-    }
-    weights
-}

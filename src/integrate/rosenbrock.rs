@@ -10,7 +10,8 @@
 //! t₀ + h Σ a_ij g_j, and h g_i ∂f/∂t joins the right-hand side.
 
 use super::block::Block;
-use super::method::{Trial, combine};
+use super::course::Extension;
+use super::method::{ErrorNorm, Trial, combine};
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
@@ -22,8 +23,8 @@ pub struct Tableau<const S: usize> {
     pub a: &'static [&'static [f64]],
     /// c_ij from the second stage on.
     pub c: &'static [&'static [f64]],
-    /// Weights of the stages in the solution at the middle of the step, in addition to (y₀ + y₁)/2.
-    pub middle: [f64; S],
+    /// Weights of the stages in the bends of the continuous extension; those that are left out are zero.
+    pub bends: &'static [[f64; S]],
 }
 
 impl<const S: usize> Tableau<S> {
@@ -52,6 +53,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     (start, time): (&Point<N>, f64),
     lin: &Linearisation<N, E::Power>,
     h: f64,
+    norm: &ErrorNorm<N>,
 ) -> Option<Trial<N>> {
     let block = Block::new(system, lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
@@ -87,13 +89,13 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
         u[stage] = r;
     }
     let error = u[S - 1];
-    let (mut end, mut middle) = (y, Point::ZERO);
-    for i in 0..N {
-        end.q[i] += error.q[i];
-        end.v[i] += error.v[i];
-        middle.q[i] = 0.5 * (start.q[i] + end.q[i]);
-        middle.v[i] = 0.5 * (start.v[i] + end.v[i]);
+    let (mut end, mut bends) = (y, [Point::ZERO; 3]);
+    combine(&mut end, &[1.0], 1.0, &[error]);
+    let size = norm.judge(&error, &end);
+    if size <= 1.0 {
+        for (bend, weights) in bends.iter_mut().zip(tableau.bends) {
+            combine(bend, weights, 1.0, &u);
+        }
     }
-    combine(&mut middle, &tableau.middle, 1.0, &u);
-    Some(Trial { end, middle, error })
+    Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
 }

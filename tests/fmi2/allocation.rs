@@ -40,6 +40,19 @@ fn setting_stepping_and_reading_allocate_nothing_on_both_levels() {
 }
 
 #[test]
+fn going_on_under_inputs_that_hold_allocates_nothing() {
+    let host = Host::on_level(3);
+    host.start();
+    let before = allocations();
+    let mut ok = true;
+    for i in 0..500 {
+        // SAFETY: a live component
+        ok &= unsafe { fmi2DoStep(host.c, f64::from(i) * 1e-4, 1e-4, 1) } == Status::Ok;
+    }
+    assert_eq!((ok, allocations() - before), (true, 0), "{:?}", host.log());
+}
+
+#[test]
 fn model_exchange_allocates_nothing() {
     let host = Host::for_exchange();
     host.start_exchange();

@@ -57,6 +57,38 @@ fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
 }
 
 #[test]
+fn a_state_within_a_step_of_the_solver_continues_bit_by_bit() {
+    let host = Host::on_level(3);
+    host.start();
+    // inputs hold, and steps of the solver grow much longer than these
+    let go_on = |host: &Host, first: usize| {
+        (first..first + 40)
+            .map(|i| {
+                assert_eq!(host.step(i as f64 * 1e-4, 1e-4), Status::Ok, "{:?}", host.log());
+                host.outputs()
+            })
+            .collect::<Vec<_>>()
+    };
+    go_on(&host, 0);
+    let steps = host.get("solver.steps");
+    go_on(&host, 40);
+    assert!(host.get("solver.steps") - steps < 30.0, "a step contains several points");
+    let state = host.get_state();
+    let bytes = host.serialize(state);
+    let expected = go_on(&host, 80);
+    assert_eq!(host.set_state(state), Status::Ok);
+    assert!(go_on(&host, 80) == expected);
+    host.free_state(state);
+    let other = Host::new();
+    let (status, copy) = other.deserialize(&bytes);
+    assert_eq!(status, Status::Ok, "{:?}", other.log());
+    assert_eq!(other.serialize(copy), bytes);
+    assert_eq!(other.set_state(copy), Status::Ok);
+    other.free_state(copy);
+    assert!(go_on(&other, 80) == expected);
+}
+
+#[test]
 fn states_of_every_phase_can_be_stored_and_restored() {
     let host = Host::on_level(3);
     let before = host.get_state();

@@ -20,7 +20,7 @@ fn error_over_estimate<M: Known, S: SecondOrder<2>>(s: &S, exact: impl Fn(f64) -
     for k in 0..60 {
         let time = 0.1 * f64::from(k);
         let trial = step::<M, 2, S>(s, &exact(time), h);
-        errors += distance(&trial.end, &exact(time + h));
+        errors += distance(&trial.extension.end, &exact(time + h));
         estimates += distance(&trial.error, &Point::ZERO);
     }
     errors / estimates

@@ -4,6 +4,7 @@ mod accuracy;
 mod alike;
 mod continuation;
 mod driven;
+mod going_on;
 mod impact;
 mod methods;
 mod order;

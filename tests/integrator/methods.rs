@@ -11,7 +11,10 @@ pub trait Known: Method {
     /// Order of the solution.
     const ORDER: u32;
     /// Order of the continuous extension.
-    const MIDDLE: u32;
+    const EXTENSION: u32;
+    /// Tolerance with which single steps are taken: none is refused for its error, but iterations within a step go so far
+    /// that they add nothing to it.
+    const TOLERANCE: f64 = 1e6;
     /// Order k of the error h^k/λ under smooth forcing much stiffer than the step; `None` if there is no stable step.
     const FORCED: Option<u32>;
 }
@@ -19,14 +22,14 @@ pub trait Known: Method {
 impl Known for Rodas5P {
     const METHOD: Self = Rodas5P;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 4;
+    const EXTENSION: u32 = 4;
     const FORCED: Option<u32> = Some(3);
 }
 
 impl Known for Rodas4 {
     const METHOD: Self = Rodas4;
     const ORDER: u32 = 4;
-    const MIDDLE: u32 = 3;
+    const EXTENSION: u32 = 3;
     // the order is lost: its inner stages are of order 1 only
     const FORCED: Option<u32> = Some(1);
 }
@@ -34,14 +37,15 @@ impl Known for Rodas4 {
 impl Known for Radau {
     const METHOD: Self = Radau;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 3;
+    const EXTENSION: u32 = 3;
+    const TOLERANCE: f64 = 1e-11;
     const FORCED: Option<u32> = Some(3);
 }
 
 impl Known for DormandPrince {
     const METHOD: Self = DormandPrince;
     const ORDER: u32 = 5;
-    const MIDDLE: u32 = 4;
+    const EXTENSION: u32 = 4;
     const FORCED: Option<u32> = None;
 }
 
@@ -78,9 +82,6 @@ macro_rules! with_every_method {
 }
 pub(crate) use with_every_method;
 
-/// So accurate that iterations within a step add nothing to its error.
-const ITERATE: f64 = 1e-11;
-
 /// One step of size `h`. A method that needs no derivatives gets unusable ones.
 pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
     step_from::<M, N, S>(s, (at, 0.0), h)
@@ -94,7 +95,7 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
         let (acceleration, power) = s.evaluate_at(at, time);
         Linearisation { acceleration, by_position: [[f64::NAN; N]; N], by_velocity: [[f64::NAN; N]; N], power }
     };
-    let norm = ErrorNorm { weights: s.weights(at), tolerance: ITERATE };
+    let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
     M::METHOD.step(s, (at, time), &lin, h, &norm, &mut Statistics::default()).unwrap()
 }
 
@@ -106,7 +107,7 @@ pub fn fixed<M: Known, const N: usize, S: SecondOrder<N>>(
     count: u32,
 ) -> Point<N> {
     for _ in 0..count {
-        at = step::<M, N, S>(s, &at, length / f64::from(count)).end;
+        at = step::<M, N, S>(s, &at, length / f64::from(count)).extension.end;
     }
     at
 }

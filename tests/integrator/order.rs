@@ -8,7 +8,7 @@ use super::problems::{Logarithmic, distance, forced, forced_exact};
 with_every_method!(
     solution_is_of_its_order
     error_estimate_is_of_its_order
-    middle_is_of_its_order
+    continuous_extension_is_of_its_order
 );
 with_stiff_methods!(order_under_stiff_smooth_forcing_is_that_of_theory);
 
@@ -35,12 +35,14 @@ fn error_estimate_is_of_its_order<M: Known>() {
     assert_order("estimate", M::ESTIMATE + 1, estimate(STEP), estimate(STEP / 2.0));
 }
 
-fn middle_is_of_its_order<M: Known>() {
-    let error = |h| {
-        let middle = step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).middle;
-        distance(&middle, &Logarithmic::exact(h / 2.0))
-    };
-    assert_order("middle", M::MIDDLE + 1, error(STEP), error(STEP / 2.0));
+fn continuous_extension_is_of_its_order<M: Known>() {
+    for fraction in [0.1, 0.5, 0.8] {
+        let error = |h| {
+            let extension = step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).extension;
+            distance(&extension.at(fraction), &Logarithmic::exact(fraction * h))
+        };
+        assert_order(&format!("after {fraction}"), M::EXTENSION + 1, error(STEP), error(STEP / 2.0));
+    }
 }
 
 fn order_under_stiff_smooth_forcing_is_that_of_theory<M: Known>() {

@@ -14,13 +14,13 @@ with_stiff_methods!(
 /// One step of size 1 of v̇ = −λv from v = 1: R(−λ).
 fn decay<M: Known>(lambda: f64) -> f64 {
     let s = system(move |p: &Point<1>| ([-lambda * p.v[0]], [[0.0]], [[-lambda]]));
-    step::<M, 1, _>(&s, &Point { q: [0.0], v: [1.0] }, 1.0).end.v[0].abs()
+    step::<M, 1, _>(&s, &Point { q: [0.0], v: [1.0] }, 1.0).extension.end.v[0].abs()
 }
 
 /// Amplitude after one step of size `h` of q̈ = −q from amplitude 1: |R(ih)|.
 fn amplitude<M: Known>(h: f64) -> f64 {
     let s = system(|p: &Point<1>| ([-p.q[0]], [[-1.0]], [[0.0]]));
-    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, h).end;
+    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, h).extension.end;
     end.q[0].hypot(end.v[0])
 }
 
@@ -31,7 +31,7 @@ fn infinitely_stiff_motion_is_damped_in_one_step<M: Known>() {
     }
     // and an oscillation far faster than the step as well
     let s = system(|p: &Point<1>| ([-1e16 * p.q[0]], [[-1e16]], [[0.0]]));
-    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, 1.0).end;
+    let end = step::<M, 1, _>(&s, &Point { q: [1.0], v: [0.0] }, 1.0).extension.end;
     assert!(end.q[0].abs() < 1e-6, "{}", end.q[0]);
 }
 

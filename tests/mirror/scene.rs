@@ -114,11 +114,9 @@ impl Scene {
         Ok(course)
     }
 
-    /// Displaces side gears and planets to and fro.
+    /// Displaces side gears and planets to and fro, in a twin. Its integration then begins anew, and so must that of others,
+    /// which are displaced by nothing.
     fn nudge(&self, simulation: &mut Simulation) {
-        if self.nudge == 0.0 {
-            return;
-        }
         let mut states = simulation.states();
         for (k, body) in BODIES.iter().enumerate() {
             if matches!(body, Body::Side(_) | Body::Planet(_)) {

@@ -2,7 +2,9 @@
 //! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
 
 pub mod accepted;
+pub mod ahead;
 pub mod bias;
+pub mod clock;
 pub mod cycle;
 pub mod equations;
 mod friction;

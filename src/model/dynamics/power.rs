@@ -1,11 +1,13 @@
 //! The ledger of a step: work and heat from their rates, and whether they balance with the energy.
 
+use serde::{Deserialize, Serialize};
+
 use crate::integrate::Step;
 use crate::model::scene::layout::FRICTION_BODIES;
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
 /// Rates of the ledger.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Power {
     /// Net power of all inputs into the system [W].
     pub input: f64,
@@ -33,6 +35,12 @@ impl Power {
             drive: mean(self.drive, other.drive),
             limit: std::array::from_fn(|i| mean(self.limit[i], other.limit[i])),
         }
+    }
+
+    /// Whether all rates are finite numbers.
+    pub fn is_finite(&self) -> bool {
+        let rest = [self.input, self.drive, self.shaft[0], self.shaft[1]];
+        self.heat.iter().chain(&rest).all(|x| x.is_finite())
     }
 
     /// Residual of the energy balance of a step of size `h`, over the energy exchanged in the step: stored,

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::ahead::Ahead;
 use super::bias::Bias;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::body_effects::BodyEffects;
@@ -19,7 +20,7 @@ const MOST_TURNS: u64 = 1 << 53;
 pub struct State {
     /// Time [s].
     pub time: f64,
-    /// Positions; angles of gears are wrapped into one tooth pitch, the carrier's into one turn [rad; seats m].
+    /// Positions; angles of gears are wrapped by tooth pitches, the carrier's by turns [rad; seats m].
     pub q: [f64; MAX_DOF],
     /// Velocities [rad/s].
     pub v: [f64; MAX_DOF],
@@ -49,6 +50,12 @@ pub struct State {
     pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
+    /// When the integration last began anew, as inputs had changed [s].
+    pub begun: Option<f64>,
+    /// How long inputs had held before [s].
+    pub held: f64,
+    /// The integrator's step that goes beyond the present. Work, heat, damage and friction are those at its begin.
+    pub ahead: Option<Ahead>,
 }
 
 impl State {
@@ -71,7 +78,24 @@ impl State {
             input_derivatives: None,
             fatigue: Fatigue::default(),
             energy_at_start: 0.0,
+            begun: None,
+            held: f64::INFINITY,
+            ahead: None,
         }
+    }
+
+    /// Moves to `until` [s] if the step ahead contains it, for `n` degrees of freedom. Returns whether it does.
+    #[inline(always)]
+    pub fn move_within(&mut self, until: f64, n: usize) -> bool {
+        let Some(ahead) = &mut self.ahead else { return false };
+        let now = ahead.clock.now + (until - self.time);
+        if !ahead.contains(now) {
+            return false;
+        }
+        ahead.clock.now = now;
+        self.time = until;
+        ahead.motion(n, [&mut self.q, &mut self.v]);
+        true
     }
 
     /// The first `N` degrees of freedom.
@@ -132,6 +156,12 @@ impl State {
 
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
+        self.is_sound() && self.ahead.as_ref().is_none_or(Ahead::is_valid)
+    }
+
+    /// The same where a step has just been taken: what is ahead has passed its error test, which nothing does that is not
+    /// finite.
+    pub fn is_sound(&self) -> bool {
         let numbers = [
             self.time,
             self.work,
@@ -153,6 +183,8 @@ impl State {
             && self.control.next.is_finite()
             && self.control.last >= 0.0
             && self.control.after_kink > 0.0
+            && self.held >= 0.0
+            && self.begun.is_none_or(f64::is_finite)
     }
 }
 

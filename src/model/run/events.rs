@@ -9,17 +9,11 @@ use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
-/// Longest stretch integrated before positions are wrapped [s].
-const STRETCH: f64 = 1.0;
-
-/// Where to stop for wrapping positions, or for a tooth that breaks at a time [s].
-pub fn end_of_stretch(model: &Model, state: &State, until: f64) -> f64 {
-    let time = state.time;
-    let end = if until - time > 1.5 * STRETCH { time + STRETCH } else { until };
+/// Time at which a tooth breaks, if it is still to come [s].
+pub fn onset(model: &Model, state: &State) -> f64 {
     let p = &model.parameters;
     let onset = p.specs.tooth_fault.onset;
-    let breaks = p.effects.tooth_fault && !state.fault && onset > time && onset < end;
-    if breaks { onset } else { end }
+    if p.effects.tooth_fault && !state.fault && onset > state.time { onset } else { f64::INFINITY }
 }
 
 /// Whether a tooth breaks now, by its time or by the trigger.

@@ -8,6 +8,7 @@ use super::events::{are_brakes_new, break_tooth, breaks_tooth, energy, update_fr
 use super::failure::StepFailure;
 use super::imposed;
 use super::ledger::{Recorded, Records};
+use super::progress::complete;
 use super::simulation::Simulation;
 use crate::integrate::{DynSystem, Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
@@ -155,8 +156,9 @@ impl Simulation {
         self.state.time = time;
     }
 
-    /// Moves to `states`; imposed motions follow their commands.
+    /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
+        complete(&self.model, &mut self.state);
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
@@ -196,8 +198,10 @@ impl Simulation {
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, power };
                 let State { work, heat, bias, fatigue, .. } = state;
-                let outcome =
+                let outcome = equations.admit(&end);
+                if outcome.is_ok() {
                     equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
+                }
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, &last, &mut anchors);
                 equations.anchor(&anchors);

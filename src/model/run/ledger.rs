@@ -1,4 +1,4 @@
-//! The ledger of accepted steps: work, heat, mesh cycles, fatigue.
+//! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
 use super::excessive_deflection::ExcessiveDeflection;
 use crate::integrate::{Point, SecondOrder, Step};
@@ -13,9 +13,9 @@ use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledSte
 use crate::model::scene::layout::{FRICTION_BODIES, LEFT};
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
-/// Sums that accepted steps add to.
+/// Sums that completed steps add to.
 pub struct Records<'a> {
-    /// Time from which steps are counted [s].
+    /// Time from which the times of steps count [s].
     pub begin: f64,
     /// Work of all inputs [J].
     pub work: &'a mut f64,
@@ -27,7 +27,7 @@ pub struct Records<'a> {
     pub fatigue: &'a mut Fatigue,
 }
 
-/// Equations whose accepted steps can be recorded in the ledger.
+/// Equations whose completed steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     /// State of the dry friction.
     fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES];
@@ -39,8 +39,10 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]);
     /// Switches friction where it is due; the energy that its springs lose is heat.
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
-    /// Records an accepted step, or returns the tooth that it bends too far.
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection>;
+    /// Returns the tooth that is bent too far, if one is.
+    fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
+    /// Records a completed step.
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records);
 }
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Recorded<N>
@@ -71,14 +73,18 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
     }
 
     #[inline(always)]
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
-        let teeth = self.teeth;
-        let (approach, g, side) = self.deepest(step.end);
-        if approach > teeth.deflection_limit {
-            return Err(ExcessiveDeflection { deflection: approach, planet: teeth.plan.group(g).planet, side });
+    fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
+        let (approach, g, side) = self.deepest(at);
+        if approach > self.teeth.deflection_limit {
+            return Err(ExcessiveDeflection { deflection: approach, planet: self.teeth.plan.group(g).planet, side });
         }
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) {
         add_to_ledger(step, records.work, records.heat, WITH_EFFECTS);
-        if !teeth.mesh.engagement.corner_contact() {
+        if !self.teeth.mesh.engagement.corner_contact() {
             records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
         if WITH_EFFECTS && Self::ENDS {
@@ -89,7 +95,6 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
         if let (true, Some(strength)) = (WITH_EFFECTS, &model.strength) {
             count_fatigue(self, model, strength, step, records);
         }
-        Ok(())
     }
 }
 
@@ -114,9 +119,12 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
     }
 
-    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) -> Result<(), ExcessiveDeflection> {
-        add_to_ledger(step, records.work, records.heat, true);
+    fn admit(&self, _: &Point<N>) -> Result<(), ExcessiveDeflection> {
         Ok(())
+    }
+
+    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) {
+        add_to_ledger(step, records.work, records.heat, true);
     }
 }
 

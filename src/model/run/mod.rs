@@ -9,6 +9,7 @@ mod failure;
 mod hints;
 mod imposed;
 mod ledger;
+mod progress;
 mod readings;
 mod reports;
 mod sensitivity;

@@ -3,12 +3,14 @@
 use super::cost_class::CostClass;
 use super::events::{energy, has_brakes, with_brakes};
 use super::imposed;
+use super::progress::complete;
 use super::simulation::Simulation;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::inertias::Inertias;
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::{by_rigid_size, by_size};
+use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::friction_state::Mode;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
@@ -78,8 +80,12 @@ impl Simulation {
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
         if self.forces.is_none() {
-            let present = self.present();
-            self.forces = Some(present.as_ref().unwrap_or(self).forces_of_state());
+            let mut shown = self.present();
+            if self.model.ideal.plan.ends && self.state.ahead.is_some() {
+                // means over mesh cycles count up to the present
+                shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().bias;
+            }
+            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state());
         }
         self.forces.get_or_insert_default()
     }
@@ -113,25 +119,32 @@ impl Simulation {
         });
     }
 
+    /// The state with the step ahead completed up to the present.
+    fn completed(&self) -> State {
+        let mut state = self.state;
+        complete(&self.model, &mut state);
+        state
+    }
+
     /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
-    pub(super) fn energy(&self) -> f64 {
-        let known = self.accepted.as_ref().map(|accepted| accepted.of(&self.state));
-        energy(&self.model, &self.inputs, known.as_ref().unwrap_or(&self.state))
+    pub(super) fn energy(&self, state: &State) -> f64 {
+        let known = self.accepted.as_ref().map(|accepted| accepted.of(state));
+        energy(&self.model, &self.inputs, known.as_ref().unwrap_or(state))
     }
 
     /// Ledger and solver statistics.
     pub fn ledger(&self) -> LedgerReadings {
-        let s = &self.state.statistics;
+        let (s, state) = (&self.state.statistics, &self.completed());
         let mut readings = [0.0; READINGS];
         if let Some(strength) = &self.model.strength {
-            strength.read_damage(&self.state.fatigue, &mut readings[places_of("strength")]);
+            strength.read_damage(&state.fatigue, &mut readings[places_of("strength")]);
         }
         let held = |range: std::ops::Range<usize>| {
-            let friction = self.state.friction[range].iter();
+            let friction = state.friction[range].iter();
             friction.filter(|f| f.stiffness > 0.0 && f.mode == Mode::Stuck).count() as f64
         };
         LedgerReadings {
-            heat: self.state.heat,
+            heat: state.heat,
             readings,
             held: [
                 held(0..FRICTION_PLANETS),
@@ -139,8 +152,7 @@ impl Simulation {
                 held(FRICTION_PLANETS..FRICTION_PLANETS + self.model.ideal.plan.groups().len()),
                 held(FRICTION_WHEELS..FRICTION_BODIES),
             ],
-            energy_residual: self.energy() - self.state.energy_at_start - self.state.work
-                + self.state.heat.iter().sum::<f64>(),
+            energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
             rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,
             rhs_calls: s.evaluations as f64,

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use super::events::{break_tooth, end_of_stretch, update_friction};
+use super::events::update_friction;
 use super::failure::StepFailure;
-use super::{imposed, start, stretch};
+use super::progress::{self, begin_anew};
+use super::{imposed, start};
 use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
-use crate::model::dynamics::sizes::{by_size, with_equations};
+use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
@@ -59,7 +60,7 @@ impl Simulation {
         update_friction(&simulation.model, inputs, &mut simulation.state);
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
-        simulation.state.energy_at_start = simulation.energy();
+        simulation.state.energy_at_start = simulation.energy(&simulation.state);
         Ok(simulation)
     }
 
@@ -107,6 +108,7 @@ impl Simulation {
 
     /// Takes over tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
+        progress::complete(&self.model, &mut self.state);
         Arc::make_mut(&mut self.model).tune(parameters);
         self.forces = None;
     }
@@ -116,8 +118,15 @@ impl Simulation {
         self.forces = None;
         let Self { model, state, inputs, .. } = self;
         let model = &**model;
-        imposed::jump(model, inputs, state);
-        update_friction(model, inputs, state);
+        let holds = state.ahead.as_ref().is_some_and(|ahead| ahead.inputs == *inputs);
+        if holds && state.input_derivatives.is_none() {
+            if state.move_within(until, model.layout.count()) {
+                progress::keep_together(model, state);
+                return Ok(());
+            }
+        } else {
+            begin_anew(model, inputs, state);
+        }
         if let Gears::Rigid(rigid) = &model.gears
             && !rigid.bodies.act_in(state)
         {
@@ -134,7 +143,17 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
-        integrate(model, inputs, state, until)
+        let before = (*state, *inputs);
+        let outcome = progress::integrate(model, (inputs, state), &before, until);
+        match outcome {
+            // a step that was to lead beyond what has been shown cannot be completed: from here another may
+            Err(failure) if failure.time < before.0.time => {
+                *state = before.0;
+                begin_anew(model, inputs, state);
+                progress::integrate(model, (inputs, state), &before, until)
+            }
+            outcome => outcome,
+        }
     }
 
     /// Where the host's solver last completed a step, for snapshots.
@@ -150,41 +169,5 @@ impl Simulation {
     /// The state, for snapshots.
     pub fn state(&self) -> &State {
         &self.state
-    }
-}
-
-/// Integrates to `until` [s]; apart from the closed form, whose few instructions its frame would outweigh.
-#[inline(never)]
-fn integrate(model: &Model, inputs: &mut Inputs, state: &mut State, until: f64) -> Result<(), StepFailure> {
-    let before = (*state, *inputs);
-    let mut budget = stretch::budget(model);
-    while state.time < until {
-        let (begin, end) = (state.time, end_of_stretch(model, state, until));
-        let outcome = with_equations!(model, state, inputs, |equations| {
-            stretch::integrate::<N, _>(equations, model, state, end, &mut budget)
-        });
-        state.wrap(&model.periods, &model.layout);
-        if let Gears::Rigid(_) = &model.gears {
-            model.ideal.constrain(&mut state.v);
-        }
-        advance_inputs(inputs, state, if outcome.is_ok() { end } else { state.time } - begin);
-        outcome?;
-        // the rounding of the time axis may leave a rest too small to integrate
-        state.time = end;
-        break_tooth(model, inputs, state);
-    }
-    if !state.is_valid() {
-        (*state, *inputs) = before;
-        return Err(StepFailure::not_finite(state.time));
-    }
-    Ok(())
-}
-
-/// Takes inputs to what they are `time` [s] later.
-fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
-    if let Some(input_derivatives) = state.input_derivatives {
-        let (later, rest) = input_derivatives.after(time, inputs);
-        (*inputs, state.input_derivatives) = (later, Some(rest));
-        state.carrier_command = inputs.carrier_speed;
     }
 }

@@ -6,13 +6,14 @@ use super::hints;
 use super::ledger::{Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
-    self, AfterStep, DormandPrince, DynSecondOrder, DynSystem, Failure, Point, Radau, Rodas4, Rodas5P, SolverContext,
+    self, AfterStep, Course, DormandPrince, DynSecondOrder, DynSystem, Failure, Radau, Rodas4, Rodas5P, SolverContext,
     Step,
 };
 use crate::model::assembly::model::{Gears, Model};
+use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
-use crate::model::scene::{Method, SolverSpec};
+use crate::model::scene::{Inputs, Method, SolverSpec};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
@@ -23,6 +24,13 @@ const LEAST_SOLID: usize = 128;
 const PLAIN: usize = 16;
 /// What a step of Radau costs in steps of the other methods.
 const RADAU_IN_STEPS: usize = 8;
+
+/// Longest stretch integrated before positions are wrapped and the clock is set back [s].
+pub const STRETCH: f64 = 1.0;
+/// Longest step [s].
+const LONGEST: f64 = STRETCH;
+/// What a double can resolve of times up to the length of a stretch [s].
+const RESOLUTION: f64 = 4.0 * f64::EPSILON * STRETCH;
 
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
@@ -41,52 +49,81 @@ pub fn budget(model: &Model) -> u64 {
     BUDGET / (work.max(freedoms * freedoms / PLAIN) * steps) as u64
 }
 
-/// Integrates to `until` [s].
+/// What to integrate.
+pub struct Stretch<'a> {
+    /// The integrator's clock.
+    pub clock: &'a mut Clock,
+    /// Time at which it shows zero [s].
+    pub begin: f64,
+    /// Whether the time to integrate to was shown before: then it is too late to refuse a tooth that bends too far.
+    pub is_shown: bool,
+    /// Inputs that act.
+    pub inputs: &'a Inputs,
+}
+
+/// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
+/// be set back. Compiled once for each size, whoever calls it.
+#[inline(never)]
 pub fn integrate<const N: usize, E: Recorded<N>>(
     mut equations: E,
     model: &Model,
     state: &mut State,
-    until: f64,
+    stretch: Stretch,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    // the equations do not know the time: counted from here it is resolved as finely as steps can get
-    let (mut point, mut time) = (state.point(), 0.0);
-    let end = until - state.time;
-    let mut good = (point, time);
+    let Stretch { clock, begin, is_shown, inputs } = stretch;
+    let mut course = Course {
+        longest: LONGEST,
+        resolution: RESOLUTION,
+        expected: clock.expected,
+        ..Course::new(state.point(), clock.time, clock.end)
+    };
+    if let Some(ahead) = &state.ahead {
+        ahead.resume(&mut course);
+        course.end_at(clock.end);
+    }
+    // where the end is near the clock need not be set back
+    let longest = if clock.now < clock.end { STRETCH } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
     let mut anchors = equations.friction_state().map(|state| state.anchor);
-    while switched && time < end && outcome.is_ok() {
+    while switched && outcome.is_ok() {
         switched = false;
-        let State { time: begin, control, statistics, work, heat, bias, fatigue, .. } = state;
-        let mut records = Records { begin: *begin, work, heat, bias, fatigue };
+        let State { control, statistics, work, heat, bias, fatigue, .. } = state;
+        let mut records = Records { begin, work, heat, bias, fatigue };
         let mut observe = |step: Step<N, Power>| {
-            equations.record(model, &step, &mut records)?;
-            equations.drag(step.end, &step.power[2], &mut anchors);
-            good = (*step.end, step.time);
-            if equations.is_due(step.end, step.time) {
-                switched = true;
-                return Ok(AfterStep::Stop);
+            if !is_shown {
+                equations.admit(step.end)?;
             }
-            Ok(AfterStep::Continue)
+            equations.record(model, &step, &mut records);
+            equations.drag(step.end, &step.power[2], &mut anchors);
+            switched = equations.is_due(step.end, step.time);
+            Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         outcome = if solver.method == Method::Adaptive {
-            integrate::advance(&Rodas5P, &equations, &mut point, &mut time, end, context, observe)
+            integrate::proceed(&Rodas5P, &equations, &mut course, clock.now, context, observe)
         } else {
-            otherwise(solver, &equations, &mut point, &mut time, end, context, &mut observe)
+            otherwise(solver, &equations, &mut course, clock.now, context, &mut observe)
         };
         equations.anchor(&anchors);
         if switched {
-            equations.settle(&point, time, &mut state.heat);
+            equations.settle(&course.point, course.time, &mut state.heat);
             anchors = equations.friction_state().map(|state| state.anchor);
+            switched = course.time < longest && course.end - course.time > RESOLUTION;
         }
     }
     state.friction = *equations.friction_state();
-    state.set_point(&good.0);
-    state.time += good.1;
-    outcome.map_err(|failure| explain(failure, state.time, model))
+    state.set_point(&course.point);
+    clock.time = course.time;
+    match &course.pending {
+        Some(pending) if outcome.is_ok() => {
+            state.ahead.get_or_insert_default().set(pending, *clock, inputs);
+        }
+        _ => state.ahead = None,
+    }
+    outcome.map_err(|failure| explain(failure, begin + clock.time, model))
 }
 
 /// Integrates by another method than the default.
@@ -94,21 +131,21 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
 fn otherwise<const N: usize>(
     solver: &SolverSpec,
     system: &dyn DynSecondOrder<N, Power>,
-    point: &mut Point<N>,
-    time: &mut f64,
+    course: &mut Course<N, Power>,
     until: f64,
     context: SolverContext,
     observe: &mut dyn FnMut(Step<N, Power>) -> Result<AfterStep, ExcessiveDeflection>,
 ) -> Result<(), Failure<ExcessiveDeflection>> {
     let system = &DynSystem(system);
     match solver.method {
-        Method::Adaptive => integrate::advance(&Rodas5P, system, point, time, until, context, observe),
-        Method::Radau => integrate::advance(&Radau, system, point, time, until, context, observe),
-        Method::Rodas4 => integrate::advance(&Rodas4, system, point, time, until, context, observe),
-        Method::DormandPrince => integrate::advance(&DormandPrince, system, point, time, until, context, observe),
+        Method::Adaptive => integrate::proceed(&Rodas5P, system, course, until, context, observe),
+        Method::Radau => integrate::proceed(&Radau, system, course, until, context, observe),
+        Method::Rodas4 => integrate::proceed(&Rodas4, system, course, until, context, observe),
+        Method::DormandPrince => integrate::proceed(&DormandPrince, system, course, until, context, observe),
         Method::FixedStep => {
             let counts = (context.statistics, context.budget);
-            integrate::advance_fixed(system, point, time, until, solver.fixed_step, counts, observe)
+            let Course { point, time, end, .. } = course;
+            integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
         }
     }
 }

@@ -1,0 +1,113 @@
+//! Where an integration stands: at the end of its last completed step, and within the one that leads on from there.
+//!
+//! A step whose error is small enough is pending until a time beyond its end is asked for. Up to there its continuous
+//! extension tells the motion, at times that the steps do not depend on.
+
+use serde::{Deserialize, Serialize};
+
+use super::system::Point;
+
+/// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
+/// ends and bends b. One that does not change in the step keeps its bits.
+#[inline(always)]
+pub fn bent(start: f64, end: f64, bends: [f64; 3], fraction: f64) -> f64 {
+    let bend = bends[0] + fraction * (bends[1] + fraction * bends[2]);
+    start + fraction * ((end - start) + (1.0 - fraction) * bend)
+}
+
+/// Continuous extension of a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extension<const N: usize> {
+    /// Begin of the step.
+    pub start: Point<N>,
+    /// Its end.
+    pub end: Point<N>,
+    /// Bends of the way in between, see [`bent`].
+    pub bends: [Point<N>; 3],
+}
+
+impl<const N: usize> Extension<N> {
+    /// The motion after a fraction of the step.
+    #[inline(always)]
+    pub fn at(&self, fraction: f64) -> Point<N> {
+        let Self { start, end, bends } = self;
+        if fraction == 1.0 {
+            return *end;
+        }
+        let q = |i: usize| bent(start.q[i], end.q[i], bends.map(|bend| bend.q[i]), fraction);
+        let v = |i: usize| bent(start.v[i], end.v[i], bends.map(|bend| bend.v[i]), fraction);
+        Point { q: std::array::from_fn(q), v: std::array::from_fn(v) }
+    }
+}
+
+/// How a step came about, for the control of the next ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Attempt {
+    /// Size of the step [s].
+    pub h: f64,
+    /// Its error as a fraction of the tolerance.
+    pub error: f64,
+    /// Whether it is shorter than its error demands.
+    pub cut: bool,
+    /// Whether it ends on a kink.
+    pub to_kink: bool,
+    /// Whether a longer one was rejected before.
+    pub after_rejection: bool,
+    /// Longer ones before it that were rejected for their ledger, one after the other.
+    pub unbalanced: u32,
+}
+
+/// A step of small enough error that is not completed yet.
+#[derive(Clone, Copy, Debug)]
+pub struct Pending<const N: usize, P> {
+    /// How it came about.
+    pub attempt: Attempt,
+    /// The motion in it.
+    pub extension: Extension<N>,
+    /// Ledger rates at its begin.
+    pub power: P,
+    /// Kinetic and stored energy at its begin.
+    pub energy: [f64; 2],
+    /// Part of the step that is taken: all of it, unless the equations end within it.
+    pub part: f64,
+}
+
+/// Where an integration stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<const N: usize, P> {
+    /// End of the last completed step.
+    pub point: Point<N>,
+    /// Its time [s].
+    pub time: f64,
+    /// The step from there on.
+    pub pending: Option<Pending<N, P>>,
+    /// Time at which the equations end [s]: no step goes beyond it.
+    pub end: f64,
+    /// Time at which their end is expected [s]: steps may go beyond it, but fit it.
+    pub expected: f64,
+    /// Longest step [s].
+    pub longest: f64,
+    /// What a double can resolve of the time axis [s].
+    pub resolution: f64,
+}
+
+impl<const N: usize, P> Course<N, P> {
+    /// From `point` at `time` to `end` [s].
+    pub fn new(point: Point<N>, time: f64, end: f64) -> Self {
+        let resolution = 4.0 * f64::EPSILON * end.abs().max(time.abs()).max(1e-9);
+        Self { point, time, pending: None, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
+    }
+
+    /// Ends the equations at `end` [s], which lies within the pending step or at its end.
+    pub fn end_at(&mut self, end: f64) {
+        self.end = end;
+        if let Some(pending) = &mut self.pending {
+            let part = (end - self.time) / pending.attempt.h;
+            if part > 0.0 {
+                pending.part = part.min(1.0);
+            } else {
+                self.pending = None;
+            }
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! The integrator's step that goes beyond the present: the motion at the present is told by its continuous extension.
+
+use serde::{Deserialize, Serialize};
+
+use super::clock::Clock;
+use super::power::Power;
+use crate::integrate::{Attempt, Course, Extension, Pending, Point, bent};
+use crate::model::scene::Inputs;
+use crate::model::scene::layout::MAX_DOF;
+
+/// Positions and velocities of all degrees of freedom.
+type Motion = [[f64; MAX_DOF]; 2];
+
+/// A step that is not completed at the present time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ahead {
+    /// Inputs that act in it.
+    pub inputs: Inputs,
+    /// Its begin, the present, and the end of the equations.
+    pub clock: Clock,
+    attempt: Attempt,
+    start: Motion,
+    end: Motion,
+    bends: [Motion; 3],
+    power: Power,
+    energy: [f64; 2],
+}
+
+impl Ahead {
+    /// Becomes the step `pending`.
+    pub fn set<const N: usize>(&mut self, pending: &Pending<N, Power>, clock: Clock, inputs: &Inputs) {
+        let Extension { start, end, bends } = &pending.extension;
+        (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
+        (self.power, self.energy) = (pending.power, pending.energy);
+        store(start, &mut self.start);
+        store(end, &mut self.end);
+        for (bend, stored) in bends.iter().zip(&mut self.bends) {
+            store(bend, stored);
+        }
+    }
+
+    /// The course of the integration, as far as this step tells it.
+    pub fn resume<const N: usize>(&self, course: &mut Course<N, Power>) {
+        let (start, end) = (restored(&self.start), restored(&self.end));
+        let extension = Extension { start, end, bends: [0, 1, 2].map(|k| restored(&self.bends[k])) };
+        let (attempt, power, energy) = (self.attempt, self.power, self.energy);
+        course.point = start;
+        course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
+    }
+
+    /// Whether the step contains the time `now` of its clock [s].
+    #[inline(always)]
+    pub fn contains(&self, now: f64) -> bool {
+        now <= self.clock.time + self.attempt.h
+    }
+
+    /// Writes the first `n` positions and velocities at the present to `q` and `v`.
+    #[inline(always)]
+    pub fn motion(&self, n: usize, [q, v]: [&mut [f64; MAX_DOF]; 2]) {
+        let fraction = (self.clock.now - self.clock.time) / self.attempt.h;
+        for (k, to) in [q, v].into_iter().enumerate() {
+            if fraction >= 1.0 {
+                to[..n].copy_from_slice(&self.end[k][..n]);
+                continue;
+            }
+            for i in 0..n.min(MAX_DOF) {
+                let bends = [self.bends[0][k][i], self.bends[1][k][i], self.bends[2][k][i]];
+                to[i] = bent(self.start[k][i], self.end[k][i], bends, fraction);
+            }
+        }
+    }
+
+    /// Whether a simulation can continue from all numbers.
+    pub fn is_valid(&self) -> bool {
+        let Attempt { h, error, .. } = self.attempt;
+        let motions = [&self.start, &self.end, &self.bends[0], &self.bends[1], &self.bends[2]];
+        motions.into_iter().flatten().flatten().chain(&self.energy).all(|x| x.is_finite())
+            && self.power.is_finite()
+            && self.inputs.is_finite()
+            && self.clock.is_valid()
+            && error.is_finite()
+            && h.is_finite()
+            && h > 0.0
+    }
+}
+
+fn store<const N: usize>(point: &Point<N>, motion: &mut Motion) {
+    motion[0][..N].copy_from_slice(&point.q);
+    motion[1][..N].copy_from_slice(&point.v);
+}
+
+fn restored<const N: usize>(motion: &Motion) -> Point<N> {
+    Point { q: std::array::from_fn(|i| motion[0][i]), v: std::array::from_fn(|i| motion[1][i]) }
+}

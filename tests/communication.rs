@@ -1,0 +1,287 @@
+//! The integrator's steps go on beyond communication points: they do not depend on them, nor do results, and nothing from
+//! beyond a point shows at it.
+
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::{CarrierDrive, Inputs, Parameters, PlanetSpin, Simulation, Start, State};
+
+/// A scene with its name.
+struct Scene {
+    name: &'static str,
+    parameters: Parameters,
+    inputs: Inputs,
+}
+
+impl Scene {
+    fn start(&self) -> Simulation {
+        Simulation::start(&self.parameters, &self.inputs, 0.0).unwrap()
+    }
+
+    fn at_tolerance(&self, tolerance: f64) -> Simulation {
+        let mut parameters = self.parameters;
+        parameters.solver.relative_tolerance = tolerance;
+        Simulation::start(&parameters, &self.inputs, 0.0).unwrap()
+    }
+}
+
+/// The study's turn, changed by `change`.
+fn turn(name: &'static str, change: impl Fn(&mut Parameters)) -> Scene {
+    let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+    parameters.scene.planet_spin = PlanetSpin::Imposed;
+    (inputs.carrier_speed, inputs.planet_spin) = (954f64.to_radians(), 200f64.to_radians());
+    change(&mut parameters);
+    Scene { name, parameters, inputs }
+}
+
+fn scenes() -> Vec<Scene> {
+    let free = |p: &mut Parameters| {
+        p.scene.carrier_drive = CarrierDrive::Torque;
+        (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.8);
+    };
+    vec![
+        turn("turn", |_| {}),
+        turn("rolling start", |p| p.scene.start = Start::Rolling),
+        turn("line law", |p| p.contact.law = ContactLaw::Line),
+        turn("tooth friction", |p| p.effects.tooth_friction = true),
+        turn("washers that stick", |p| p.effects.thrust_friction = true),
+        turn("driven by torque", free),
+        turn("half-shafts", |p| {
+            free(p);
+            p.effects.half_shaft = true;
+        }),
+        Scene { name: "straight", parameters: Parameters::default(), inputs: Inputs::default() },
+    ]
+}
+
+/// Communication points up to `stop` [s].
+fn ways(stop: f64) -> Vec<Vec<f64>> {
+    let even = |h: f64| {
+        let count = (stop / h).round();
+        (1..=count as u32).map(|k| stop * f64::from(k) / count).collect::<Vec<f64>>()
+    };
+    let (mut seed, mut time, mut irregular) = (1u64, 0.0, Vec::new());
+    while time < stop {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let random = (seed >> 11) as f64 / (1u64 << 53) as f64;
+        time = f64::min(time + 10f64.powf(-5.0 + 3.5 * random), stop);
+        irregular.push(time);
+    }
+    vec![even(1e-5), even(1e-3), even(7e-3), irregular]
+}
+
+/// All by which the integrator's steps can be told from others.
+fn steps_of(state: &State) -> String {
+    format!("{:?} {:?}", state.control, state.statistics)
+}
+
+#[test]
+fn the_integrator_s_steps_do_not_depend_on_communication_points() {
+    const STOP: f64 = 0.05;
+    for scene in scenes() {
+        let mut whole = scene.start();
+        whole.advance(STOP).unwrap();
+        for points in ways(STOP) {
+            let mut simulation = scene.start();
+            for &point in &points {
+                simulation.advance(point).unwrap();
+            }
+            assert_eq!(steps_of(simulation.state()), steps_of(whole.state()), "{}: {}", scene.name, points.len());
+        }
+    }
+}
+
+/// Speeds, and their natural magnitude.
+fn speeds(simulation: &Simulation) -> ([f64; 3], f64) {
+    let motion = simulation.motion();
+    let [left, right] = motion.side_speed;
+    ([left, right, motion.spin_speed[0]], 1.0 + 2.0 * motion.carrier_speed.abs() + motion.spin_speed[0].abs())
+}
+
+#[test]
+fn motion_at_and_between_the_ends_of_steps_is_within_ten_tolerances() {
+    for scene in scenes() {
+        let (mut simulation, mut exact) = (scene.start(), scene.at_tolerance(1e-10));
+        let tolerance = scene.parameters.solver.relative_tolerance;
+        let mut worst = 0.0f64;
+        for k in 1..=4000 {
+            let time = f64::from(k) * 1.25e-5;
+            simulation.advance(time).unwrap();
+            exact.advance(time).unwrap();
+            let ((some, magnitude), (right, _)) = (speeds(&simulation), speeds(&exact));
+            let off = (0..3).map(|i| (some[i] - right[i]).abs()).fold(0.0, f64::max);
+            worst = worst.max(off / magnitude / tolerance);
+        }
+        println!("{}: {worst:.2} tolerances", scene.name);
+        assert!(worst < 10.0, "{}: {worst} tolerances", scene.name);
+    }
+}
+
+/// Changes at a communication point after which the integration begins anew.
+type Change = fn(&mut Simulation, &Scene);
+
+const CHANGES: [(&str, Change); 4] = [
+    ("an input", |s, scene| {
+        let load_torque = scene.inputs.load_torque.map(|torque| 1.1 * torque);
+        s.set_inputs(&Inputs { load_torque, ..scene.inputs });
+    }),
+    ("derivatives of inputs", |s, _| s.set_input_derivatives(Some(bevel_differential::model::InputDerivatives::ZERO))),
+    ("states", |s, _| {
+        let mut states = s.states();
+        states[0] += 1e-6;
+        s.set_states(&states);
+    }),
+    ("a parameter", |s, scene| {
+        let mut parameters = scene.parameters;
+        parameters.contact.damping *= 1.5;
+        s.tune(&parameters);
+    }),
+];
+
+#[test]
+fn the_integration_begins_anew_where_something_changes() {
+    for scene in scenes() {
+        for (what, change) in CHANGES {
+            let mut fine = scene.start();
+            for k in 1..=100 {
+                fine.advance(f64::from(k) * 1e-4).unwrap();
+            }
+            assert_eq!(fine.state().begun, Some(0.0), "{}", scene.name);
+            change(&mut fine, &scene);
+            fine.advance(0.0101).unwrap();
+            assert_eq!(fine.state().begun, Some(0.01), "{}: {what}", scene.name);
+            let mut coarse = scene.start();
+            coarse.advance(0.01).unwrap();
+            change(&mut coarse, &scene);
+            coarse.advance(0.0101).unwrap();
+            let ((a, magnitude), (b, _)) = (speeds(&fine), speeds(&coarse));
+            for i in 0..3 {
+                assert!((a[i] - b[i]).abs() < 1e-8 * magnitude, "{}: {what}: {a:?} {b:?}", scene.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_set_again_as_it_was_changes_nothing() {
+    let scene = turn("turn", |_| {});
+    let [mut once, mut again] = [0; 2].map(|_| scene.start());
+    for k in 1..=50 {
+        let time = f64::from(k) * 1e-3;
+        once.advance(time).unwrap();
+        again.set_inputs(&Inputs { carrier_torque: 1.0, ..scene.inputs });
+        again.set_inputs(&scene.inputs);
+        again.advance(time).unwrap();
+    }
+    assert_eq!(once.state(), again.state());
+}
+
+#[test]
+fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
+    for scene in scenes() {
+        let mut parameters = scene.parameters;
+        parameters.effects.strength = true;
+        let scene = Scene { parameters, ..scene };
+        for stop in [0.0103, 0.02171] {
+            let (mut within, mut ends) = (scene.start(), scene.start());
+            ends.set_input_derivatives(Some(bevel_differential::model::InputDerivatives::ZERO));
+            ends.advance(stop).unwrap();
+            within.advance(stop).unwrap();
+            let (a, b) = (within.ledger(), ends.ledger());
+            // ten tolerances of the energy turned over
+            let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * (1.0 + b.heat.iter().sum::<f64>());
+            let heats = a.heat.iter().zip(&b.heat).all(|(&x, &y)| close(x, y));
+            let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| close(x, y));
+            assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
+            assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
+            // reading leaves no trace
+            let read = *within.state();
+            within.ledger();
+            within.forces();
+            assert_eq!(*within.state(), read);
+        }
+    }
+}
+
+#[test]
+fn energy_balances_as_well_as_without_communication_points() {
+    const STOP: f64 = 0.05;
+    for scene in scenes() {
+        let mut whole = scene.start();
+        whole.advance(STOP).unwrap();
+        let reference = whole.ledger().energy_residual;
+        for points in ways(STOP) {
+            let mut simulation = scene.start();
+            points.iter().for_each(|&point| simulation.advance(point).unwrap());
+            let residual = simulation.ledger().energy_residual;
+            let close = (residual - reference).abs() <= 1e-9 * (1.0 + reference.abs());
+            assert!(close, "{}: {residual:e} instead of {reference:e}", scene.name);
+        }
+    }
+}
+
+/// A load that bends the teeth beyond their limit, some time after the start.
+fn overload() -> Scene {
+    let mut scene = turn("overload", |p| {
+        (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
+    });
+    scene.inputs.load_torque = [1e6, 1e6];
+    scene.parameters.scene.start = Start::Rolling;
+    scene
+}
+
+#[test]
+fn a_failure_beyond_a_point_does_not_show_at_it() {
+    let scene = overload();
+    let mut whole = scene.start();
+    let failure = whole.advance(0.5).unwrap_err();
+    assert!(failure.message.contains("tooth deflection exceeds"), "{failure}");
+    assert!(failure.time > 1e-6 && whole.time() == failure.time);
+    // in small steps, nearly as far as that, whatever the integrator's step ahead finds
+    let mut simulation = scene.start();
+    let h = failure.time / 200.0;
+    let mut reached = 0;
+    let refused = loop {
+        match simulation.advance(f64::from(reached + 1) * h) {
+            Ok(()) => reached += 1,
+            Err(refused) => break refused,
+        }
+        assert!(reached < 1000);
+    };
+    assert!(reached >= 200, "{reached}: {refused}");
+    assert!(refused.time >= f64::from(reached) * h * (1.0 - 1e-12), "{refused}");
+    // relieved in time, the run goes on
+    let mut relieved = scene.start();
+    relieved.advance(0.3 * failure.time).unwrap();
+    relieved.set_inputs(&Inputs { load_torque: [0.0; 2], ..scene.inputs });
+    relieved.advance(3.0 * failure.time).unwrap();
+}
+
+#[test]
+fn a_copy_within_a_step_goes_on_to_the_same_bits() {
+    for scene in scenes() {
+        let mut simulation = scene.start();
+        simulation.advance(0.0104).unwrap();
+        assert!(simulation.state().ahead.is_some(), "{}", scene.name);
+        let copy = Simulation::resume(&scene.parameters, &scene.inputs, *simulation.state()).unwrap();
+        for mut other in [simulation.clone(), copy] {
+            other.advance(0.02).unwrap();
+            let mut same = simulation.clone();
+            same.advance(0.02).unwrap();
+            assert_eq!(same.state(), other.state(), "{}", scene.name);
+        }
+    }
+}
+
+#[test]
+fn a_tooth_breaks_on_time_between_communication_points() {
+    let scene = turn("fault", |p| {
+        p.effects.tooth_fault = true;
+        p.specs.tooth_fault.onset = 0.01234;
+    });
+    for points in ways(0.03) {
+        let mut simulation = scene.start();
+        for &point in &points {
+            simulation.advance(point).unwrap();
+            assert_eq!(simulation.state().fault, point >= 0.01234, "at {point}");
+        }
+    }
+}

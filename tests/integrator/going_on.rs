@@ -1,0 +1,95 @@
+//! Steps go on beyond the times that are asked for, and do not depend on them.
+
+use bevel_differential::integrate::{AfterStep, Control, Course, Point, SolverContext, Statistics, Step, proceed};
+
+use super::methods::{Known, with_every_method};
+use super::problems::{Logarithmic, distance};
+
+with_every_method!(
+    steps_do_not_depend_on_the_times_asked_for
+    the_motion_between_steps_is_within_the_tolerance
+    a_step_is_completed_up_to_where_the_equations_end
+);
+
+const STOP: f64 = 3.0;
+const TOLERANCE: f64 = 1e-8;
+
+/// What is seen of a run: bits of its steps, its counts, and the points shown.
+struct Seen {
+    steps: Vec<[u64; 4]>,
+    counts: Statistics,
+    shown: Vec<(f64, Point<2>)>,
+}
+
+fn run<M: Known>(times: &[f64]) -> Seen {
+    let mut seen = Seen { steps: Vec::new(), counts: Statistics::default(), shown: Vec::new() };
+    let mut control = Control::new(1e-4);
+    let mut course = Course { end: f64::INFINITY, ..Course::new(Logarithmic::exact(0.0), 0.0, STOP) };
+    for &time in times {
+        let Seen { steps, counts, .. } = &mut seen;
+        let mut budget = 10_000;
+        let context =
+            SolverContext { tolerance: TOLERANCE, control: &mut control, statistics: counts, budget: &mut budget };
+        let observe = |step: Step<2, f64>| {
+            assert!(step.time < time, "nothing beyond {time} is completed");
+            steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
+            Ok::<_, ()>(AfterStep::Continue)
+        };
+        proceed(&M::METHOD, &Logarithmic, &mut course, time, context, observe).unwrap();
+        let pending = course.pending.as_ref().unwrap();
+        let at = pending.extension.at((time - course.time) / pending.attempt.h);
+        seen.shown.push((time, at));
+    }
+    seen
+}
+
+fn even(count: u32) -> Vec<f64> {
+    (1..=count).map(|k| STOP * f64::from(k) / f64::from(count)).collect()
+}
+
+fn steps_do_not_depend_on_the_times_asked_for<M: Known>() {
+    let whole = run::<M>(&[STOP]);
+    assert!(whole.steps.len() > 20);
+    let irregular: Vec<f64> = (1..=300).map(|k| STOP * (f64::from(k) / 300.0).powi(3)).collect();
+    for times in [even(7), even(100), even(20_000), irregular] {
+        let seen = run::<M>(&times);
+        assert_eq!(seen.steps, whole.steps);
+        assert_eq!(seen.counts, whole.counts);
+    }
+}
+
+fn the_motion_between_steps_is_within_the_tolerance<M: Known>() {
+    let mut largest = 0.0f64;
+    for (time, at) in run::<M>(&even(5000)).shown {
+        largest = largest.max(distance(&at, &Logarithmic::exact(time)));
+    }
+    println!("{:.1} tolerances", largest / TOLERANCE);
+    assert!(largest < 10.0 * TOLERANCE, "{largest:e}");
+}
+
+fn a_step_is_completed_up_to_where_the_equations_end<M: Known>() {
+    let (mut control, mut counts) = (Control::new(1e-4), Statistics::default());
+    let mut course = Course { end: f64::INFINITY, ..Course::new(Logarithmic::exact(0.0), 0.0, STOP) };
+    let mut completed = 0.0;
+    for time in [0.7, 1.1, 1.100001, 2.0] {
+        let mut go_to = |course: &mut Course<2, f64>| {
+            let mut budget = 10_000;
+            let (control, statistics) = (&mut control, &mut counts);
+            let context = SolverContext { tolerance: TOLERANCE, control, statistics, budget: &mut budget };
+            proceed(&M::METHOD, &Logarithmic, course, time, context, |step| {
+                completed += step.h;
+                Ok::<_, ()>(AfterStep::Continue)
+            })
+            .unwrap();
+        };
+        go_to(&mut course);
+        let pending = course.pending.as_ref().unwrap();
+        let shown = pending.extension.at((time - course.time) / pending.attempt.h);
+        course.end_at(time);
+        go_to(&mut course);
+        assert!(course.pending.is_none());
+        assert_eq!((course.time, course.point), (time, shown));
+        course.end = f64::INFINITY;
+    }
+    assert!((completed - 2.0).abs() < 1e-14, "{completed}");
+}
