@@ -97,11 +97,11 @@ fn speeds(simulation: &Simulation) -> ([f64; 3], f64) {
 }
 
 #[test]
-fn motion_at_and_between_the_ends_of_steps_is_within_ten_tolerances() {
+fn motion_and_forces_at_and_between_the_ends_of_steps_are_within_ten_tolerances() {
     for scene in scenes() {
         let (mut simulation, mut exact) = (scene.start(), scene.at_tolerance(1e-10));
         let tolerance = scene.parameters.solver.relative_tolerance;
-        let mut worst = 0.0f64;
+        let (mut worst, mut wrong, mut largest) = (0.0f64, 0.0f64, 0.0f64);
         for k in 1..=4000 {
             let time = f64::from(k) * 1.25e-5;
             simulation.advance(time).unwrap();
@@ -109,9 +109,15 @@ fn motion_at_and_between_the_ends_of_steps_is_within_ten_tolerances() {
             let ((some, magnitude), (right, _)) = (speeds(&simulation), speeds(&exact));
             let off = (0..3).map(|i| (some[i] - right[i]).abs()).fold(0.0, f64::max);
             worst = worst.max(off / magnitude / tolerance);
+            let [some, right] = [&mut simulation, &mut exact].map(|s| s.forces().side_normal);
+            for i in 0..2 {
+                wrong = wrong.max((some[i] - right[i]).abs());
+                largest = largest.max(right[i]);
+            }
         }
-        println!("{}: {worst:.2} tolerances", scene.name);
-        assert!(worst < 10.0, "{}: {worst} tolerances", scene.name);
+        let forces = wrong / largest / tolerance;
+        println!("{}: speeds to {worst:.2} tolerances, forces to {forces:.2}", scene.name);
+        assert!(worst.max(forces) < 10.0, "{}: {worst} tolerances, forces {forces}", scene.name);
     }
 }
 

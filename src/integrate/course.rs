@@ -38,6 +38,18 @@ impl<const N: usize> Extension<N> {
         let v = |i: usize| bent(start.v[i], end.v[i], bends.map(|bend| bend.v[i]), fraction);
         Point { q: std::array::from_fn(q), v: std::array::from_fn(v) }
     }
+
+    /// By how much the motion halfway, over a step of size `h` [s], contradicts the equations: `slope` is what they demand
+    /// there, less what the extension does.
+    #[inline(always)]
+    pub fn defect(&self, slope: &Point<N>, h: f64) -> Point<N> {
+        let Self { start, end, bends } = self;
+        let per_h = 1.0 / h;
+        let rise = |from: f64, to: f64, one: f64, two: f64| per_h * ((to - from) + 0.25 * (one + two));
+        let q = |i: usize| slope.q[i] - rise(start.q[i], end.q[i], bends[1].q[i], bends[2].q[i]);
+        let v = |i: usize| slope.v[i] - rise(start.v[i], end.v[i], bends[1].v[i], bends[2].v[i]);
+        Point { q: std::array::from_fn(q), v: std::array::from_fn(v) }
+    }
 }
 
 /// How a step came about, for the control of the next ones.
@@ -64,8 +76,8 @@ pub struct Pending<const N: usize, P> {
     pub attempt: Attempt,
     /// The motion in it.
     pub extension: Extension<N>,
-    /// Ledger rates at its begin.
-    pub power: P,
+    /// Ledger rates at its begin and halfway.
+    pub power: [P; 2],
     /// Kinetic and stored energy at its begin.
     pub energy: [f64; 2],
     /// Part of the step that is taken: all of it, unless the equations end within it.

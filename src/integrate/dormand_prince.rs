@@ -44,6 +44,9 @@ const QUARTIC: [f64; 7] = [
     69_997_945.0 / 29_380_423.0,
 ];
 
+/// Part of the step over which the defect halfway counts, as in the implicit methods.
+const DURATION: f64 = 0.2;
+
 impl Method for DormandPrince {
     const ESTIMATE: u32 = 4;
     const IMPLICIT: bool = false;
@@ -57,7 +60,7 @@ impl Method for DormandPrince {
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N>> {
+    ) -> Option<Trial<N, S::Power>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
         let mut end = *start;
         for (row, weights) in A.iter().enumerate() {
@@ -80,6 +83,10 @@ impl Method for DormandPrince {
         combine(&mut bends[1], &[2.0, -h, -h, 1.0], 1.0, &[change, k[0], k[6], quartic]);
         combine(&mut bends[2], &[-1.0], 1.0, &[quartic]);
         let size = norm.judge(&error, &end);
-        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
+        let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+        Some(trial.looked_into(system, (time, h), norm, counts, |defect| {
+            let rates = std::mem::replace(defect, Point::ZERO);
+            combine(defect, &[DURATION], h, &[rates]);
+        }))
     }
 }

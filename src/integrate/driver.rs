@@ -136,6 +136,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
     let ends = until + resolution >= course.end;
     let mut after_rejection = false;
     let mut unbalanced = 0;
+    let mut in_a_row = 0;
     let mut switch_at = f64::INFINITY;
     let mut begin: Option<(Linearisation<N, S::Power>, [f64; 2])> = None;
     let is_resumed = course.pending.is_some();
@@ -152,11 +153,16 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 reached = course.end;
             }
             let end = pending.extension.at(pending.part);
-            let (_, middle) = system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h);
+            let halfway = if pending.part == 1.0 {
+                pending.power[1]
+            } else {
+                statistics.evaluations += 1;
+                system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
+            };
             let next = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
             let last = next.as_ref().map_or_else(|| system.evaluate_at(&end, reached).1, |lin| lin.power);
-            statistics.evaluations += 1 + u64::from(done);
-            let power = [pending.power, middle, last];
+            statistics.evaluations += u64::from(done);
+            let power = [pending.power[0], halfway, last];
             let energy = system.energy(&end);
             let imbalance = system.imbalance([pending.energy, energy], h, &power) / (LEDGER * tolerance);
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
@@ -198,34 +204,37 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
         let trial = method.step(system, (point, course.time), lin, h, &norm, statistics);
-        let error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
-        match trial {
-            Some(Trial { extension, .. }) if error <= 1.0 => {
-                let ends = ((point, course.time), (&extension.end, course.time + h));
-                if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
-                    statistics.rejected_switch += 1;
-                    switch_at = (h * fraction).max(resolution);
-                    continue;
-                }
-                switch_at = f64::INFINITY;
+        let mut error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
+        if let Some(Trial { extension, halfway: Some(halfway), .. }) = trial {
+            let ends = ((point, course.time), (&extension.end, course.time + h));
+            if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
+                statistics.rejected_switch += 1;
+                switch_at = (h * fraction).max(resolution);
+                continue;
+            }
+            // not a number where either is not
+            error = if halfway.size < error { error } else { halfway.size };
+            if error <= 1.0 {
+                (switch_at, in_a_row) = (f64::INFINITY, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
-                let (power, energy) = (lin.power, *energy);
+                let (power, energy) = ([lin.power, halfway.power], *energy);
                 course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
+                continue;
             }
-            _ => {
-                after_rejection = true;
-                switch_at = f64::INFINITY;
-                control.next = h / if error.is_finite() {
-                    statistics.rejected_error += 1;
-                    (M::root(error) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
-                } else {
-                    statistics.rejected_invalid += 1;
-                    LARGEST_SHRINK
-                };
-                if control.next <= resolution {
-                    return Err(Failure::StepTooSmall { size: control.next });
-                }
-            }
+        }
+        after_rejection = true;
+        switch_at = f64::INFINITY;
+        control.next = h / if error.is_finite() {
+            statistics.rejected_error += 1;
+            in_a_row += 1;
+            let least = (0..in_a_row).fold(1.0, |least, _| LEAST_SHRINK * least).min(LARGEST_SHRINK);
+            (M::root(error) / SAFETY).clamp(least, LARGEST_SHRINK)
+        } else {
+            statistics.rejected_invalid += 1;
+            LARGEST_SHRINK
+        };
+        if control.next <= resolution {
+            return Err(Failure::StepTooSmall { size: control.next });
         }
     }
 }
@@ -275,7 +284,7 @@ impl Control {
     #[inline(never)]
     fn accept<M: Method>(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
         let mut factor = M::root(error) / SAFETY;
-        if self.last > 0.0 {
+        if self.last > 0.0 && !self.on_kink && !just_rejected {
             let predictive = (self.last / h) * M::root(error * error / self.last_error) / SAFETY;
             factor = factor.max(predictive);
         }

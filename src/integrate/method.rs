@@ -6,13 +6,54 @@ use super::system::{Linearisation, Point, SecondOrder};
 
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial<const N: usize> {
+pub struct Trial<const N: usize, P> {
     /// The motion from the begin of the step to its end.
     pub extension: Extension<N>,
     /// Estimate of the local error of its end.
     pub error: Point<N>,
-    /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`]. Where it is above 1, nobody asks for bends.
+    /// Its size as a fraction of the tolerance, see [`ErrorNorm::judge`].
     pub size: f64,
+    /// The motion halfway; none where the end is in error, upon which nobody asks for bends either.
+    pub halfway: Option<Halfway<P>>,
+}
+
+/// What a step finds halfway.
+#[derive(Clone, Copy, Debug)]
+pub struct Halfway<P> {
+    /// Error of the motion there, as a fraction of the allowed one.
+    pub size: f64,
+    /// Ledger rates.
+    pub power: P,
+}
+
+/// How much more an error halfway counts than one at the end: the middle is but one place of the motion in between, and
+/// forces there show errors of stiff motions, which a stiffly accurate method has damped at the end.
+const BETWEEN: f64 = 3.0;
+
+impl<const N: usize, P: Copy> Trial<N, P> {
+    /// The trial with a look at its middle, unless its end is in error already. Halfway in a step of size `h` from `time`
+    /// the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
+    /// part of h.
+    #[inline(always)]
+    pub fn looked_into<S: SecondOrder<N, Power = P>>(
+        self,
+        system: &S,
+        (time, h): (f64, f64),
+        norm: &ErrorNorm<N>,
+        counts: &mut Statistics,
+        solve: impl FnOnce(&mut Point<N>),
+    ) -> Self {
+        if self.size.is_nan() || self.size > 1.0 {
+            return self;
+        }
+        counts.evaluations += 1;
+        let middle = self.extension.at(0.5);
+        let (acceleration, power) = system.evaluate_at(&middle, time + 0.5 * h);
+        let mut error = self.extension.defect(&Point { q: system.rates(&middle.v), v: acceleration }, h);
+        solve(&mut error);
+        let size = BETWEEN * norm.judge(&error, &middle);
+        Self { halfway: Some(Halfway { size, power }), ..self }
+    }
 }
 
 /// Weighted norm of errors relative to the tolerance: it accepts steps and stops iterations within them.
@@ -68,7 +109,7 @@ pub trait Method {
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N>>;
+    ) -> Option<Trial<N, S::Power>>;
 
     /// x^(1/(p+1)), to a per mille, which suffices for a step size.
     #[inline(always)]

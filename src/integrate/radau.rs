@@ -66,7 +66,7 @@ impl Method for Radau {
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N>> {
+    ) -> Option<Trial<N, S::Power>> {
         let per_h = 1.0 / h;
         let real = Block::new(system, lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
@@ -142,7 +142,8 @@ impl Method for Radau {
         }
         let end = shifted(start, &z[2]);
         let size = norm.judge(&error, &end);
-        Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
+        let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve(system, &lin.by_position, defect)))
     }
 }
 

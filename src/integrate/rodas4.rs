@@ -24,9 +24,8 @@ impl Method for Rodas4 {
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N>> {
-        counts.evaluations += RODAS4.c.len() as u64;
-        rosenbrock::step(&RODAS4, system, (start, time), lin, h, norm)
+    ) -> Option<Trial<N, S::Power>> {
+        rosenbrock::step(&RODAS4, system, (start, time), lin, h, norm, counts)
     }
 }
 

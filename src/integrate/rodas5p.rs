@@ -24,9 +24,8 @@ impl Method for Rodas5P {
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N>> {
-        counts.evaluations += RODAS5P.c.len() as u64;
-        rosenbrock::step(&RODAS5P, system, (start, time), lin, h, norm)
+    ) -> Option<Trial<N, S::Power>> {
+        rosenbrock::step(&RODAS5P, system, (start, time), lin, h, norm, counts)
     }
 }
 

@@ -12,6 +12,7 @@
 use super::block::Block;
 use super::course::Extension;
 use super::method::{ErrorNorm, Trial, combine};
+use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
@@ -45,7 +46,7 @@ impl<const S: usize> Tableau<S> {
     }
 }
 
-/// One step of size `h` from `start` at `time`, where `lin` was taken. `None` if the matrix is singular.
+/// One step of size `h` from `start` at `time`, where `lin` was taken. `None` if the matrix is singular. Counts its evaluations.
 #[inline(always)]
 pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     tableau: &Tableau<S>,
@@ -54,7 +55,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     lin: &Linearisation<N, E::Power>,
     h: f64,
     norm: &ErrorNorm<N>,
-) -> Option<Trial<N>> {
+    counts: &mut Statistics,
+) -> Option<Trial<N, E::Power>> {
     let block = Block::new(system, lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
     let drift = system.is_driven().then(|| system.drift(start, time));
@@ -97,5 +99,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
             combine(bend, weights, 1.0, &u);
         }
     }
-    Some(Trial { extension: Extension { start: *start, end, bends }, error, size })
+    let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
+    counts.evaluations += tableau.c.len() as u64;
+    let solve = |defect: &mut Point<N>| block.solve(system, &lin.by_position, defect);
+    Some(trial.looked_into(system, (time, h), norm, counts, solve))
 }

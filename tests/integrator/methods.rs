@@ -83,12 +83,16 @@ macro_rules! with_every_method {
 pub(crate) use with_every_method;
 
 /// One step of size `h`. A method that needs no derivatives gets unusable ones.
-pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N> {
+pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N, S::Power> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
 
 /// The same of a driven system from a time on.
-pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time): (&Point<N>, f64), h: f64) -> Trial<N> {
+pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
+    s: &S,
+    (at, time): (&Point<N>, f64),
+    h: f64,
+) -> Trial<N, S::Power> {
     let lin = if M::IMPLICIT {
         s.linearise_at(at, time)
     } else {

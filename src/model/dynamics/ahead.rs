@@ -22,7 +22,7 @@ pub struct Ahead {
     start: Motion,
     end: Motion,
     bends: [Motion; 3],
-    power: Power,
+    power: [Power; 2],
     energy: [f64; 2],
 }
 
@@ -75,7 +75,7 @@ impl Ahead {
         let Attempt { h, error, .. } = self.attempt;
         let motions = [&self.start, &self.end, &self.bends[0], &self.bends[1], &self.bends[2]];
         motions.into_iter().flatten().flatten().chain(&self.energy).all(|x| x.is_finite())
-            && self.power.is_finite()
+            && self.power.iter().all(Power::is_finite)
             && self.inputs.is_finite()
             && self.clock.is_valid()
             && error.is_finite()

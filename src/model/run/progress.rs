@@ -52,7 +52,7 @@ pub fn complete(model: &Model, state: &mut State) {
 pub fn integrate(
     model: &Model,
     (inputs, state): (&mut Inputs, &mut State),
-    before: &(State, Inputs),
+    before: (&State, &Inputs),
     until: f64,
 ) -> Result<(), StepFailure> {
     let mut budget = stretch::budget(model);
@@ -72,7 +72,7 @@ pub fn integrate(
         break_tooth(model, inputs, state);
     }
     if !state.is_sound() {
-        (*state, *inputs) = *before;
+        (*state, *inputs) = (*before.0, *before.1);
         return Err(StepFailure::not_finite(state.time));
     }
     Ok(())

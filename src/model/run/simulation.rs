@@ -143,14 +143,15 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
-        let before = (*state, *inputs);
-        let outcome = progress::integrate(model, (inputs, state), &before, until);
+        let before = *state;
+        let given = *inputs;
+        let outcome = progress::integrate(model, (inputs, state), (&before, &given), until);
         match outcome {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            Err(failure) if failure.time < before.0.time => {
-                *state = before.0;
+            Err(failure) if failure.time < before.time => {
+                *state = before;
                 begin_anew(model, inputs, state);
-                progress::integrate(model, (inputs, state), &before, until)
+                progress::integrate(model, (inputs, state), (&before, &given), until)
             }
             outcome => outcome,
         }

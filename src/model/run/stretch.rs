@@ -18,8 +18,8 @@ use crate::model::scene::{Inputs, Method, SolverSpec};
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
 /// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and the least.
-const SOLID_PER_FACET: usize = 6;
-const LEAST_SOLID: usize = 128;
+const SOLID_PER_FACET: usize = 2;
+const LEAST_SOLID: usize = 40;
 /// Entries of the matrices of plain teeth with planets that are alike.
 const PLAIN: usize = 16;
 /// What a step of Radau costs in steps of the other methods.
