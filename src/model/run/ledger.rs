@@ -1,6 +1,7 @@
 //! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
 use super::excessive_deflection::ExcessiveDeflection;
+use super::load_history::count_fatigue;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::bias::Bias;
@@ -9,7 +10,7 @@ use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
 use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledStep};
+use crate::model::effects::strength::Fatigue;
 use crate::model::scene::layout::{FRICTION_BODIES, LEFT};
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
@@ -93,7 +94,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
             Cycle { pitch: model.periods[LEFT] }.add(records.bias, turned, step.h, torque);
         }
         if let (true, Some(strength)) = (WITH_EFFECTS, &model.strength) {
-            count_fatigue(self, model, strength, step, records);
+            count_fatigue(self, (model, strength), step, (records.begin, records.fatigue));
         }
     }
 }
@@ -157,29 +158,3 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 const AT_ONCE: f64 = 1e-9;
 /// Arc along the line of action that rounding leaves intact [rad].
 const RESOLVED: f64 = 1e-13;
-
-/// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
-#[inline(never)]
-fn count_fatigue<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    model: &Model,
-    strength: &GearStrength,
-    step: &Step<N, Power>,
-    records: &mut Records,
-) {
-    let mut loads = [[MeshLoad::default(); 2]; G];
-    let first = Equations::<N, G, P, WITH_EFFECTS>::PLANET;
-    let spin: [f64; G] = std::array::from_fn(|g| step.end.q[first + g] - step.start.q[first + g]);
-    let roll = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
-    let members: [f64; G] = std::array::from_fn(|g| equations.teeth.layout.members[g]);
-    for g in 0..G {
-        for s in 0..2 {
-            equations.pair_loads(&model.pair, step.end, g, s, |load| strength.add_load(&mut loads[g][s], load));
-        }
-    }
-    let time = records.begin + step.time;
-    // of three planets that differ there is a fourth group, without members
-    let groups = ..model.ideal.plan.groups().len();
-    let rolled = RolledStep { time, spin: &spin[groups], roll, mesh: &loads[groups], members: &members[groups] };
-    strength.count(records.fatigue, &rolled);
-}

@@ -9,6 +9,7 @@ mod failure;
 mod hints;
 mod imposed;
 mod ledger;
+mod load_history;
 mod progress;
 mod readings;
 mod reports;
