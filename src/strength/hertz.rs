@@ -32,19 +32,25 @@ pub struct LineContact {
     /// Ends of the part of the path where one pair carries alone [rad]: the inner points of single contact of planet
     /// and side gear.
     pub single: [f64; 2],
+    /// The smaller relative radius of curvature there, per unit of cone distance; none at a base circle.
+    pub rated_radius: Option<f64>,
 }
 
 impl LineContact {
     /// Contact of `pair`, both gears of the same modulus [Pa] and Poisson's ratio.
     pub fn new(pair: &Pair, young_modulus: f64, poisson_ratio: f64) -> Self {
-        Self {
+        let mut contact = Self {
             modulus: young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio)),
             mean_cone: pair.mean_cone,
             cone_range: [pair.inner_cone, pair.outer_cone],
             pitch_arc: pair.pitch_arc,
             path: [pair.path.low, pair.path.high],
             single: [pair.path.high - pair.base_pitch, pair.path.low + pair.base_pitch],
-        }
+            rated_radius: None,
+        };
+        let [planet, side] = contact.single.map(|s| contact.relative_radius(s));
+        contact.rated_radius = planet.zip(side).map(|(a, b)| a.min(b));
+        contact
     }
 
     /// Relative radius of curvature per unit of cone distance τ at place `s` on the path [rad].
@@ -100,8 +106,7 @@ impl LineContact {
     /// S–N curves for pitting are meant for this pressure. That of a pair near the end of the path is higher, as the
     /// radius vanishes toward the base circle, but it occurs where sliding wears and relief unloads the flank.
     pub fn rated_pressure(&self, force: f64) -> Option<f64> {
-        let [a, b] = self.single.map(|s| self.pressure(force, s));
-        Some(a?.max(b?))
+        self.pressure_on(self.line_load(force, self.mean_cone), self.mean_cone * self.rated_radius?)
     }
 }
 

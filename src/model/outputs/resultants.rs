@@ -108,7 +108,10 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_E
                 teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             equations.tooth_loads(pair, point, g, s, |load| mesh.add(load));
             if let Some(strength) = &model.strength {
-                equations.pair_loads(pair, point, g, s, |load| strength.add_load(&mut stress[g][s], load));
+                equations.pair_loads(pair, point, g, s, |load| {
+                    strength.add_load(&mut stress[g][s], load);
+                    strength.add_pressure(&mut stress[g][s], load);
+                });
             }
         }
     }

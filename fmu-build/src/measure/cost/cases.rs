@@ -1,7 +1,8 @@
 //! What is simulated: three motions at four fidelities, each with the times at which results are compared.
 //!
-//! Results are compared seldom, as every communication point ends a step: points that lie closer than steps want to be
-//! long would dictate the steps, and the figure would show the host's step instead of the solver's.
+//! Results are compared seldom, as fixed steps end at every communication point: points that lie closer than steps want to be
+//! long would dictate them, and the figure would show the host's step instead of the solver's. Other methods answer between the
+//! ends of their steps.
 
 use anyhow::{Result, anyhow};
 use bevel_differential::contact::{ContactLaw, DampingModel};

@@ -1,4 +1,4 @@
-//! Stress and fatigue of the gears, evaluated after each accepted step.
+//! Stress and fatigue of the gears, from the loads at the ends of steps and at their peaks in between.
 
 use super::fatigue::Fatigue;
 use super::mesh_load::{FlankLoad, MeshLoad};
@@ -22,7 +22,7 @@ pub struct GearStrength {
     mean_cone: f64,
 }
 
-/// An accepted step of teeth that roll under load.
+/// Part of a completed step, or all of it, of teeth that roll under load.
 #[derive(Clone, Copy, Debug)]
 pub struct RolledStep<'a> {
     /// Time at the end [s].
@@ -63,6 +63,11 @@ impl GearStrength {
         flank.normal += force;
         flank.pressing += force * load.face_factor;
         flank.bending += force * root_factor(load.face_factor, self.rating.face_exponent);
+    }
+
+    /// Adds the pressure of a pair to that of its mesh, which no rating asks for.
+    pub fn add_pressure(&self, mesh: &mut MeshLoad, load: &PairLoad) {
+        let flank = mesh.flank(load.flank);
         let line_load = self.application * load.steepest * self.mean_cone;
         let pressure = self.rating.contact.pressure_at(line_load, self.mean_cone, load.s);
         flank.pressure = flank.pressure.max(pressure.unwrap_or(0.0));
@@ -93,7 +98,7 @@ impl GearStrength {
         self.rating.contact.rated_pressure(flank.pressing).unwrap_or(0.0)
     }
 
-    /// Counts an accepted step.
+    /// Counts a step, or a part of it.
     pub fn count(&self, fatigue: &mut Fatigue, step: &RolledStep) {
         let RolledStep { spin, roll, mesh, members, .. } = *step;
         self.watch(fatigue, step);
