@@ -31,6 +31,17 @@ fn a_restored_state_continues_bit_by_bit() {
     }
 }
 
+/// Another instance in the serialised state `bytes`, which it serialises to the same again.
+fn another_instance(bytes: &[u8]) -> Host {
+    let other = Host::new();
+    let (status, copy) = other.deserialize(bytes);
+    assert_eq!(status, Status::Ok, "{:?}", other.log());
+    assert_eq!(other.serialize(copy), bytes);
+    assert_eq!(other.set_state(copy), Status::Ok);
+    other.free_state(copy);
+    other
+}
+
 #[test]
 fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
     for level in [1, 3] {
@@ -44,12 +55,7 @@ fn a_serialised_state_continues_bit_by_bit_in_another_instance() {
         let expected = host.record_steps(5, 10);
         host.free_state(state);
 
-        let other = Host::new();
-        let (status, copy) = other.deserialize(&bytes);
-        assert_eq!(status, Status::Ok, "{:?}", other.log());
-        assert_eq!(other.serialize(copy), bytes);
-        assert_eq!(other.set_state(copy), Status::Ok);
-        other.free_state(copy);
+        let other = another_instance(&bytes);
         assert_eq!(other.get_integer("scene.gear_contact"), level);
         assert!(other.outputs() == expected_now);
         assert!(other.record_steps(5, 10) == expected, "level {level}");
@@ -79,13 +85,7 @@ fn a_state_within_a_step_of_the_solver_continues_bit_by_bit() {
     assert_eq!(host.set_state(state), Status::Ok);
     assert!(go_on(&host, 80) == expected);
     host.free_state(state);
-    let other = Host::new();
-    let (status, copy) = other.deserialize(&bytes);
-    assert_eq!(status, Status::Ok, "{:?}", other.log());
-    assert_eq!(other.serialize(copy), bytes);
-    assert_eq!(other.set_state(copy), Status::Ok);
-    other.free_state(copy);
-    assert!(go_on(&other, 80) == expected);
+    assert!(go_on(&another_instance(&bytes), 80) == expected);
 }
 
 #[test]
