@@ -61,7 +61,7 @@ fn main() {
     }
     for name in effects {
         match name.as_str() {
-            "unread" | "reversal" | "varying" => {}
+            "unread" | "counts" | "reversal" | "varying" => {}
             "rolling" => p.scene.start = Start::Rolling,
             name => match name.split_once('=') {
                 Some(("fixed_step", size)) => {
@@ -94,6 +94,9 @@ fn main() {
         for value in m.side_speed.iter().chain(&m.side_angle).chain(&m.spin_angle).chain([&m.carrier_angle]) {
             hash = (hash ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3);
         }
+    }
+    if effects.iter().any(|e| e == "counts") {
+        println!("{:?}", simulation.state().statistics);
     }
     if effects.iter().any(|e| e == "unread") {
         return;

@@ -1,5 +1,7 @@
 //! Gaps of individual tooth pairs: tooth errors and a broken tooth.
 
+use std::num::NonZero;
+
 use super::detailed::{Gaps, Opening, PairName};
 use super::errors::Chip;
 use super::errors::ToothErrors;
@@ -19,6 +21,33 @@ struct Turned {
     odd: i64,
 }
 
+/// Number of teeth of a gear.
+#[derive(Clone, Copy, Debug)]
+struct Count {
+    teeth: NonZero<u32>,
+    /// A multiple of it, large enough to make tooth numbers positive.
+    revolutions: i64,
+}
+
+impl Count {
+    /// Of a gear with `teeth` teeth.
+    fn new(teeth: i32) -> Self {
+        let teeth = NonZero::new(teeth.unsigned_abs()).unwrap_or(NonZero::<u32>::MIN);
+        let count = i64::from(teeth.get());
+        Self { teeth, revolutions: count * ((1 << 30) / count) }
+    }
+
+    /// Which tooth of the gear is number `number` of the unrolled sequence.
+    #[inline(always)]
+    fn tooth(&self, number: i64) -> usize {
+        // a division of 32 bits is the faster one
+        match u32::try_from(number.wrapping_add(self.revolutions)) {
+            Ok(positive) => (positive % self.teeth) as usize,
+            Err(_) => number.rem_euclid(i64::from(self.teeth.get())) as usize,
+        }
+    }
+}
+
 /// Gaps of all tooth pairs.
 #[derive(Clone, Debug)]
 pub struct FlankGaps {
@@ -27,7 +56,7 @@ pub struct FlankGaps {
     /// The broken tooth.
     pub chip: Option<Chip>,
     /// Numbers of planet teeth and side gear teeth.
-    teeth_of: [i64; 2],
+    teeth_of: [Count; 2],
     /// How each planet stands to the side gears.
     turned: [Turned; MAX_PLANETS],
     /// Lower bound of all gaps [m].
@@ -37,20 +66,22 @@ pub struct FlankGaps {
 impl FlankGaps {
     /// Error-free teeth of `pair`.
     pub fn perfect(pair: &Pair, planets: i32) -> Self {
-        let teeth_of = pair.gears.map(|g| i64::from(g.teeth));
+        let side_teeth = i64::from(pair.gears[1].teeth);
         // planets whose meshes are shifted by half a pitch (assembly::phases) have their tooth 0 half a pitch forward
         let turned = std::array::from_fn(|planet| {
-            let halves = 2 * teeth_of[1] * planet as i64 / i64::from(planets);
+            let halves = 2 * side_teeth * planet as i64 / i64::from(planets);
             Turned { ahead: [halves / 2, (halves + halves % 2) / 2], odd: halves % 2 }
         });
-        Self { errors: None, chip: None, teeth_of, turned, least: 0.0 }
+        Self { errors: None, chip: None, teeth_of: pair.gears.map(|g| Count::new(g.teeth)), turned, least: 0.0 }
     }
 
     /// Numbers of mesh and teeth as errors count them: planet teeth with positive spin, seen from the left mesh up the path
     /// on the drive flank and from the right mesh, half a turn on, down; side gear teeth forward. The drive flank pushes
     /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
+    #[inline(always)]
     fn ids(&self, name: PairName) -> (MeshId, PairId) {
-        let [z_p, z_s] = self.teeth_of;
+        let [planet, side] = &self.teeth_of;
+        let z_p = i64::from(planet.teeth.get());
         let Turned { ahead, odd } = self.turned[name.planet];
         let planet_tooth =
             if name.side == 0 { name.tooth } else { z_p / 2 - if z_p % 2 == 0 { odd } else { 0 } - name.tooth };
@@ -59,15 +90,15 @@ impl FlankGaps {
         (
             MeshId { planet: name.planet, side: name.side },
             PairId {
-                planet_tooth: planet_tooth.rem_euclid(z_p) as usize,
-                side_tooth: side_tooth.rem_euclid(z_s) as usize,
+                planet_tooth: planet.tooth(planet_tooth),
+                side_tooth: side.tooth(side_tooth),
                 flank: name.flank,
             },
         )
     }
 
     /// Opening of a pair of teeth in `mesh` at place `s` [rad].
-    #[inline]
+    #[inline(always)]
     pub fn of(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {
         let mut opening = self.errors.as_ref().map_or(Opening::NONE, |errors| errors.opening(mesh, pair, s));
         opening.edge = self.chip.as_ref().and_then(|chip| chip.edge(mesh, pair));

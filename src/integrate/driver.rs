@@ -123,6 +123,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
 ///
 /// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
 /// completed, and thus leaves no trace.
+#[inline(always)]
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
     method: &M,
     system: &S,

@@ -129,15 +129,19 @@ pub fn sum<const N: usize, S: SecondOrder<N> + ?Sized>(from: usize, to: usize, t
     let end = first + count;
     // adding to −0 changes nothing, and the compiler knows
     let mut others = -0.0;
-    for i in from..to {
-        if i < first || i >= end {
-            others += term(i);
-        }
+    for i in from..to.min(first) {
+        others += term(i);
+    }
+    for i in from.max(end)..to {
+        others += term(i);
     }
     if to <= first || from >= end {
-        return others;
+        others
+    } else if from <= first && to >= end {
+        others + in_pairs(count, |j| term(first + j))
+    } else {
+        others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { -0.0 })
     }
-    others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { -0.0 })
 }
 
 /// Sum of `count` terms, 0, 1, 2, 4 or 8, in pairs.

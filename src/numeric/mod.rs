@@ -3,6 +3,7 @@
 
 mod elementary;
 mod jet;
+pub mod lanes;
 mod minimum;
 mod root;
 mod scalar;

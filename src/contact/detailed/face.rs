@@ -149,9 +149,9 @@ impl Face {
         }
     }
 
-    /// The parts that carry at the approach `arc` [rad]: sound, and broken.
+    /// The parts that carry at the approach `arc` [rad]: sound, and broken. `cut` is room for the points of what is cut.
     #[inline(always)]
-    pub fn loaded(&self, arc: f64, opening: &Opening) -> [Part<'_>; 2] {
+    pub fn loaded<'a>(&'a self, arc: f64, opening: &Opening, cut: &'a mut Cut) -> [Part<'a>; 2] {
         let a = arc - opening.turn;
         let [even, bend] = [opening.even.v, opening.bend];
         match self {
@@ -160,79 +160,76 @@ impl Face {
                     Some((edge, depth)) if node.cone > edge => even + depth,
                     _ => even,
                 };
-                let all = if carries(a, even, bend, node.cone) { Some(std::slice::from_ref(node)) } else { None };
-                [Part { all, cut: None, even }, Part::NONE]
+                let all: &[Node] = if carries(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
+                [Part { nodes: all, even }, Part::NONE]
             }
             Self::Cut(ends, all) => {
+                let [first, second] = &mut cut.0;
                 let Some((edge, depth)) = opening.edge else {
-                    return [Part::new(all, *ends, even, carrying(a, even, bend, *ends)), Part::NONE];
+                    return [Part::new(all, *ends, even, carrying(a, even, bend, *ends), first), Part::NONE];
                 };
                 let ([inner, outer], edge) = (*ends, edge.clamp(ends[0], ends[1]));
                 let sound = if inner < edge { carrying(a, even, bend, [inner, edge]) } else { None };
                 let even_beyond = even + depth;
                 let broken = if edge < outer { carrying(a, even_beyond, bend, [edge, outer]) } else { None };
-                [Part::new(all, *ends, even, sound), Part::new(all, *ends, even_beyond, broken)]
+                [Part::new(all, *ends, even, sound, first), Part::new(all, *ends, even_beyond, broken, second)]
             }
             Self::Sliced(ends, all) => {
-                let (edge, depth) = opening.edge.unwrap_or((ends[1], 0.0));
+                let part = |even: f64, nodes| {
+                    let nodes: &[Node] = if carrying(a, even, bend, *ends).is_some() { nodes } else { &[] };
+                    Part { nodes, even }
+                };
+                let Some((edge, depth)) = opening.edge else { return [part(even, all), Part::NONE] };
                 let (sound, broken) = all.split_at(all.iter().take_while(|node| node.cone <= edge).count());
-                let carries = |even: f64| carrying(a, even, bend, *ends).is_some();
-                let even_beyond = even + depth;
-                [
-                    Part { all: carries(even).then_some(sound), cut: None, even },
-                    Part {
-                        all: (!broken.is_empty() && carries(even_beyond)).then_some(broken),
-                        cut: None,
-                        even: even_beyond,
-                    },
-                ]
+                [part(even, sound), part(even + depth, broken)]
             }
         }
     }
 }
 
+/// Room for points of parts that are cut.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cut([Option<[Node; POINTS]>; 2]);
+
 /// A part of the face that carries.
 #[derive(Clone, Copy, Debug)]
 pub struct Part<'a> {
-    all: Option<&'a [Node]>,
-    cut: Option<[Node; POINTS]>,
+    /// Its points.
+    pub nodes: &'a [Node],
     /// E there [m].
     pub even: f64,
 }
 
 impl<'a> Part<'a> {
     /// Nothing.
-    pub const NONE: Self = Self { all: None, cut: None, even: 0.0 };
+    pub const NONE: Self = Self { nodes: &[], even: 0.0 };
 
     /// All of it in one point.
     #[inline(always)]
     pub fn of(node: &'a Node) -> Self {
-        Self { all: Some(std::slice::from_ref(node)), cut: None, even: 0.0 }
+        Self { nodes: std::slice::from_ref(node), even: 0.0 }
     }
 
     #[inline(always)]
-    fn new(all: &'a [Node], ends: [f64; 2], even: f64, part: Option<[f64; 2]>) -> Self {
-        match part {
-            None => Self { all: None, cut: None, even },
-            Some(part) if part == ends => Self { all: Some(all), cut: None, even },
-            Some(part) => Self { all: None, cut: Some(nodes(&GAUSS, part)), even },
-        }
-    }
-
-    /// Its points.
-    #[inline(always)]
-    pub fn nodes(&self) -> &[Node] {
-        match (self.all, &self.cut) {
-            (Some(all), _) => all,
-            (None, Some(cut)) => cut,
-            (None, None) => &[],
-        }
+    fn new(
+        all: &'a [Node],
+        ends: [f64; 2],
+        even: f64,
+        part: Option<[f64; 2]>,
+        cut: &'a mut Option<[Node; POINTS]>,
+    ) -> Self {
+        let nodes = match part {
+            None => &[],
+            Some(part) if part == ends => all,
+            Some(part) => cut.insert(nodes(&GAUSS, part)),
+        };
+        Self { nodes, even }
     }
 
     /// Whether nothing carries.
     #[inline(always)]
     pub fn is_empty(&self) -> bool {
-        self.all.is_none() && self.cut.is_none()
+        self.nodes.is_empty()
     }
 }
 
@@ -303,9 +300,9 @@ mod tests {
                             let o = opening(even, turn, bend, edge);
                             for n in [1, 2] {
                                 let (mut sum, mut visits) = (0.0, 0);
-                                for part in face.loaded(a, &o) {
+                                for part in face.loaded(a, &o, &mut Cut::default()) {
                                     visits += usize::from(!part.is_empty());
-                                    for j in part.nodes() {
+                                    for j in part.nodes {
                                         let p = a - turn - part.even * j.per_cone - bend * j.cone;
                                         assert!(p > -1e-15);
                                         sum += j.weight * p.powi(n);
@@ -328,9 +325,10 @@ mod tests {
     fn the_whole_face_has_the_closed_form_of_its_moments() {
         let face = Face::cut(FACE[0], FACE[1]);
         let (moment, cone) = face.moment();
-        let [whole, _] = face.loaded(1e-3, &opening(0.0, 0.0, 0.0, None));
-        let sum: f64 = whole.nodes().iter().map(|j| j.weight).sum();
-        let force: f64 = whole.nodes().iter().map(|j| j.weight / j.cone).sum();
+        let mut cut = Cut::default();
+        let [whole, _] = face.loaded(1e-3, &opening(0.0, 0.0, 0.0, None), &mut cut);
+        let sum: f64 = whole.nodes.iter().map(|j| j.weight).sum();
+        let force: f64 = whole.nodes.iter().map(|j| j.weight / j.cone).sum();
         assert!((sum / moment - 1.0).abs() < 1e-14 && (sum / force / cone - 1.0).abs() < 1e-14);
     }
 }

@@ -8,6 +8,7 @@
 //!
 //! e/R = E/R + turn + bend R is least at an end of the face, at the edge of a broken tooth, or at R² = E/bend.
 
+use super::face::Cut;
 use super::{Detailed, Opening};
 use crate::contact::any_spring::with_spring;
 use crate::contact::spring::Spring;
@@ -39,8 +40,8 @@ impl Detailed {
             let place = law.place(known.s);
             let load = |arc: f64| if arc > 0.0 { law.respond(&place, arc).torque } else { 0.0 };
             let mut torque = 0.0;
-            for part in self.face.loaded(approach, opening) {
-                for node in part.nodes() {
+            for part in self.face.loaded(approach, opening, &mut Cut::default()) {
+                for node in part.nodes {
                     let arc = approach - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
                     torque += node.weight * load(arc);
                 }

@@ -6,7 +6,7 @@ use super::super::pairs::{Engagement, Flank, Spot, ToothPair};
 use super::super::spring::Spring;
 use super::super::tooth_friction::ToothFriction;
 use super::directions::{Arcs, Directions};
-use super::face::{Face, Node, Part};
+use super::face::{Cut, Face, Node, Part};
 use super::pair::PairMotion;
 use super::sums::{LoadedNode, Rubbing, Sums};
 use super::totals::Totals;
@@ -145,13 +145,14 @@ impl Detailed {
                 if self.seats {
                     opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
                 }
-                let parts = self.face.loaded(pair.depth, &opening);
+                let mut cut = Cut::default();
+                let parts = self.face.loaded(pair.depth, &opening, &mut cut);
                 if parts.iter().all(Part::is_empty) {
                     return;
                 }
                 let place = spring.place(pair.s);
                 for part in parts {
-                    for node in part.nodes() {
+                    for node in part.nodes {
                         let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
                         if arc > 0.0 {
                             energy += node.weight * spring.respond(&place, arc).energy;
@@ -210,6 +211,7 @@ impl Detailed {
         mut look: impl FnMut(&SliceLoad),
     ) {
         let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
+        let mut cut = Cut::default();
         let mut parts = [Part::of(&self.whole), Part::NONE];
         if OPEN {
             opening = self.opening(teeth, name, pair.s);
@@ -218,7 +220,7 @@ impl Detailed {
                 axial = self.directions.axial(&arcs);
                 opening.displace(state.position[2], axial);
             }
-            parts = self.face.loaded(pair.depth, &opening);
+            parts = self.face.loaded(pair.depth, &opening, &mut cut);
         }
         // most pairs that are near do not touch
         let is_clear = if OPEN { parts.iter().all(Part::is_empty) } else { pair.depth <= 0.0 };

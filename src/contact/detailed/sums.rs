@@ -84,7 +84,7 @@ impl Sums {
         rubbing: Option<&Rubbing>,
         mut look: impl FnMut(&LoadedNode),
     ) {
-        for node in part.nodes() {
+        for node in part.nodes {
             let opened = opening.turn + part.even * node.per_cone + opening.bend * node.cone;
             let arc = if OPEN { at.arc - opened } else { at.arc };
             // rounding at an end of the part that carries

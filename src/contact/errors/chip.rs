@@ -15,8 +15,6 @@ pub struct Chip {
     on_planet: bool,
     index: usize,
     tooth: usize,
-    teeth: usize,
-    gears: usize,
     /// Cone distance beyond which material is missing [m].
     from: f64,
     depth: f64,
@@ -28,7 +26,6 @@ impl Chip {
     pub fn new(spec: &ToothFaultSpec, pair: &Pair, planets: usize) -> Result<Option<Self>, Problem> {
         spec.check(pair.gears.map(|g| g.teeth), planets)?;
         let on_planet = spec.gear == FaultyGear::Planet;
-        let gear = &pair.gears[usize::from(!on_planet)];
         let face_width = pair.outer_cone - pair.inner_cone;
         // all of it passed the check above
         let whole = |i: i32| usize::try_from(i).unwrap_or(0);
@@ -36,8 +33,6 @@ impl Chip {
             on_planet,
             index: whole(spec.index),
             tooth: whole(spec.tooth),
-            teeth: whole(gear.teeth),
-            gears: if on_planet { planets } else { 2 },
             from: pair.outer_cone - spec.missing_fraction * face_width,
             depth: spec.depth,
             onset: spec.onset,
@@ -50,15 +45,15 @@ impl Chip {
     }
 
     /// Whether the broken tooth is in the pair.
-    #[inline]
+    #[inline(always)]
     fn is_in(&self, mesh: MeshId, pair: PairId) -> bool {
         let (index, tooth) =
             if self.on_planet { (mesh.planet, pair.planet_tooth) } else { (mesh.side, pair.side_tooth) };
-        index % self.gears == self.index && tooth % self.teeth == self.tooth
+        index == self.index && tooth == self.tooth
     }
 
-    /// Cone distance beyond which material is missing on the pair, and its depth [m], if it is.
-    #[inline]
+    /// Cone distance beyond which material is missing on the pair, its indices in range, and its depth [m], if it is.
+    #[inline(always)]
     pub fn edge(&self, mesh: MeshId, pair: PairId) -> Option<(f64, f64)> {
         self.is_in(mesh, pair).then_some((self.from, self.depth))
     }
@@ -86,7 +81,6 @@ mod tests {
         let (left, right) = (MeshId { planet: 0, side: 0 }, MeshId { planet: 1, side: 1 });
         let edge = pair.outer_cone - 0.25 * (pair.outer_cone - pair.inner_cone);
         assert_eq!(chip.edge(right, id(5)), Some((edge, 2e-3)));
-        assert_eq!(chip.edge(right, id(5 + 16)), Some((edge, 2e-3)));
         assert_eq!(chip.edge(right, id(4)), None);
         assert_eq!(chip.edge(left, id(5)), None);
         assert_eq!(Chip::new(&ToothFaultSpec::default(), &pair, 2), Ok(None));

@@ -107,6 +107,10 @@ pub struct PitchDeviations {
     /// Side gears, then planets; of each the flanks that face the direction in which teeth are counted, and the others.
     /// Positions in that direction, along the line of action at R_m [m].
     gears: Box<[[Box<[f64]>; 2]]>,
+    /// What every flank misses [m]: by gear, by the way it faces, by tooth.
+    missing: Box<[f64]>,
+    /// The most teeth of a gear.
+    most: usize,
 }
 
 impl PitchDeviations {
@@ -125,8 +129,21 @@ impl PitchDeviations {
                     flank
                 })
             };
-            Self { gears: (0..2 + planets).map(gear).collect() }
+            Self::of_gears((0..2 + planets).map(gear).collect())
         })
+    }
+
+    fn of_gears(gears: Box<[[Box<[f64]>; 2]]>) -> Self {
+        let most = gears.iter().flatten().map(|flank| flank.len()).max().unwrap_or(0);
+        let mut missing = vec![0.0; 2 * most * gears.len()];
+        for (flank, row) in gears.iter().flatten().zip(missing.chunks_mut(most.max(1))) {
+            row[..flank.len()].copy_from_slice(flank);
+        }
+        // a flank that faces forward and stands ahead has more material
+        for row in missing.chunks_mut(most.max(1)).step_by(2) {
+            row.iter_mut().for_each(|position| *position = -*position);
+        }
+        Self { gears, missing: missing.into(), most }
     }
 
     /// Positions of the flanks of gear `number`, in range, as in [`GearTeeth`].
@@ -145,6 +162,7 @@ impl PitchDeviations {
                 own.copy_from_slice(given);
             }
         }
+        *self = Self::of_gears(std::mem::take(&mut self.gears));
         Ok(())
     }
 
@@ -158,15 +176,14 @@ impl PitchDeviations {
     }
 
     /// Gap [m] at R_m of a pair, its indices in range.
-    #[inline]
+    #[inline(always)]
     pub fn gap(&self, mesh: MeshId, pair: PairId) -> f64 {
         // the drive flank of a planet faces along t: with the count of its teeth at the left mesh, against it at the
         // right one; that of a side gear faces against t, and so against the count of its teeth
         let planet_forward = (pair.flank == Flank::Drive) == (mesh.side == 0);
         let side_forward = pair.flank == Flank::Coast;
         let missing = |gear: usize, forward: bool, tooth: usize| {
-            let position = self.gears[gear][usize::from(!forward)][tooth];
-            if forward { -position } else { position }
+            self.missing[(2 * gear + usize::from(!forward)) * self.most + tooth]
         };
         missing(2 + mesh.planet, planet_forward, pair.planet_tooth) + missing(mesh.side, side_forward, pair.side_tooth)
     }
@@ -245,6 +262,7 @@ mod tests {
         }
         // tooth 3 of planet 1 stands ahead by the same amount on both flanks
         (all.gears[3][0][3], all.gears[3][1][3]) = (1e-6, 1e-6);
+        let all = PitchDeviations::of_gears(all.gears);
         let gap = |side, flank| all.gap(MeshId { planet: 1, side }, PairId { planet_tooth: 3, side_tooth: 0, flank });
         // spin carries it along t at the left mesh: it is early at driving there, and late at the right mesh
         assert_eq!([gap(0, Flank::Drive), gap(0, Flank::Coast)], [-1e-6, 1e-6]);

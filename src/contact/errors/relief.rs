@@ -52,7 +52,11 @@ impl TipRelief {
     pub fn gap(&self, s: f64) -> Jet {
         let mut gap = Jet::constant(0.0);
         for (i, way) in [1.0, -1.0].into_iter().enumerate() {
-            let [h, slope, curvature] = ramp((way * s - self.end[i]) * self.per_length + 1.0);
+            let x = (way * s - self.end[i]) * self.per_length + 1.0;
+            if x <= 0.0 || self.amount[i] == 0.0 {
+                continue;
+            }
+            let [h, slope, curvature] = ramp(x);
             let (amount, per) = (self.amount[i], way * self.per_length);
             gap.v += amount * h;
             gap.d += amount * per * slope;

@@ -14,6 +14,7 @@ use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
 use crate::model::scene::{Inputs, Method, SolverSpec};
+use crate::numeric::lanes::{Task, in_lanes};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
@@ -62,9 +63,39 @@ pub struct Stretch<'a> {
 }
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
-/// be set back. Compiled once for each size, whoever calls it.
+/// be set back. Compiled once for each size and width of vectors, whoever calls it.
 #[inline(never)]
 pub fn integrate<const N: usize, E: Recorded<N>>(
+    equations: E,
+    model: &Model,
+    state: &mut State,
+    stretch: Stretch,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
+    in_lanes(Integration::<N, E> { equations, model, state, stretch, budget })
+}
+
+/// The integration of a stretch, as a task for vectors of any width.
+struct Integration<'a, const N: usize, E> {
+    equations: E,
+    model: &'a Model,
+    state: &'a mut State,
+    stretch: Stretch<'a>,
+    budget: &'a mut u64,
+}
+
+impl<const N: usize, E: Recorded<N>> Task for Integration<'_, N, E> {
+    type Output = Result<(), StepFailure>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { equations, model, state, stretch, budget } = self;
+        integrate_stretch(equations, model, state, stretch, budget)
+    }
+}
+
+#[inline(always)]
+fn integrate_stretch<const N: usize, E: Recorded<N>>(
     mut equations: E,
     model: &Model,
     state: &mut State,
