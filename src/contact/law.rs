@@ -20,14 +20,16 @@ pub struct Response {
     pub total_by_place: f64,
     /// ∂²U/∂s² [J/rad²].
     pub by_place_twice: f64,
+    /// U [J], where it is asked for.
+    pub energy: f64,
 }
 
 /// Law of a tooth pair at penetration `d` > 0 [m], rate ḋ [m/s] and place `s` [rad].
 pub trait PairLaw {
     /// Whether the response depends on the place.
     const PLACED: bool;
-    /// Force and its derivatives.
-    fn respond(&self, d: f64, rate: f64, s: f64) -> Response;
+    /// Force and its derivatives, and the energy if `STORED`.
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response;
     /// U(d, s) [J].
     fn energy(&self, d: f64, s: f64) -> f64;
 }
@@ -35,8 +37,9 @@ pub trait PairLaw {
 impl PairLaw for Impact {
     const PLACED: bool = false;
     #[inline(always)]
-    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
-        Response { force: self.force(d, rate), ..Response::default() }
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, _s: f64) -> Response {
+        let energy = if STORED { Impact::energy(self, d) } else { 0.0 };
+        Response { force: self.force(d, rate), energy, ..Response::default() }
     }
     #[inline(always)]
     fn energy(&self, d: f64, _s: f64) -> f64 {
@@ -56,10 +59,12 @@ pub struct Power {
 impl PairLaw for Power {
     const PLACED: bool = false;
     #[inline(always)]
-    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, _s: f64) -> Response {
         let elastic = self.elastic.force(d, 0.0);
         let stiffness = self.elastic.exponent * elastic.elastic / d;
-        Response { force: self.damping.apply(elastic.elastic, stiffness, d, rate), ..Response::default() }
+        let force = self.damping.apply(elastic.elastic, stiffness, d, rate);
+        let energy = if STORED { self.elastic.energy(d) } else { 0.0 };
+        Response { force, energy, ..Response::default() }
     }
     #[inline(always)]
     fn energy(&self, d: f64, _s: f64) -> f64 {
@@ -79,8 +84,9 @@ pub struct Lumped {
 impl PairLaw for Lumped {
     const PLACED: bool = false;
     #[inline(always)]
-    fn respond(&self, d: f64, rate: f64, _s: f64) -> Response {
-        Response { force: self.damping.apply(self.stiffness * d, self.stiffness, d, rate), ..Response::default() }
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, _s: f64) -> Response {
+        let force = self.damping.apply(self.stiffness * d, self.stiffness, d, rate);
+        Response { force, energy: 0.5 * self.stiffness * d * d, ..Response::default() }
     }
     #[inline(always)]
     fn energy(&self, d: f64, _s: f64) -> f64 {
@@ -104,7 +110,7 @@ pub struct Face<S> {
 impl<S: Spring> PairLaw for Face<S> {
     const PLACED: bool = true;
     #[inline(always)]
-    fn respond(&self, d: f64, rate: f64, s: f64) -> Response {
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response {
         let e = self.specific.at(d * self.per_cone, s);
         let (per_arc, per_depth) = (self.moment, self.moment * self.per_cone);
         let (elastic, stiffness) = (per_depth * e.torque, per_depth * self.per_cone * e.stiffness);
@@ -122,6 +128,7 @@ impl<S: Spring> PairLaw for Face<S> {
             elastic_by_place,
             total_by_place,
             by_place_twice: per_arc * e.by_place_twice,
+            energy: per_arc * e.energy,
         }
     }
     #[inline(always)]

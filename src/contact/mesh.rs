@@ -139,15 +139,15 @@ impl Mesh {
 
     /// Rate ḋ [m/s] and response of a pair.
     #[inline(always)]
-    fn respond(&self, law: &impl PairLaw, pair: &ToothPair, state: &MeshState) -> (f64, Response) {
+    fn respond<const STORED: bool>(&self, law: &impl PairLaw, pair: &ToothPair, state: &MeshState) -> (f64, Response) {
         let rate = self.cone * (pair.slope[0] * state.rate[0] + pair.slope[1] * state.rate[1]);
-        (rate, law.respond(self.cone * pair.depth, rate, pair.s))
+        (rate, law.respond::<STORED>(self.cone * pair.depth, rate, pair.s))
     }
 
     /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth have no such pairs.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
         with_law!(&self.law, law, SINGLE => {
-            self.visit::<SINGLE>(state.position, |pair| visit(pair, &self.respond(law, pair, state).1.force));
+            self.visit::<SINGLE>(state.position, |pair| visit(pair, &self.respond::<false>(law, pair, state).1.force));
         }, _solid => {});
     }
 
@@ -169,7 +169,7 @@ impl Mesh {
         with_law!(&self.law, law, SINGLE => {
             let mut sum = MeshForce::default();
             self.visit::<SINGLE>(state.position, |pair| {
-                let (rate, response) = self.respond(law, pair, state);
+                let (rate, response) = self.respond::<false>(law, pair, state);
                 self.add(law, &mut sum, pair, rate, &response);
             });
             sum
@@ -177,13 +177,15 @@ impl Mesh {
     }
 
     /// Forces, heat and the forces' exact derivatives.
+    #[inline(always)]
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
         with_law!(&self.law, law, SINGLE => {
             let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
             let r = self.cone;
             self.visit::<SINGLE>(state.position, |pair| {
-                let (rate, response) = self.respond(law, pair, state);
+                let (rate, response) = self.respond::<true>(law, pair, state);
                 self.add(law, &mut sum, pair, rate, &response);
+                jacobian.energy += response.energy;
                 let f = &response.force;
                 let [qq, xx] = pair.curvature;
                 let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];

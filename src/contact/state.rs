@@ -20,11 +20,13 @@ pub struct MeshForce {
     pub heat: f64,
 }
 
-/// Derivatives of the forces of a mesh.
+/// Derivatives of the forces of a mesh, and its energy, which is found along with them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MeshJacobian {
     /// ∂force/∂(q, x) [N·m/rad].
     pub by_position: [[f64; 2]; 2],
     /// ∂force/∂(q̇, ẋ) [N·m·s/rad].
     pub by_rate: [[f64; 2]; 2],
+    /// Elastic energy V [J].
+    pub energy: f64,
 }

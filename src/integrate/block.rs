@@ -5,17 +5,19 @@
 //!
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
-use super::linear::Factors;
-use super::system::{Linearisation, Matrix, Point, SecondOrder, sum};
+use super::linear::{Inverse, times};
+use super::system::{Linearisation, Matrix, Point, SecondOrder};
 
-/// I/s − J, factorised.
+/// I/s − J, inverted.
 pub struct Block<const N: usize> {
-    factors: Factors<N>,
+    inverse: Inverse<N>,
+    /// s K by columns.
+    stiffness: Matrix<N>,
     s: f64,
 }
 
 impl<const N: usize> Block<N> {
-    /// Factorises I/s − J; `None` if it is singular.
+    /// Inverts I/s − J; `None` if it is singular.
     #[inline(always)]
     pub fn new<E: SecondOrder<N>>(system: &E, lin: &Linearisation<N, E::Power>, s: f64) -> Option<Self> {
         let mut matrix = lin.by_position;
@@ -26,17 +28,25 @@ impl<const N: usize> Block<N> {
             }
             matrix[i][i] += 1.0 / s;
         }
-        Some(Self { factors: Factors::new::<E>(matrix)?, s })
+        let inverse = Inverse::new::<E>(matrix)?;
+        let mut stiffness = [[0.0; N]; N];
+        for i in 0..N {
+            for j in 0..N {
+                stiffness[j][i] = s * lin.by_position[i][j];
+            }
+        }
+        Some(Self { inverse, stiffness, s })
     }
 
     /// Solves for the right-hand side `r` in place.
     #[inline(always)]
-    pub fn solve<E: SecondOrder<N>>(&self, system: &E, by_position: &Matrix<N>, r: &mut Point<N>) {
+    pub fn solve<E: SecondOrder<N>>(&self, system: &E, r: &mut Point<N>) {
         let s = self.s;
+        let pulled = times::<N, E>(&self.stiffness, &r.q);
         for i in 0..N {
-            r.v[i] += s * sum::<N, E>(0, N, |j| by_position[i][j] * r.q[j]);
+            r.v[i] += pulled[i];
         }
-        self.factors.solve::<E>(&mut r.v);
+        self.inverse.solve::<E>(&mut r.v);
         let rate = system.rates(&r.v);
         for i in 0..N {
             r.q[i] = s * (r.q[i] + rate[i]);

@@ -34,9 +34,12 @@ impl<const N: usize> Extension<N> {
         if fraction == 1.0 {
             return *end;
         }
-        let q = |i: usize| bent(start.q[i], end.q[i], bends.map(|bend| bend.q[i]), fraction);
-        let v = |i: usize| bent(start.v[i], end.v[i], bends.map(|bend| bend.v[i]), fraction);
-        Point { q: std::array::from_fn(q), v: std::array::from_fn(v) }
+        let mut at = Point::ZERO;
+        for i in 0..N {
+            at.q[i] = bent(start.q[i], end.q[i], [bends[0].q[i], bends[1].q[i], bends[2].q[i]], fraction);
+            at.v[i] = bent(start.v[i], end.v[i], [bends[0].v[i], bends[1].v[i], bends[2].v[i]], fraction);
+        }
+        at
     }
 
     /// By how much the motion halfway, over a step of size `h` [s], contradicts the equations: `slope` is what they demand
@@ -46,9 +49,12 @@ impl<const N: usize> Extension<N> {
         let Self { start, end, bends } = self;
         let per_h = 1.0 / h;
         let rise = |from: f64, to: f64, one: f64, two: f64| per_h * ((to - from) + 0.25 * (one + two));
-        let q = |i: usize| slope.q[i] - rise(start.q[i], end.q[i], bends[1].q[i], bends[2].q[i]);
-        let v = |i: usize| slope.v[i] - rise(start.v[i], end.v[i], bends[1].v[i], bends[2].v[i]);
-        Point { q: std::array::from_fn(q), v: std::array::from_fn(v) }
+        let mut defect = Point::ZERO;
+        for i in 0..N {
+            defect.q[i] = slope.q[i] - rise(start.q[i], end.q[i], bends[1].q[i], bends[2].q[i]);
+            defect.v[i] = slope.v[i] - rise(start.v[i], end.v[i], bends[1].v[i], bends[2].v[i]);
+        }
+        defect
     }
 }
 

@@ -161,10 +161,12 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
             let next = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
-            let last = next.as_ref().map_or_else(|| system.evaluate_at(&end, reached).1, |lin| lin.power);
+            let (last, energy) = match &next {
+                Some((lin, energy)) => (lin.power, *energy),
+                None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
+            };
             statistics.evaluations += u64::from(done);
             let power = [pending.power[0], halfway, last];
-            let energy = system.energy(&end);
             let imbalance = system.imbalance([pending.energy, energy], h, &power) / (LEDGER * tolerance);
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
@@ -183,7 +185,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
             let step = Step { h, time: reached, start: &start, end: &end, power };
             let flow = observe(step).map_err(Failure::Refused)?;
             match next {
-                Some(next) if flow == AfterStep::Continue => begin = Some((next, energy)),
+                Some(next) if flow == AfterStep::Continue => begin = Some(next),
                 _ => return Ok(()),
             }
         }
@@ -192,7 +194,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
         let (lin, energy) = begin.get_or_insert_with(|| {
             // that of a step which was pending before this call was counted then
             let counts = (!is_resumed).then_some(&mut *statistics);
-            (linearise::<N, M, S>(system, (point, course.time), counts), system.energy(point))
+            linearise::<N, M, S>(system, (point, course.time), counts)
         });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
         let remaining = course.remaining();
@@ -263,21 +265,23 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
+/// The equations linearised, as far as the method asks for it, and the energies.
 #[inline(never)]
 fn linearise<const N: usize, M: Method, S: SecondOrder<N>>(
     system: &S,
     (point, time): (&Point<N>, f64),
     mut statistics: Option<&mut Statistics>,
-) -> Linearisation<N, S::Power> {
+) -> (Linearisation<N, S::Power>, [f64; 2]) {
     if let Some(statistics) = &mut statistics {
         statistics.evaluations += 1;
         statistics.jacobians += u64::from(M::IMPLICIT);
     }
-    if !M::IMPLICIT {
-        let (acceleration, power) = system.evaluate_at(point, time);
-        return Linearisation { acceleration, by_position: [[0.0; N]; N], by_velocity: [[0.0; N]; N], power };
+    if M::IMPLICIT {
+        return system.linearise_with_energy(point, time);
     }
-    system.linearise_at(point, time)
+    let (acceleration, power) = system.evaluate_at(point, time);
+    let (by_position, by_velocity) = ([[0.0; N]; N], [[0.0; N]; N]);
+    (Linearisation { acceleration, by_position, by_velocity, power }, system.energy(point))
 }
 
 impl Control {

@@ -25,6 +25,8 @@ pub trait DynSecondOrder<const N: usize, P> {
     fn weights(&self, at: &Point<N>) -> Point<N>;
     /// See [`SecondOrder::energy`].
     fn energy(&self, at: &Point<N>) -> [f64; 2];
+    /// See [`SecondOrder::linearise_with_energy`].
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, P>, [f64; 2]);
     /// See [`SecondOrder::imbalance`].
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[P; 3]) -> f64;
     /// See [`SecondOrder::reach`].
@@ -65,6 +67,9 @@ impl<const N: usize, S: SecondOrder<N>> DynSecondOrder<N, S::Power> for S {
     }
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
         SecondOrder::energy(self, at)
+    }
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, S::Power>, [f64; 2]) {
+        SecondOrder::linearise_with_energy(self, at, time)
     }
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[S::Power; 3]) -> f64 {
         SecondOrder::imbalance(self, energies, h, power)
@@ -115,6 +120,9 @@ impl<const N: usize, P: Copy> SecondOrder<N> for DynSystem<'_, N, P> {
     }
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
         self.0.energy(at)
+    }
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, P>, [f64; 2]) {
+        self.0.linearise_with_energy(at, time)
     }
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[P; 3]) -> f64 {
         self.0.imbalance(energies, h, power)

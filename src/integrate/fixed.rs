@@ -15,7 +15,7 @@
 //! linearisation does not contain yet.
 
 use super::driver::{AfterStep, Failure, Step};
-use super::linear::Factors;
+use super::linear::Inverse;
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
@@ -114,12 +114,12 @@ fn stage<const N: usize, S: SecondOrder<N>>(
     finite.then_some(y)
 }
 
-/// Factors of I − s D − s² K B.
+/// Inverse of I − s D − s² K B.
 fn factors<const N: usize, S: SecondOrder<N>>(
     system: &S,
     lin: &Linearisation<N, S::Power>,
     s: f64,
-) -> Option<Factors<N>> {
+) -> Option<Inverse<N>> {
     let mut matrix = lin.by_position;
     system.times_rates(&mut matrix);
     for i in 0..N {
@@ -128,5 +128,5 @@ fn factors<const N: usize, S: SecondOrder<N>>(
         }
         matrix[i][i] += 1.0;
     }
-    Factors::new::<S>(matrix)
+    Inverse::new::<S>(matrix)
 }

@@ -93,7 +93,7 @@ impl Method for Radau {
             combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
             combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
             let [first, re, im] = &mut change;
-            real.solve(system, &lin.by_position, first);
+            real.solve(system, first);
             complex.solve(system, &lin.by_position, re, im);
             for i in 0..3 {
                 combine(&mut w[i], &[1.0], 1.0, &change[i..]);
@@ -129,11 +129,11 @@ impl Method for Radau {
         let mut defect = Point::ZERO;
         combine(&mut defect, &ESTIMATE, per_h, &z);
         let mut error = shifted(&slope, &defect);
-        real.solve(system, &lin.by_position, &mut error);
+        real.solve(system, &mut error);
         if norm.size(&error) > 1.0 {
             let at = shifted(start, &error);
             error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
-            real.solve(system, &lin.by_position, &mut error);
+            real.solve(system, &mut error);
             counts.evaluations += 1;
         }
         let mut bends = [Point::ZERO; 3];
@@ -143,7 +143,7 @@ impl Method for Radau {
         let end = shifted(start, &z[2]);
         let size = norm.judge(&error, &end);
         let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
-        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve(system, &lin.by_position, defect)))
+        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve(system, defect)))
     }
 }
 

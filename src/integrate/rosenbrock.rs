@@ -87,7 +87,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
                 r.v[i] += h * g[stage] * drift[i];
             }
         }
-        block.solve(system, &lin.by_position, &mut r);
+        block.solve(system, &mut r);
         u[stage] = r;
     }
     let error = u[S - 1];
@@ -101,6 +101,6 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     }
     let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
     counts.evaluations += tableau.c.len() as u64;
-    let solve = |defect: &mut Point<N>| block.solve(system, &lin.by_position, defect);
+    let solve = |defect: &mut Point<N>| block.solve(system, defect);
     Some(trial.looked_into(system, (time, h), norm, counts, solve))
 }

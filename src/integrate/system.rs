@@ -92,6 +92,12 @@ pub trait SecondOrder<const N: usize> {
         [0.0; 2]
     }
 
+    /// [`Self::linearise_at`] and [`Self::energy`] at one point, for systems that find both in one go.
+    #[inline(always)]
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Self::Power>, [f64; 2]) {
+        (self.linearise_at(at, time), self.energy(at))
+    }
+
     /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the
     /// energies at its ends and the ledger rates at begin, middle and end.
     #[inline(always)]
@@ -119,28 +125,6 @@ pub trait SecondOrder<const N: usize> {
     #[inline(always)]
     fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None
-    }
-}
-
-/// Σ term(i) over i in `from..to`, alike bodies apart and in pairs.
-#[inline(always)]
-pub fn sum<const N: usize, S: SecondOrder<N> + ?Sized>(from: usize, to: usize, term: impl Fn(usize) -> f64) -> f64 {
-    let (first, count) = S::ALIKE;
-    let end = first + count;
-    // adding to −0 changes nothing, and the compiler knows
-    let mut others = -0.0;
-    for i in from..to.min(first) {
-        others += term(i);
-    }
-    for i in from.max(end)..to {
-        others += term(i);
-    }
-    if to <= first || from >= end {
-        others
-    } else if from <= first && to >= end {
-        others + in_pairs(count, |j| term(first + j))
-    } else {
-        others + in_pairs(count, |j| if (from..to).contains(&(first + j)) { term(first + j) } else { -0.0 })
     }
 }
 

@@ -13,6 +13,10 @@ pub trait Task {
     fn run(self) -> Self::Output;
 }
 
+/// Environment variable that keeps tasks from wider instructions where it is "narrow": for tools that do not know all of
+/// them, and to compare results.
+pub const VARIABLE: &str = "BEVEL_DIFFERENTIAL_VECTORS";
+
 const UNKNOWN: u8 = 0;
 const NARROW: u8 = 1;
 const WIDE: u8 = 2;
@@ -30,11 +34,6 @@ pub fn in_lanes<T: Task>(task: T) -> T::Output {
     narrow(task)
 }
 
-/// Lets tasks use wider instructions where the processor has them, or not: to compare results.
-pub fn allow_wide(allowed: bool) {
-    LANES.store(if allowed { UNKNOWN } else { NARROW }, Relaxed);
-}
-
 #[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn are_wide() -> bool {
@@ -47,9 +46,10 @@ fn are_wide() -> bool {
 #[cfg(target_arch = "x86_64")]
 #[cold]
 fn detect() -> bool {
-    let found = std::arch::is_x86_feature_detected!("avx2");
-    LANES.store(if found { WIDE } else { NARROW }, Relaxed);
-    found
+    let forbidden = std::env::var_os(VARIABLE).is_some_and(|value| value == "narrow");
+    let wide = !forbidden && std::arch::is_x86_feature_detected!("avx2");
+    LANES.store(if wide { WIDE } else { NARROW }, Relaxed);
+    wide
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -30,13 +30,23 @@ pub struct DetailedLoad<T> {
     pub tangential: T,
     /// Heat of contact damping and of tooth friction [W].
     pub heat: [f64; 2],
+    /// Elastic energy [J]; it is summed where derivatives are.
+    pub energy: f64,
 }
 
 impl<T: Scalar> DetailedLoad<T> {
     /// No load.
     pub fn zero() -> Self {
         let zero = T::constant(0.0);
-        Self { force: [zero; 3], normal: zero, planet_axial: zero, side_axial: zero, tangential: zero, heat: [0.0; 2] }
+        Self {
+            force: [zero; 3],
+            normal: zero,
+            planet_axial: zero,
+            side_axial: zero,
+            tangential: zero,
+            heat: [0.0; 2],
+            energy: 0.0,
+        }
     }
 }
 

@@ -52,6 +52,8 @@ pub struct Sums {
     pub rubbed: f64,
     /// Heat of contact damping [W].
     pub heat: f64,
+    /// Elastic energy [J], summed with derivatives.
+    pub energy: f64,
     /// Derivatives of torque, normal, by_place and rubbed.
     pub by: [By; 4],
     /// Derivatives of rubbed by both speeds and by the relative radius of curvature over R.
@@ -102,6 +104,7 @@ impl Sums {
             self.heat += weight * (damped.total - elastic.torque) * rate;
             let mut by = [0.0; 3];
             if SLOPES {
+                self.energy += weight * elastic.energy;
                 // damping either adds to the elastic torque or scales it
                 let by_place = match *damping {
                     _ if damped.total <= 0.0 => 0.0,

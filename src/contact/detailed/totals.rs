@@ -22,11 +22,12 @@ pub struct Totals<const ROWS: usize> {
     value: [f64; 7],
     slopes: [[f64; 6]; ROWS],
     heat: [f64; 2],
+    energy: f64,
 }
 
 impl<const ROWS: usize> Default for Totals<ROWS> {
     fn default() -> Self {
-        Self { value: [0.0; 7], slopes: [[0.0; 6]; ROWS], heat: [0.0; 2] }
+        Self { value: [0.0; 7], slopes: [[0.0; 6]; ROWS], heat: [0.0; 2], energy: 0.0 }
     }
 }
 
@@ -54,6 +55,7 @@ impl<const ROWS: usize> Totals<ROWS> {
         if ROWS == 0 {
             return;
         }
+        self.energy += sums.energy;
         let [by_torque, by_place] = [0, 2].map(|i| motion.slopes(&sums.by[i]));
         self.slope(Q, -aq, &by_torque);
         self.slope(X, -ax, &by_torque);
@@ -142,6 +144,7 @@ impl<const ROWS: usize> Totals<ROWS> {
             side_axial: sum(SIDE),
             tangential: sum(TANGENTIAL),
             heat: self.heat,
+            energy: self.energy,
         }
     }
 }

@@ -234,6 +234,7 @@ impl SolidMesh {
             let f = self.respond(p.v, rate);
             let r = self.cone;
             let torque = slice.share * r * f.total;
+            by.energy += slice.share * self.elastic.energy(r * p.v);
             sum.heat += slice.share * (f.total - f.elastic) * r * rate;
             let hessian = [[p.dd[0], p.dd[1]], [p.dd[1], p.dd[2]]];
             for b in 0..2 {

@@ -166,6 +166,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     })
                 })
             };
+            j.elastic_energy = in_pairs(G, |g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
             self.add_blocks(&block(0), &mut j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
             if let Some((_, planets)) = &surfaces {

@@ -12,6 +12,8 @@ pub struct Jacobian<const N: usize> {
     pub by_velocity: Matrix<N>,
     /// ∂(imposed acceleration of the carrier)/∂position and velocity.
     pub of_imposed: [[f64; N]; 2],
+    /// Elastic energy of all meshes, which is found along with them [J].
+    pub elastic_energy: f64,
 }
 
 impl<const N: usize> Default for Jacobian<N> {
@@ -21,6 +23,7 @@ impl<const N: usize> Default for Jacobian<N> {
             by_rate: [[0.0; N]; N],
             by_velocity: [[0.0; N]; N],
             of_imposed: [[0.0; N]; 2],
+            elastic_energy: 0.0,
         }
     }
 }

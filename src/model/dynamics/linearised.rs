@@ -30,14 +30,23 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         m
     }
 
-    pub(in crate::model) fn linearise_teeth(&self, at: &Point<N>) -> Linearisation<N, Power> {
+    /// The equations linearised, and the elastic energy of all meshes [J].
+    #[inline(always)]
+    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
+        if WITH_EFFECTS { self.linearise_all(at) } else { self.linearise_teeth(at) }
+    }
+
+    /// The equations of teeth without effects, linearised, and the elastic energy [J].
+    #[inline(always)]
+    fn linearise_teeth(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
         let mut power = Power::default();
         let (mut acceleration, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         let mut load = [[MeshForce::default(); 2]; G];
+        let mut energy = [0.0; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
         for g in 0..G {
             if let Some(twin) = self.twin(at, g) {
-                (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
+                (load[g], position[g], rate[g], energy[g]) = (load[twin], position[twin], rate[twin], energy[twin]);
                 continue;
             }
             for s in 0..2 {
@@ -45,6 +54,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 load[g][s] = force;
                 position[g][s] = self.block(s, &jacobian.by_position);
                 rate[g][s] = self.block(s, &jacobian.by_rate);
+                energy[g] += jacobian.energy;
             }
         }
         self.add_forces(|g, s| load[g][s].force, &mut acceleration);
@@ -56,15 +66,18 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         self.divide_by_inertia(&mut by_position);
         self.divide_by_inertia(&mut by_velocity);
         self.finish(at, &mut acceleration, &[0.0; N], &mut power);
-        Linearisation { acceleration, by_position, by_velocity, power }
+        let energy = in_pairs(G, |g| self.members(g) * energy[g]);
+        (Linearisation { acceleration, by_position, by_velocity, power }, energy)
     }
 
-    pub(in crate::model) fn linearise_all(&self, at: &Point<N>) -> Linearisation<N, Power> {
+    /// The equations with all effects, linearised, and the elastic energy of all meshes [J].
+    #[inline(always)]
+    fn linearise_all(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
         let mut power = Power::default();
         let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);
         let mut slopes = Jacobian::default();
         self.act(at, &mut acceleration, &mut imposed, &mut power, Some(&mut slopes));
-        let Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed } = slopes;
+        let Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed, elastic_energy } = slopes;
         let mut of_rates = by_rate;
         self.times_rates(&mut of_rates);
         for i in 0..N {
@@ -78,6 +91,6 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             (by_position[CARRIER], by_velocity[CARRIER]) = (of_imposed[0], of_imposed[1]);
         }
         self.finish(at, &mut acceleration, &imposed, &mut power);
-        Linearisation { acceleration, by_position, by_velocity, power }
+        (Linearisation { acceleration, by_position, by_velocity, power }, elastic_energy)
     }
 }

@@ -76,7 +76,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
-        if WITH_EFFECTS { self.linearise_all(at) } else { self.linearise_teeth(at) }
+        self.linearise_and_store(at).0
     }
 
     #[inline(always)]
@@ -136,6 +136,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     #[inline(always)]
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
         [self.kinetic_energy(at), if WITH_EFFECTS { self.stored(at, true) } else { self.elastic_energy(at) }]
+    }
+
+    #[inline(always)]
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Power>, [f64; 2]) {
+        let (lin, teeth) =
+            if self.is_driven_by_inputs() { self.later(time).linearise_and_store(at) } else { self.linearise_and_store(at) };
+        let bodies = if WITH_EFFECTS { self.stored_in_bodies(at, true) } else { 0.0 };
+        (lin, [self.kinetic_energy(at), teeth + bodies])
     }
 
     #[inline(always)]

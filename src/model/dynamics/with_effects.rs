@@ -47,9 +47,11 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 } else {
                     let mut load = [[MeshForce::default(); 2]; G];
                     let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
+                    let mut energy = [0.0; G];
                     for g in 0..G {
                         if let Some(twin) = self.twin(at, g) {
                             (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
+                            energy[g] = energy[twin];
                             continue;
                         }
                         for s in 0..2 {
@@ -57,11 +59,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                             load[g][s] = force;
                             position[g][s] = self.block(s, &by.by_position);
                             rate[g][s] = self.block(s, &by.by_rate);
+                            energy[g] += by.energy;
                         }
                     }
                     self.add_forces(|g, s| load[g][s].force, sum);
                     self.add_blocks(&position, &mut j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
+                    j.elastic_energy = in_pairs(G, |g| self.members(g) * energy[g]);
                     power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
                     self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 }
@@ -160,18 +164,19 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
     pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
-        let additions = &self.teeth.additions;
-        let mut energy = if self.in_detail() {
+        let teeth = if self.in_detail() {
             in_pairs(G, |g| self.members(g) * (self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1)))
         } else {
             self.elastic_energy(at)
         };
+        teeth + self.stored_in_bodies(at, all)
+    }
+
+    /// Elastic energy of pins, and with `all` of half-shafts and stuck friction too [J].
+    pub(in crate::model) fn stored_in_bodies(&self, at: &Point<N>, all: bool) -> f64 {
+        let forces = &self.teeth.additions.bodies.forces;
         let bodies = self.bodies(at);
-        energy +=
-            additions.bodies.forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&bodies)).sum::<f64>();
-        if all {
-            energy += self.friction_energy(at);
-        }
-        energy
+        let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&bodies)).sum::<f64>();
+        if all { energy + self.friction_energy(at) } else { energy }
     }
 }
