@@ -4,17 +4,15 @@
 //!
 //!   A = [C B; D P],   S = C − B P⁻¹ D,   x_c = S⁻¹ (b_c − B P⁻¹ b_p),   x_p = P⁻¹ b_p − P⁻¹ D x_c
 //!
-//! so that alike bodies never couple with each other and sums over them are formed in pairs. The blocks are kept as columns,
-//! those of the others applied after those of p: a solution is a sum of columns, which suits vectors of any width.
+//! so that alike bodies never couple with each other and sums over them are formed in pairs. What is applied is kept as
+//! columns, and a solution is a sum of them: that suits vectors of any width, as does eliminating by whole rows.
 //!
 //! No rows are exchanged: the matrix is that of a mechanical system, row-scaled by inertias, whose pivots are positive unless
 //! the step is far too long; a vanishing pivot is rejected and the step becomes shorter.
 
-use std::ops::Range;
-
 use super::system::{Matrix, SecondOrder, in_pairs};
 
-/// Least pivot over the largest element of its row.
+/// Least pivot over the element on the diagonal that it comes from.
 pub const LEAST_PIVOT: f64 = 1e-10;
 
 /// The inverse of a matrix of order `N`.
@@ -23,57 +21,37 @@ pub struct Inverse<const N: usize> {
     columns: Matrix<N>,
 }
 
-/// p: the bodies that may be alike.
-#[inline(always)]
-const fn alike<const N: usize, S: SecondOrder<N>>() -> Range<usize> {
-    S::ALIKE.0..S::ALIKE.0 + S::ALIKE.1
-}
-
-/// Whether `i` is one of them.
+/// Whether body `i` may be alike to others.
 #[inline(always)]
 const fn is_alike<const N: usize, S: SecondOrder<N>>(i: usize) -> bool {
     i >= S::ALIKE.0 && i < S::ALIKE.0 + S::ALIKE.1
 }
 
-/// c: the others, before and behind them.
+/// Divides row `k` of `a` by its pivot, which once was `before`, and leaves the reciprocal in its place; `None` if the pivot
+/// vanishes or is not finite.
 #[inline(always)]
-const fn others<const N: usize, S: SecondOrder<N>>() -> [Range<usize>; 2] {
-    [0..S::ALIKE.0, S::ALIKE.0 + S::ALIKE.1..N]
-}
-
-/// Inverts, in place, the part of `a` whose rows and columns lie in `of`; `None` if a pivot vanishes against the element
-/// `largest` of its row or is not finite.
-#[inline(always)]
-fn invert<const N: usize, const M: usize>(a: &mut Matrix<N>, of: [Range<usize>; M], largest: &[f64; N]) -> Option<()> {
-    for k in 0..N {
-        if !of.iter().any(|range| range.contains(&k)) {
-            continue;
-        }
-        let pivot = a[k][k];
-        // the comparison fails for NaN too
-        if !(pivot.abs() > LEAST_PIVOT * largest[k] && pivot.is_finite()) {
-            return None;
-        }
-        let inverse = 1.0 / pivot;
-        a[k][k] = 1.0;
-        for range in of.clone() {
-            a[k][range].iter_mut().for_each(|x| *x *= inverse);
-        }
-        let row = a[k];
-        for rows in of.clone() {
-            for i in rows {
-                if i != k {
-                    let factor = std::mem::replace(&mut a[i][k], 0.0);
-                    for range in of.clone() {
-                        for j in range {
-                            a[i][j] -= factor * row[j];
-                        }
-                    }
-                }
-            }
-        }
+fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option<()> {
+    let pivot = a[k][k];
+    // the comparison fails for NaN too
+    if !(pivot.abs() > LEAST_PIVOT * before.abs() && pivot.is_finite()) {
+        return None;
+    }
+    let inverse = 1.0 / pivot;
+    a[k][k] = 1.0;
+    for j in 0..N {
+        a[k][j] *= inverse;
     }
     Some(())
+}
+
+/// Takes so much of row `k` from row `i` that its element in column `k` vanishes; what the inverse has there takes its place.
+#[inline(always)]
+fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
+    let factor = a[i][k];
+    a[i][k] = 0.0;
+    for j in 0..N {
+        a[i][j] -= factor * a[k][j];
+    }
 }
 
 impl<const N: usize> Inverse<N> {
@@ -81,48 +59,45 @@ impl<const N: usize> Inverse<N> {
     #[inline(always)]
     pub fn new<S: SecondOrder<N>>(mut a: Matrix<N>) -> Option<Self> {
         let (first, count) = S::ALIKE;
-        let mut largest = [0.0f64; N];
+        let mut diagonal = [0.0; N];
         for i in 0..N {
-            for j in 0..N {
-                largest[i] = largest[i].max(a[i][j].abs());
+            diagonal[i] = a[i][i];
+        }
+        // [P⁻¹ D, P⁻¹]
+        for k in first..first + count {
+            normalise(&mut a, k, diagonal[k])?;
+            for i in first..first + count {
+                if i != k {
+                    eliminate(&mut a, i, k);
+                }
             }
         }
-        invert(&mut a, [alike::<N, S>()], &largest)?;
+        // [S, −B P⁻¹]
+        for i in (0..N).filter(|&i| !is_alike::<N, S>(i)) {
+            let row = a[i];
+            for j in 0..N {
+                let own = if is_alike::<N, S>(j) { 0.0 } else { row[j] };
+                a[i][j] = own - in_pairs(count, |k| row[first + k] * a[first + k][j]);
+            }
+        }
         let mut columns = [[0.0; N]; N];
-        // P⁻¹ and −B P⁻¹
-        for g in alike::<N, S>() {
-            for i in alike::<N, S>() {
+        for g in first..first + count {
+            for i in 0..N {
                 columns[g][i] = a[i][g];
             }
-            for i in (0..N).filter(|&i| !is_alike::<N, S>(i)) {
-                columns[g][i] = -in_pairs(count, |k| a[i][first + k] * a[first + k][g]);
-            }
         }
-        // P⁻¹ D
-        let mut from_others = [[0.0; N]; N];
-        for g in alike::<N, S>() {
-            for range in others::<N, S>() {
-                for j in range {
-                    from_others[g][j] = in_pairs(count, |k| a[g][first + k] * a[first + k][j]);
+        // [S⁻¹, …] and [−P⁻¹ D S⁻¹, …]
+        for k in (0..N).filter(|&k| !is_alike::<N, S>(k)) {
+            normalise(&mut a, k, diagonal[k])?;
+            for i in 0..N {
+                if i != k {
+                    eliminate(&mut a, i, k);
                 }
             }
         }
-        for i in (0..N).filter(|&i| !is_alike::<N, S>(i)) {
-            for range in others::<N, S>() {
-                for j in range {
-                    a[i][j] -= in_pairs(count, |k| a[i][first + k] * from_others[first + k][j]);
-                }
-            }
-        }
-        invert(&mut a, others::<N, S>(), &largest)?;
         for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
-            for i in (0..N).filter(|&i| !is_alike::<N, S>(i)) {
+            for i in 0..N {
                 columns[j][i] = a[i][j];
-            }
-            for g in alike::<N, S>() {
-                let sum = |range: Range<usize>| range.map(|i| from_others[g][i] * a[i][j]).sum::<f64>();
-                let [before, behind] = others::<N, S>();
-                columns[j][g] = -(sum(before) + sum(behind));
             }
         }
         Some(Self { columns })
@@ -131,44 +106,44 @@ impl<const N: usize> Inverse<N> {
     /// Solves for the right-hand side `b` in place.
     #[inline(always)]
     pub fn solve<S: SecondOrder<N>>(&self, b: &mut [f64; N]) {
-        let (first, count) = S::ALIKE;
-        let columns = &self.columns;
-        // plain loops: what they call is inlined into the vectors' width
-        let mut x = [0.0; N];
-        for i in 0..N {
-            x[i] = in_pairs(count, |k| columns[first + k][i] * b[first + k]);
-        }
+        let mut x = of_alike::<N, S>(&self.columns, b);
         let mut left = *b;
         for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
             left[j] += x[j];
             x[j] = 0.0;
         }
-        for range in others::<N, S>() {
-            for j in range {
-                for i in 0..N {
-                    x[i] += columns[j][i] * left[j];
-                }
-            }
-        }
+        add_others::<N, S>(&self.columns, &left, &mut x);
         *b = x;
     }
 }
 
-/// Σ of `columns` times `x`, those of bodies that may be alike in pairs.
+/// Σ of those `columns` times `x` that belong to bodies that may be alike, in pairs.
 #[inline(always)]
-pub fn times<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
+fn of_alike<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let (first, count) = S::ALIKE;
+    // plain loops: what they call is inlined, for vectors of any width
     let mut sum = [0.0; N];
     for i in 0..N {
         sum[i] = in_pairs(count, |k| columns[first + k][i] * x[first + k]);
     }
-    for range in others::<N, S>() {
-        for j in range {
-            for i in 0..N {
-                sum[i] += columns[j][i] * x[j];
-            }
+    sum
+}
+
+/// Adds the other `columns` times `x`.
+#[inline(always)]
+fn add_others<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N], sum: &mut [f64; N]) {
+    for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
+        for i in 0..N {
+            sum[i] += columns[j][i] * x[j];
         }
     }
+}
+
+/// Σ of `columns` times `x`.
+#[inline(always)]
+pub fn times<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
+    let mut sum = of_alike::<N, S>(columns, x);
+    add_others::<N, S>(columns, x, &mut sum);
     sum
 }
 

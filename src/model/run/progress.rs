@@ -38,7 +38,8 @@ pub fn complete(model: &Model, state: &mut State) {
     let begin = state.time - clock.now;
     let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs };
     let outcome = with_equations!(model, state, &inputs, |equations| {
-        stretch::integrate::<N, _>(equations, model, state, stretch, &mut budget)
+        let mut equations = equations;
+        stretch::integrate::<N, _>(&mut equations, model, state, stretch, &mut budget)
     });
     if outcome.is_err() {
         // what was shown holds; the ledger tells what it lacks
@@ -132,7 +133,8 @@ fn one_stretch(
 ) -> Result<(), StepFailure> {
     let stretch = Stretch { clock, begin, is_shown: false, inputs };
     with_equations!(model, state, inputs, |equations| {
-        stretch::integrate::<N, _>(equations, model, state, stretch, budget)
+        let mut equations = equations;
+        stretch::integrate::<N, _>(&mut equations, model, state, stretch, budget)
     })
 }
 

@@ -66,7 +66,7 @@ pub struct Stretch<'a> {
 /// be set back. Compiled once for each size and width of vectors, whoever calls it.
 #[inline(never)]
 pub fn integrate<const N: usize, E: Recorded<N>>(
-    equations: E,
+    equations: &mut E,
     model: &Model,
     state: &mut State,
     stretch: Stretch,
@@ -77,7 +77,7 @@ pub fn integrate<const N: usize, E: Recorded<N>>(
 
 /// The integration of a stretch, as a task for vectors of any width.
 struct Integration<'a, const N: usize, E> {
-    equations: E,
+    equations: &'a mut E,
     model: &'a Model,
     state: &'a mut State,
     stretch: Stretch<'a>,
@@ -96,7 +96,7 @@ impl<const N: usize, E: Recorded<N>> Task for Integration<'_, N, E> {
 
 #[inline(always)]
 fn integrate_stretch<const N: usize, E: Recorded<N>>(
-    mut equations: E,
+    equations: &mut E,
     model: &Model,
     state: &mut State,
     stretch: Stretch,
@@ -134,9 +134,9 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         outcome = if solver.method == Method::Adaptive {
-            integrate::proceed(&Rodas5P, &equations, &mut course, clock.now, context, observe)
+            integrate::proceed(&Rodas5P, &*equations, &mut course, clock.now, context, observe)
         } else {
-            otherwise(solver, &equations, &mut course, clock.now, context, &mut observe)
+            otherwise(solver, &*equations, &mut course, clock.now, context, &mut observe)
         };
         equations.anchor(&anchors);
         if switched {
