@@ -36,8 +36,8 @@ impl Impact {
     #[inline(always)]
     fn power(&self, d: f64) -> f64 {
         match self.exponent {
-            1.0 => 1.0,
             1.5 => sqrt(d),
+            1.0 => 1.0,
             2.0 => d,
             2.5 => d * sqrt(d),
             3.0 => d * d,

@@ -35,9 +35,9 @@ impl<const N: usize> Extension<N> {
             return *end;
         }
         let mut at = Point::ZERO;
-        for i in 0..N {
-            at.q[i] = bent(start.q[i], end.q[i], [bends[0].q[i], bends[1].q[i], bends[2].q[i]], fraction);
-            at.v[i] = bent(start.v[i], end.v[i], [bends[0].v[i], bends[1].v[i], bends[2].v[i]], fraction);
+        let (start, end, bends) = (start.row(), end.row(), bends.each_ref().map(Point::row));
+        for (i, at) in at.row_mut().iter_mut().enumerate() {
+            *at = bent(start[i], end[i], [bends[0][i], bends[1][i], bends[2][i]], fraction);
         }
         at
     }
@@ -50,9 +50,9 @@ impl<const N: usize> Extension<N> {
         let per_h = 1.0 / h;
         let rise = |from: f64, to: f64, one: f64, two: f64| per_h * ((to - from) + 0.25 * (one + two));
         let mut defect = Point::ZERO;
-        for i in 0..N {
-            defect.q[i] = slope.q[i] - rise(start.q[i], end.q[i], bends[1].q[i], bends[2].q[i]);
-            defect.v[i] = slope.v[i] - rise(start.v[i], end.v[i], bends[1].v[i], bends[2].v[i]);
+        let (start, end, bends) = (start.row(), end.row(), bends.each_ref().map(Point::row));
+        for (i, (defect, slope)) in defect.row_mut().iter_mut().zip(slope.row()).enumerate() {
+            *defect = slope - rise(start[i], end[i], bends[1][i], bends[2][i]);
         }
         defect
     }

@@ -140,7 +140,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
     let mut in_a_row = 0;
     let mut switch_at = f64::INFINITY;
     let mut begin: Option<(Linearisation<N, S::Power>, [f64; 2])> = None;
-    let is_resumed = course.pending.is_some();
+    // the begin of a step is counted once, however often it is linearised again
+    let mut is_counted = course.pending.is_some();
     loop {
         if let Some(pending) = &course.pending {
             let Attempt { h: size, error, cut, to_kink, .. } = pending.attempt;
@@ -160,8 +161,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 statistics.evaluations += 1;
                 system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
-            let next = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
-            let (last, energy) = match &next {
+            begin = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
+            let (last, energy) = match &begin {
                 Some((lin, energy)) => (lin.power, *energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
             };
@@ -172,7 +173,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
                 (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
                 statistics.rejected_ledger += 1;
                 control.next = h / (M::root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
-                course.pending = None;
+                (course.pending, begin) = (None, None);
                 continue;
             }
             (unbalanced, after_rejection) = (0, false);
@@ -184,16 +185,14 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
             course.pending = None;
             let step = Step { h, time: reached, start: &start, end: &end, power };
             let flow = observe(step).map_err(Failure::Refused)?;
-            match next {
-                Some(next) if flow == AfterStep::Continue => begin = Some(next),
-                _ => return Ok(()),
+            if done || flow == AfterStep::Stop {
+                return Ok(());
             }
         }
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let point = &course.point;
         let (lin, energy) = begin.get_or_insert_with(|| {
-            // that of a step which was pending before this call was counted then
-            let counts = (!is_resumed).then_some(&mut *statistics);
+            let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
             linearise::<N, M, S>(system, (point, course.time), counts)
         });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };

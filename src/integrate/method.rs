@@ -127,9 +127,8 @@ pub trait Method {
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
     for (weight, u) in weights.iter().zip(u) {
         let weight = weight * scale;
-        for i in 0..N {
-            y.q[i] += weight * u.q[i];
-            y.v[i] += weight * u.v[i];
+        for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
+            *y += weight * u;
         }
     }
 }

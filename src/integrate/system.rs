@@ -5,6 +5,7 @@ pub type Matrix<const N: usize> = [[f64; N]; N];
 
 /// Positions and velocities of `N` degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C)]
 pub struct Point<const N: usize> {
     /// Positions q.
     pub q: [f64; N],
@@ -15,6 +16,22 @@ pub struct Point<const N: usize> {
 impl<const N: usize> Point<N> {
     /// All zero.
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
+
+    /// Positions and velocities in one row, which fills vectors better than two.
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    pub fn row(&self) -> &[f64] {
+        // SAFETY: two arrays of N numbers, one behind the other (repr(C)).
+        unsafe { std::slice::from_raw_parts(std::ptr::from_ref(self).cast(), 2 * N) }
+    }
+
+    /// The same, to be changed.
+    #[inline(always)]
+    #[allow(unsafe_code)]
+    pub fn row_mut(&mut self) -> &mut [f64] {
+        // SAFETY: as above.
+        unsafe { std::slice::from_raw_parts_mut(std::ptr::from_mut(self).cast(), 2 * N) }
+    }
 }
 
 /// Accelerations with their exact derivatives at a point.

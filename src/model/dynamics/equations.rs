@@ -312,7 +312,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     #[inline(always)]
     pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
         let mut deepest = (f64::NEG_INFINITY, 0, 0);
-        for g in 0..G {
+        for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
             for s in 0..2 {
                 let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
                 if approach > deepest.0 {

@@ -173,7 +173,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     #[inline(always)]
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
-        for g in 0..G {
+        for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
             for s in 0..2 {
                 let found = self.teeth.mesh.kink(&self.mesh_state(at, g, s), h);
                 first = match (first, found) {
