@@ -6,7 +6,7 @@
 use super::damping::Damping;
 use super::impact::{Force, Impact};
 use super::law::{Face, Lumped, PairLaw, Power, Response};
-use super::pairs::{Engagement, Flank, ToothPair};
+use super::pairs::{Engagement, Flank, Spot, ToothPair};
 use super::solid::mesh::SolidMesh;
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use super::stiffness::{Line, LineWeber};
@@ -187,14 +187,21 @@ impl Mesh {
                 self.add(law, &mut sum, pair, rate, &response);
                 jacobian.energy += response.energy;
                 let f = &response.force;
-                let [qq, xx] = pair.curvature;
-                let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];
-                let hessian = [[qq, qq], [qq, xx]];
-                for b in 0..2 {
-                    let along = f.by_depth * pair.slope[b] + f.by_rate * turn[b];
-                    for a in 0..2 {
-                        jacobian.by_position[a][b] -= r * (r * along * pair.slope[a] + f.total * hessian[a][b]);
-                        jacobian.by_rate[a][b] -= r * r * f.by_rate * pair.slope[a] * pair.slope[b];
+                let (stiffness, damping, torque) = (r * r * f.by_depth, r * r * f.by_rate, r * f.total);
+                if pair.spot == Spot::Path {
+                    // the approach is that of q alone
+                    jacobian.by_position[0][0] -= stiffness;
+                    jacobian.by_rate[0][0] -= damping;
+                } else {
+                    let [qq, xx] = pair.curvature;
+                    let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];
+                    let hessian = [[qq, qq], [qq, xx]];
+                    for b in 0..2 {
+                        let along = stiffness * pair.slope[b] + damping * turn[b];
+                        for a in 0..2 {
+                            jacobian.by_position[a][b] -= along * pair.slope[a] + torque * hessian[a][b];
+                            jacobian.by_rate[a][b] -= damping * pair.slope[a] * pair.slope[b];
+                        }
                     }
                 }
                 if is_placed(law) {

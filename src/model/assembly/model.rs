@@ -52,6 +52,8 @@ pub struct Model {
     pub ideal: Ideal,
     /// How the gears are represented.
     pub gears: Gears,
+    /// The teeth with planets that move as one until a tooth of one breaks.
+    pub together: Option<Box<Teeth>>,
     /// Stress and fatigue, where the scene asks for them.
     pub strength: Option<Box<GearStrength>>,
     /// Where each degree of freedom stands.
@@ -100,6 +102,10 @@ impl Model {
                 Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, bodies), kept)))
             }
         };
+        let together = match &gears {
+            Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.together(),
+            _ => None,
+        };
         let strength = if BUILT && parameters.effects.strength {
             Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
         } else {
@@ -109,6 +115,7 @@ impl Model {
             parameters: *parameters,
             ideal,
             gears,
+            together,
             strength,
             layout: plan.layout(),
             periods: plan.periods(&pair),
@@ -133,6 +140,9 @@ impl Model {
                 // a coefficient that was 0 needs the loads from now on
                 additions.detailed.thrust = additions.bodies.needs_loads();
                 additions.in_detail |= additions.detailed.thrust;
+                if let Some(together) = &mut self.together {
+                    together.mesh.law.set_damping(damping);
+                }
             }
         }
     }

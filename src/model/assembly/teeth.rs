@@ -5,7 +5,7 @@ use super::inertias::Inertias;
 use crate::contact::mesh::Mesh;
 use crate::geometry::Pair;
 use crate::model::scene::layout::{CARRIER, MAX_DOF};
-use crate::model::scene::{Layout, Plan};
+use crate::model::scene::{GearContact, Layout, Plan};
 
 /// Sign σ of the left and right side.
 pub const SIGMA: [f64; 2] = [1.0, -1.0];
@@ -36,6 +36,14 @@ pub struct Teeth {
 }
 
 impl Teeth {
+    /// The same teeth with their planets in one group, where they are simulated singly for what may happen to one of them
+    /// and are plain until then.
+    pub fn together(&self) -> Option<Box<Self>> {
+        let plan = self.plan.with_planets_together()?;
+        let is_plain = !self.additions.bodies.always && !plan.pins && !plan.ends && plan.contact != GearContact::Solid;
+        is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
+    }
+
     /// Constants of the scene `plan` with the meshes `mesh` of `pair`.
     pub fn new(
         pair: &Pair,

@@ -48,6 +48,14 @@ impl Ahead {
         course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
     }
 
+    /// Lets degree of freedom `i` move as `first` does.
+    pub fn let_follow(&mut self, i: usize, first: usize) {
+        let Self { start, end, bends: [one, two, three], .. } = self;
+        for motion in [start, end, one, two, three] {
+            motion.iter_mut().for_each(|of| of[i] = of[first]);
+        }
+    }
+
     /// Whether the step contains the time `now` of its clock [s].
     #[inline(always)]
     pub fn contains(&self, now: f64) -> bool {

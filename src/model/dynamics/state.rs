@@ -6,6 +6,7 @@ use super::ahead::Ahead;
 use super::bias::Bias;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::body_effects::BodyEffects;
+use crate::model::assembly::teeth::Teeth;
 use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::effects::strength::Fatigue;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, PLANET};
@@ -107,6 +108,25 @@ impl State {
     pub fn set_point<const N: usize>(&mut self, point: &Point<N>) {
         self.q[..N].copy_from_slice(&point.q);
         self.v[..N].copy_from_slice(&point.v);
+    }
+
+    /// Whether all planets of `layout` move as the one of `teeth`, which has them together, and nothing acts on it beside
+    /// plain teeth.
+    pub fn is_together(&self, teeth: &Teeth, layout: &Layout) -> bool {
+        let alike = |i: usize| {
+            self.q[i] == self.q[PLANET] && self.v[i] == self.v[PLANET] && self.turns[i] == self.turns[PLANET]
+        };
+        !teeth.additions.bodies.act_in(self) && (PLANET + 1..PLANET + layout.groups).all(alike)
+    }
+
+    /// Lets the other planets of `layout` move as the first does.
+    pub fn let_others_follow(&mut self, layout: &Layout) {
+        for i in PLANET + 1..PLANET + layout.groups {
+            (self.q[i], self.v[i]) = (self.q[PLANET], self.v[PLANET]);
+            if let Some(ahead) = &mut self.ahead {
+                ahead.let_follow(i, PLANET);
+            }
+        }
     }
 
     /// Moves whole periods of each position into its counter.

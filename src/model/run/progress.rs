@@ -10,6 +10,7 @@ use super::imposed;
 use super::stretch::{self, STRETCH, Stretch};
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::clock::Clock;
+use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::state::State;
 use crate::model::scene::{Inputs, Method};
@@ -132,6 +133,12 @@ fn one_stretch(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let stretch = Stretch { clock, begin, is_shown: false, inputs };
+    if let Some(teeth) = model.together.as_deref().filter(|teeth| state.is_together(teeth, &model.layout)) {
+        let mut equations = Equations::<4, 1, 0, false>::new(teeth, inputs, state);
+        let outcome = stretch::integrate::<4, _>(&mut equations, model, state, stretch, budget);
+        state.let_others_follow(&model.layout);
+        return outcome;
+    }
     with_equations!(model, state, inputs, |equations| {
         let mut equations = equations;
         stretch::integrate::<N, _>(&mut equations, model, state, stretch, budget)

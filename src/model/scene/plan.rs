@@ -110,6 +110,18 @@ impl Plan {
         Self { spin_imposed: true, ..self }
     }
 
+    /// The same plan with planets in one group that are simulated singly but alike, if they all are in phase.
+    pub fn with_planets_together(self) -> Option<Self> {
+        let mut plan = self;
+        let [first, others @ ..] = self.groups() else { return None };
+        if others.is_empty() || others.iter().any(|group| group.phase != first.phase) {
+            return None;
+        }
+        plan.groups[0].members = self.groups().iter().map(|group| group.members).sum();
+        (plan.group_count, plan.group_of) = (1, [0; MAX_PLANETS]);
+        Some(plan)
+    }
+
     /// Group `g` of planets.
     #[inline(always)]
     pub fn group(&self, g: usize) -> &Group {
