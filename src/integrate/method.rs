@@ -28,7 +28,7 @@ pub struct Halfway<P> {
 
 /// How much more an error halfway counts than one at the end: the middle is but one place of the motion in between, and
 /// forces there show errors of stiff motions, which a stiffly accurate method has damped at the end.
-const BETWEEN: f64 = 3.0;
+const BETWEEN: f64 = 2.0;
 
 impl<const N: usize, P: Copy> Trial<N, P> {
     /// The trial with a look at its middle, unless its end is in error already. Halfway in a step of size `h` from `time`

@@ -25,6 +25,7 @@ use nalgebra::Vector3;
 use super::exponential::mean_exponential;
 use super::turned::Both;
 use super::walk::{Corner, FlankSection, Follow};
+use crate::numeric::lanes::{Task, in_lanes};
 use crate::numeric::{TAU, sqrt};
 
 /// Weights below e to this power are left out: of a parabola's integral they are erfc √24 = 4·10⁻¹².
@@ -195,12 +196,27 @@ impl<F: Fn(usize, usize) -> Vector3<f64>> Follow<0> for PatchMean<'_, F> {
     }
 }
 
+/// The depth of a section, as a task for vectors of any width.
+struct DepthOf<'a, const N: usize> {
+    section: &'a FlankSection<'a>,
+    soft: &'a Softness,
+}
+
+impl<const N: usize> Task for DepthOf<'_, N> {
+    type Output = Option<Both<N>>;
+
+    #[inline(always)]
+    fn run(self) -> Option<Both<N>> {
+        let mut integral = SoftIntegral::<N>::new(self.soft);
+        self.section.walk(self.soft, &mut integral)?;
+        integral.greatest(self.soft)
+    }
+}
+
 impl FlankSection<'_> {
     /// Depth p [rad] where it is positive, and some distance below.
     pub fn depth<const N: usize>(&self, soft: &Softness) -> Option<Both<N>> {
-        let mut integral = SoftIntegral::<N>::new(soft);
-        self.walk(soft, &mut integral)?;
-        integral.greatest(soft)
+        in_lanes(DepthOf::<N> { section: self, soft })
     }
 
     /// Where the patch lies, given the normal of each ray of a gear in rows of a placement.
