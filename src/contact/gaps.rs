@@ -89,11 +89,7 @@ impl FlankGaps {
         let side_tooth = if name.flank == Flank::Drive { ahead } else { ahead - 1 };
         (
             MeshId { planet: name.planet, side: name.side },
-            PairId {
-                planet_tooth: planet.tooth(planet_tooth),
-                side_tooth: side.tooth(side_tooth),
-                flank: name.flank,
-            },
+            PairId { planet_tooth: planet.tooth(planet_tooth), side_tooth: side.tooth(side_tooth), flank: name.flank },
         )
     }
 

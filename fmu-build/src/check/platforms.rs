@@ -39,7 +39,9 @@ fn run(write: bool) -> Result<()> {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };
     progress.stage("building the library for each platform");
-    let mut named: Vec<(String, Library)> = vec![("linux64, plain".into(), libraries::for_this_machine()?)];
+    let own = libraries::for_this_machine()?;
+    let mut named: Vec<(String, Library)> =
+        vec![("linux64, plain".into(), own.clone()), ("linux64, vectors narrow".into(), own)];
     let crossed = libraries::build()?.built;
     named.extend(crossed.into_iter().map(|library| {
         let what = if library.platform == "win64" { "wine".into() } else { format!("glibc {}", toolchains::GLIBC) };

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
-use crate::check::stepping;
+use crate::check::stepping::{self, Vectors};
 use crate::tools::numbers::Spread;
 use crate::tools::progress::Progress;
 use crate::tools::table::Table;
@@ -54,7 +54,12 @@ fn run(write: bool) -> Result<()> {
             let file = format!("--callgrind-out-file={}", folder.join("count").display());
             let each = ["--dump-after=*one_communication_step*", &file];
             let fixed = format!("fixed_step={size}");
-            stepping::callgrind(&program, &each, &[&[scene, STEPS, "unread", &fixed], options].concat())?;
+            stepping::callgrind(
+                &program,
+                Vectors::Narrow,
+                &each,
+                &[&[scene, STEPS, "unread", &fixed], options].concat(),
+            )?;
             let counts = counts(&folder)?;
             let (median, most) = (Spread::of(&counts).median, counts.iter().copied().fold(0.0, f64::max));
             worst = worst.max(most / median);

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
+use bevel_differential::numeric::lanes;
 
 use crate::tools::paths;
 
@@ -36,8 +37,17 @@ pub fn build(effects: bool, name: &str) -> Result<PathBuf> {
     Ok(copy)
 }
 
+/// Width of the vectors that a program may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Vectors {
+    /// As wide as the processor has them.
+    Wide,
+    /// As every processor has them. Old valgrinds do not know all instructions on wider ones.
+    Narrow,
+}
+
 /// Runs `program` under callgrind with `options`, and returns what callgrind reported.
-pub fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result<String> {
+pub fn callgrind(program: &Path, vectors: Vectors, options: &[&str], arguments: &[&str]) -> Result<String> {
     let out = options.iter().any(|option| option.starts_with("--callgrind-out-file"));
     let output = Command::new("valgrind")
         .args(["--tool=callgrind"])
@@ -45,6 +55,7 @@ pub fn callgrind(program: &Path, options: &[&str], arguments: &[&str]) -> Result
         .args(options)
         .arg(program)
         .args(arguments)
+        .envs((vectors == Vectors::Narrow).then_some((lanes::VARIABLE, "narrow")))
         .output()
         .context("valgrind counts the instructions: install it (apt-get install valgrind)")?;
     let report = String::from_utf8_lossy(&output.stderr).into_owned();

@@ -8,7 +8,7 @@ use anyhow::{Context, Result, ensure};
 use bevel_differential::model::EFFECTS;
 use clap::Args;
 
-use crate::check::stepping;
+use crate::check::stepping::{self, Vectors};
 use crate::tools::progress::Progress;
 use crate::tools::sections;
 use crate::tools::table::{Table, for_terminal};
@@ -52,11 +52,20 @@ fn run(quick: bool, write: bool) -> Result<()> {
     let without = stepping::build(false, "less")?;
     progress.stage("counting instructions");
     let scenes = ["straight", "turn"];
-    let off = scenes.iter().map(|scene| measure(&full, scene, &[])).collect::<Result<Vec<_>>>()?;
-    let left_out = scenes.iter().map(|scene| measure(&without, scene, &[])).collect::<Result<Vec<_>>>()?;
+    let counted = |vectors| -> Result<[Vec<CountedRun>; 2]> {
+        let of = |program: &Path| {
+            scenes.iter().map(|scene| measure(program, vectors, scene, &[])).collect::<Result<Vec<_>>>()
+        };
+        Ok([of(&full)?, of(&without)?])
+    };
+    // valgrind may not know an instruction on wider vectors
+    let (vectors, [off, left_out]) = match counted(Vectors::Wide) {
+        Ok(counts) => (Vectors::Wide, counts),
+        Err(_) => (Vectors::Narrow, counted(Vectors::Narrow)?),
+    };
     let mut table = Table::new(["effect", "left out", "off", "on", "on / off"]).left([0]);
     for effect in EFFECTS.iter().filter(|_| !quick) {
-        let on = measure(&full, "turn", &[effect.name])?.instructions;
+        let on = measure(&full, vectors, "turn", &[effect.name])?.instructions;
         let counts = [left_out[1].instructions, off[1].instructions, on].map(|count| format!("{count:.0}"));
         let cost = format!("{:.2}", on / off[1].instructions);
         table.push([format!("`{}`", effect.name)].into_iter().chain(counts).chain([cost]));
@@ -82,14 +91,14 @@ fn run(quick: bool, write: bool) -> Result<()> {
     Ok(())
 }
 
-fn measure(program: &Path, scene: &str, effects: &[&str]) -> Result<CountedRun> {
+fn measure(program: &Path, vectors: Vectors, scene: &str, effects: &[&str]) -> Result<CountedRun> {
     let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
     ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
     let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
     let mut counts = [0.0; 2];
     for (count, steps) in counts.iter_mut().zip(STEPS) {
         let steps = steps.to_string();
-        let report = stepping::callgrind(program, &[], &[&[scene, &steps, "unread"], effects].concat())?;
+        let report = stepping::callgrind(program, vectors, &[], &[&[scene, &steps, "unread"], effects].concat())?;
         *count = report
             .lines()
             .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())

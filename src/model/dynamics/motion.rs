@@ -140,8 +140,11 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
 
     #[inline(always)]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Power>, [f64; 2]) {
-        let (lin, teeth) =
-            if self.is_driven_by_inputs() { self.later(time).linearise_and_store(at) } else { self.linearise_and_store(at) };
+        let (lin, teeth) = if self.is_driven_by_inputs() {
+            self.later(time).linearise_and_store(at)
+        } else {
+            self.linearise_and_store(at)
+        };
         let bodies = if WITH_EFFECTS { self.stored_in_bodies(at, true) } else { 0.0 };
         (lin, [self.kinetic_energy(at), teeth + bodies])
     }
