@@ -197,10 +197,12 @@ impl Mesh {
                     let turn = [qq * (state.rate[0] + state.rate[1]), qq * state.rate[0] + xx * state.rate[1]];
                     let hessian = [[qq, qq], [qq, xx]];
                     for b in 0..2 {
-                        let along = stiffness * pair.slope[b] + damping * turn[b];
                         for a in 0..2 {
-                            jacobian.by_position[a][b] -= along * pair.slope[a] + torque * hessian[a][b];
-                            jacobian.by_rate[a][b] -= damping * pair.slope[a] * pair.slope[b];
+                            // the same product both ways round: the Hessian is symmetric to the last digit
+                            let slopes = pair.slope[a] * pair.slope[b];
+                            let elastic = stiffness * slopes + torque * hessian[a][b];
+                            jacobian.by_position[a][b] -= elastic + damping * turn[b] * pair.slope[a];
+                            jacobian.by_rate[a][b] -= damping * slopes;
                         }
                     }
                 }
