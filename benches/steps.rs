@@ -3,7 +3,10 @@
 //!
 //! Arguments: straight | turn, number of steps, effects to switch on (names without "effects."); "rolling" for the start,
 //! "reversal" of the loads every 50 steps, "varying" loads, a little before every step, "fixed_step=SIZE", "solid=FACETS"
-//! for solid teeth, VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing but steps is counted.
+//! for solid teeth, VARIABLE=VALUE; "unread" leaves the forces at the end unread, so that nothing but steps is counted;
+//! "counts" prints accepted and rejected steps, evaluations and the seconds that all steps took.
+
+use std::time::Instant;
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{EFFECTS, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
@@ -77,7 +80,8 @@ fn main() {
         }
     }
     let mut simulation = Simulation::start(&p, &i, 0.0).expect("the scene starts");
-    let [reversal, varying] = ["reversal", "varying"].map(|name| effects.iter().any(|e| e == name));
+    let [reversal, varying, counts] = ["reversal", "varying", "counts"].map(|name| effects.iter().any(|e| e == name));
+    let begin = Instant::now();
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for k in 1..=steps.parse::<u32>().expect("a number of steps") {
         if reversal && k % 50 == 0 {
@@ -95,8 +99,10 @@ fn main() {
             hash = (hash ^ value.to_bits()).wrapping_mul(0x0100_0000_01b3);
         }
     }
-    if effects.iter().any(|e| e == "counts") {
-        println!("{:?}", simulation.state().statistics);
+    if counts {
+        let s = simulation.state().statistics;
+        let rejected = s.rejected_error + s.rejected_invalid + s.rejected_ledger + s.rejected_switch;
+        println!("{} {rejected} {} {}", s.accepted, s.evaluations, begin.elapsed().as_secs_f64());
     }
     if effects.iter().any(|e| e == "unread") {
         return;

@@ -60,7 +60,7 @@ impl Default for ContactSpec {
             law: ContactLaw::Impact,
             stiffness_from_hertz: false,
             // 5.77e5 N/mm^1.5 · (1000 mm/m)^1.5
-            stiffness: 5.77e5 * 1e3 * libm::sqrt(1e3),
+            stiffness: 5.77e5 * 1e3 * 1e3_f64.sqrt(),
             exponent: 1.5,
             damping: 5e4,
             penetration_depth: 1e-4,

@@ -115,7 +115,7 @@ pub trait Method {
     #[inline(always)]
     fn root(x: f64) -> f64 {
         match Self::ESTIMATE {
-            3 => libm::sqrt(libm::sqrt(x)),
+            3 => x.sqrt().sqrt(),
             4 => fifth_root(x),
             p => libm::pow(x, 1.0 / f64::from(p + 1)),
         }

@@ -1,7 +1,14 @@
 //! Elementary functions with the same bits on every system, from the `libm` crate.
 
-pub use libm::{acos, asin, atan2, cos, pow, sin, sqrt, tan};
+pub use libm::{acos, asin, atan2, cos, pow, sin, tan};
 pub use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Square root of `x`, which processors round correctly. That of `libm` is an instruction for narrow vectors, which waits
+/// for wider ones.
+#[inline(always)]
+pub fn sqrt(x: f64) -> f64 {
+    x.sqrt()
+}
 
 /// Sine and cosine of `x`, for less than both apart.
 ///

@@ -1,11 +1,12 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts or other platforms; and one that looks for changes that no test notices.
+//! time, other hosts or other platforms; one that counts what effects cost together; and one that looks for changes that no test notices.
 
 pub mod fuzz;
 pub mod hosts;
 pub mod memcheck;
 pub mod mutants;
 pub mod platforms;
+pub mod prices;
 pub mod python_tests;
 pub mod real_time;
 pub mod stepping;
@@ -21,6 +22,7 @@ pub enum CheckCommand {
     TestPython(python_tests::TestPythonCommand),
     #[command(alias = "off")]
     ZeroCost(zero_cost::ZeroCostCommand),
+    Prices(prices::PricesCommand),
     RealTime(real_time::RealTimeCommand),
     Fuzz(fuzz::FuzzCommand),
     #[command(alias = "memory")]
@@ -36,6 +38,7 @@ impl CheckCommand {
         match self {
             Self::TestPython(command) => command.run(),
             Self::ZeroCost(command) => command.run(),
+            Self::Prices(command) => command.run(),
             Self::RealTime(command) => command.run(),
             Self::Fuzz(command) => command.run(),
             Self::Memcheck(command) => command.run(),

@@ -62,3 +62,28 @@ pub fn callgrind(program: &Path, vectors: Vectors, options: &[&str], arguments: 
     ensure!(output.status.success(), "{arguments:?}: {report}");
     Ok(report)
 }
+
+/// Communication steps of the two runs whose difference is counted: starting up cancels.
+pub const COUNTED: [u32; 2] = [100, 300];
+
+/// Instructions per communication step of `program` in `scene` with `options`.
+pub fn instructions(program: &Path, vectors: Vectors, scene: &str, options: &[&str]) -> Result<f64> {
+    let mut counts = [0.0; 2];
+    for (count, steps) in counts.iter_mut().zip(COUNTED) {
+        let steps = steps.to_string();
+        let report = callgrind(program, vectors, &[], &[&[scene, &steps, "unread"], options].concat())?;
+        *count = report
+            .lines()
+            .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
+            .context("valgrind reported no count")?;
+    }
+    Ok((counts[1] - counts[0]) / f64::from(COUNTED[1] - COUNTED[0]))
+}
+
+/// What `measure` gives with the widest vectors that it can count: valgrind may not know an instruction on wider ones.
+pub fn counted<T>(measure: impl Fn(Vectors) -> Result<T>) -> Result<(Vectors, T)> {
+    match measure(Vectors::Wide) {
+        Ok(counts) => Ok((Vectors::Wide, counts)),
+        Err(_) => Ok((Vectors::Narrow, measure(Vectors::Narrow)?)),
+    }
+}

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use bevel_differential::model::EFFECTS;
 use clap::Args;
 
@@ -15,9 +15,6 @@ use crate::tools::table::{Table, for_terminal};
 
 /// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];
-
-/// Steps of the two runs whose difference is counted: starting up cancels.
-const STEPS: [u32; 2] = [100, 300];
 
 /// What a run gave.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,11 +55,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
         };
         Ok([of(&full)?, of(&without)?])
     };
-    // valgrind may not know an instruction on wider vectors
-    let (vectors, [off, left_out]) = match counted(Vectors::Wide) {
-        Ok(counts) => (Vectors::Wide, counts),
-        Err(_) => (Vectors::Narrow, counted(Vectors::Narrow)?),
-    };
+    let (vectors, [off, left_out]) = stepping::counted(counted)?;
     let mut table = Table::new(["effect", "left out", "off", "on", "on / off"]).left([0]);
     for effect in EFFECTS.iter().filter(|_| !quick) {
         let on = measure(&full, vectors, "turn", &[effect.name])?.instructions;
@@ -92,17 +85,8 @@ fn run(quick: bool, write: bool) -> Result<()> {
 }
 
 fn measure(program: &Path, vectors: Vectors, scene: &str, effects: &[&str]) -> Result<CountedRun> {
-    let read = Command::new(program).args([scene, &STEPS[1].to_string()]).args(effects).output()?;
+    let read = Command::new(program).args([scene, &stepping::COUNTED[1].to_string()]).args(effects).output()?;
     ensure!(read.status.success(), "{scene} {effects:?}: {}", String::from_utf8_lossy(&read.stderr));
     let bits = String::from_utf8_lossy(&read.stdout).trim().to_owned();
-    let mut counts = [0.0; 2];
-    for (count, steps) in counts.iter_mut().zip(STEPS) {
-        let steps = steps.to_string();
-        let report = stepping::callgrind(program, vectors, &[], &[&[scene, &steps, "unread"], effects].concat())?;
-        *count = report
-            .lines()
-            .find_map(|line| line.split("Collected :").nth(1)?.trim().parse().ok())
-            .context("valgrind reported no count")?;
-    }
-    Ok(CountedRun { bits, instructions: (counts[1] - counts[0]) / f64::from(STEPS[1] - STEPS[0]) })
+    Ok(CountedRun { bits, instructions: stepping::instructions(program, vectors, scene, effects)? })
 }

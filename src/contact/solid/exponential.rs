@@ -1,7 +1,33 @@
-//! Mean of the exponential function over an interval: the integral over a piece of a contact patch.
+//! The exponential function and its mean over an interval: the integral over a piece of a contact patch.
 
 use super::turned::Partials;
 use crate::numeric::sqrt;
+
+/// Added to a number below 2⁵¹ it leaves whole numbers alone, the lowest bits of the sum.
+const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
+/// ln 2 in two parts, the first short enough for whole multiples of it to be exact.
+const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+const EXPONENT: u32 = 52;
+/// Least exponent: e to this power is next to nothing, and a normal number.
+const LEAST: f64 = -700.0;
+
+/// e^x for x < 700, to two roundings, in line: 2^k e^r with whole k and |r| ≤ ln 2 / 2, of which the Taylor series is
+/// summed up to r¹³. Below −700 it stays at e⁻⁷⁰⁰.
+#[inline(always)]
+pub fn exp(x: f64) -> f64 {
+    let x = if x < LEAST { LEAST } else { x };
+    let whole = x * std::f64::consts::LOG2_E + WHOLE;
+    let k = whole - WHOLE;
+    let r = (x - k * LN_2[0]) - k * LN_2[1];
+    let (r2, pair) = (r * r, |a: f64, b: f64| 1.0 / a + r * (1.0 / b));
+    let r4 = r2 * r2;
+    let low = (1.0 + r) + r2 * pair(2.0, 6.0);
+    let middle = pair(24.0, 120.0) + r2 * pair(720.0, 5040.0);
+    let high = pair(40_320.0, 362_880.0) + r2 * pair(3_628_800.0, 39_916_800.0);
+    let last = pair(479_001_600.0, 6_227_020_800.0);
+    let sum = low + r4 * (middle + r4 * (high + r4 * last));
+    sum * f64::from_bits((whole.to_bits() << EXPONENT).wrapping_add(1f64.to_bits()))
+}
 
 /// Mean of e^x for x from a to b, with its derivatives, given e^a and e^b.
 #[inline(always)]
@@ -33,6 +59,19 @@ pub fn mean_exponential([a, b]: [f64; 2], [ea, eb]: [f64; 2]) -> Partials {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_exponential_is_exact_to_two_roundings() {
+        for k in -70_000..=70_000 {
+            let x = f64::from(k) * 0.01 + 1e-3 * f64::sin(f64::from(k));
+            if x.abs() < 700.0 {
+                let (got, exact) = (exp(x), libm::exp(x));
+                assert!((got - exact).abs() <= 2.0 * f64::EPSILON * exact, "{x}: {got:e} {exact:e}");
+            }
+        }
+        assert_eq!((exp(0.0), exp(-1e6)), (1.0, exp(-700.0)));
+        assert!(exp(f64::NAN).is_nan());
+    }
 
     #[test]
     fn the_mean_exponential_and_its_derivatives_are_exact() {

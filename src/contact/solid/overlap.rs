@@ -22,14 +22,15 @@
 
 use nalgebra::Vector3;
 
-use super::exponential::mean_exponential;
+use super::exponential::{exp, mean_exponential};
 use super::turned::Both;
 use super::walk::{Corner, FlankSection, Follow};
 use crate::numeric::lanes::{Task, in_lanes};
 use crate::numeric::{TAU, sqrt};
 
-/// Weights below e to this power are left out: of a parabola's integral they are erfc √24 = 4·10⁻¹².
-const NEGLIGIBLE: f64 = -24.0;
+/// Weights below e to this power are left out: of a parabola's integral they are erfc √18 = 2·10⁻⁹, of the force less
+/// by the depth in ε.
+const NEGLIGIBLE: f64 = -18.0;
 
 /// Largest exponent before the sum is rescaled.
 const HIGH: f64 = 20.0;
@@ -119,7 +120,7 @@ impl<const N: usize> SoftIntegral<N> {
     #[inline(always)]
     fn rescale(&mut self, from: f64) {
         let shift = (self.from - from) * self.per;
-        let less = libm::exp(shift);
+        let less = exp(shift);
         (self.sum, self.walked) = (self.sum * less, self.walked * less);
         self.count_from(from);
         for (exponent, exponential) in [&mut self.before, &mut self.begin] {
@@ -158,7 +159,7 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
             self.rescale(at.overlap.v);
         }
         let exponent = Both { v: at.overlap.v - self.from, ..at.overlap } * self.per;
-        let exponential = libm::exp(exponent.v);
+        let exponential = exp(exponent.v);
         let mean = mean_exponential([self.before.0.v, exponent.v], [self.before.1, exponential]);
         self.walked = self.walked + (at.u - self.place) * Both::through_both(self.before.0, exponent, &mean);
         (self.place, self.before) = (at.u, (exponent, exponential));
@@ -184,7 +185,7 @@ impl<F: Fn(usize, usize) -> Vector3<f64>> Follow<0> for PatchMean<'_, F> {
     fn pass(&mut self, at: &Corner<0>) {
         let exponents = [&self.before, at].map(|end| (end.overlap.v - self.depth) / self.soft.width);
         let length = (at.u.v - self.before.u.v).abs();
-        let weight = length * mean_exponential(exponents, exponents.map(libm::exp)).v;
+        let weight = length * mean_exponential(exponents, exponents.map(exp)).v;
         self.weight += weight;
         for end in [&self.before, at] {
             // the flank that the corner is pressed into
