@@ -10,7 +10,6 @@ use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
-use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
 use crate::model::setup::Parameters;
@@ -144,11 +143,7 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
-        // fatigue that nothing counts need not be kept
-        let before = match &model.strength {
-            Some(_) => *state,
-            None => State { fatigue: Fatigue::default(), ..*state },
-        };
+        let before = *state;
         let given = *inputs;
         let outcome = progress::integrate(model, (inputs, state), (&before, &given), until);
         match outcome {
