@@ -16,9 +16,15 @@ const HALVINGS: u32 = 15;
 
 impl Engagement {
     /// The fraction of the motion from `position` to `position + change` (both (q, x)) after which the first kink lies,
-    /// taken as straight; `None` if there is none.
+    /// taken as straight; `None` if there is none. If flanks may not fit (`OPEN`), `opening` is by how much those of a pair
+    /// with its number, at its place on the path, do not [rad].
     #[inline(always)]
-    pub fn kink(&self, position: [f64; 2], change: [f64; 2]) -> Option<f64> {
+    pub fn kink<const OPEN: bool>(
+        &self,
+        position: [f64; 2],
+        change: [f64; 2],
+        opening: impl Fn(Flank, i64, f64) -> f64,
+    ) -> Option<f64> {
         let at = |t: f64| [position[0] + t * change[0], position[1] + t * change[1]];
         let approach = [self.approach(position[0]), self.approach(position[0] + change[0])];
         if approach[0].max(approach[1]) <= 0.0 {
@@ -36,7 +42,7 @@ impl Engagement {
             return None;
         }
         for k in pairs {
-            let spot = |[q, x]: [f64; 2]| self.spot(flank, x, self.approach(q), k);
+            let spot = |[q, x]: [f64; 2]| self.spot::<OPEN>(flank, x, self.approach(q), k, |s| opening(flank, k, s));
             let start = spot(position);
             if spot(at(1.0)) != start
                 && let Some(t) = first_change(|t| spot(at(t)) != start)
@@ -69,17 +75,24 @@ impl Engagement {
 
     /// Where pair `k` of `flank` touches, if it does.
     #[inline(always)]
-    fn spot(&self, flank: Flank, x: f64, approach: f64, k: i64) -> Option<Spot> {
+    fn spot<const OPEN: bool>(
+        &self,
+        flank: Flank,
+        x: f64,
+        approach: f64,
+        k: i64,
+        opening: impl Fn(f64) -> f64,
+    ) -> Option<Spot> {
         let [past_planet_tip, past_side_tip] = self.past_ends(flank, x, approach, k);
-        let touches = |i: usize, delta: f64| {
-            delta * delta < approach * self.corner[i].spread && self.corner[i].at(delta).v < approach
-        };
+        let depth = if OPEN { approach - opening(self.high + past_planet_tip) } else { approach };
+        let touches =
+            |i: usize, delta: f64| delta * delta < depth * self.corner[i].spread && self.corner[i].at(delta).v < depth;
         if past_planet_tip > 0.0 {
             (self.corner_contact && touches(0, past_planet_tip)).then_some(Spot::PlanetTip)
         } else if past_side_tip > 0.0 {
             (self.corner_contact && touches(1, past_side_tip)).then_some(Spot::SideTip)
         } else {
-            Some(Spot::Path)
+            (!OPEN || depth > 0.0).then_some(Spot::Path)
         }
     }
 }

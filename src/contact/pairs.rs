@@ -79,7 +79,7 @@ pub struct Engagement {
     per_base_pitch: f64,
     centred: f64,
     low: f64,
-    high: f64,
+    pub(super) high: f64,
     pub(super) corner_contact: bool,
     /// Where tooth pairs can touch at working loads, and up to the largest approach.
     windows: [Window; 2],

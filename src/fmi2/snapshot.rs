@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::calls::Phase;
 use super::types::Kind;
-use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State};
+use crate::model::{Accepted, Fatigue, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 8;
+const VERSION: u32 = 9;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -71,7 +71,7 @@ struct Payload {
     start_time: f64,
     stop_time: Option<f64>,
     tolerance_chosen: bool,
-    state: Option<State>,
+    state: Option<(State, Fatigue)>,
     accepted: Option<Accepted>,
 }
 
@@ -104,7 +104,7 @@ impl Snapshot {
             start_time: self.start_time,
             stop_time: self.stop_time,
             tolerance_chosen: self.tolerance_chosen,
-            state: self.simulation.as_ref().map(|s| *s.state()),
+            state: self.simulation.as_ref().map(|s| (*s.state(), *s.fatigue())),
             accepted: self.simulation.as_ref().and_then(|s| s.accepted().copied()),
         })
         .map_err(|e| format!("the state cannot be serialised: {e}"))?;
@@ -167,7 +167,7 @@ impl Payload {
         if needs_state && self.state.is_none() {
             return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
-        if !self.start_time.is_finite() || self.state.is_some_and(|s| !s.is_valid()) {
+        if !self.start_time.is_finite() || self.state.as_ref().is_some_and(|(state, _)| !state.is_valid()) {
             return Err("the state has values that are not finite".into());
         }
         if self.accepted.as_ref().is_some_and(|a| !a.is_valid())

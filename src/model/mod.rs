@@ -25,6 +25,7 @@ pub use assembly::model::Given;
 pub use dynamics::accepted::Accepted;
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
+pub use effects::strength::Fatigue;
 pub use effects::{EFFECTS, EffectParameters, Effects};
 pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;

@@ -52,6 +52,15 @@ pub struct Teeth<'a> {
     pub side: usize,
 }
 
+impl Teeth<'_> {
+    /// The pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
+    #[inline(always)]
+    fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
+        let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
+        PairName { planet: self.planet, side: self.side, flank, tooth }
+    }
+}
+
 impl Detailed {
     /// A detailed mesh of `pair` with the damping `damping` of a force at the resultant of the face.
     pub fn new(
@@ -110,6 +119,22 @@ impl Detailed {
     /// Whether the flanks of pairs may not fit.
     fn is_open(&self, teeth: &Teeth) -> bool {
         self.seats || teeth.gaps.is_some()
+    }
+
+    /// By how much the flanks of pair `number` of `flank` at place `s` [rad] do not fit at cone distance `cone` [m], as an
+    /// arc [rad].
+    pub fn opened(
+        &self,
+        teeth: &Teeth,
+        state: &DetailedState,
+        (flank, number, s): (Flank, i64, f64),
+        cone: f64,
+    ) -> f64 {
+        let mut opening = self.opening(teeth, teeth.name(flank, number, state.wrapped), s);
+        if self.seats {
+            opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(s))[0];
+        }
+        opening.at(cone) / cone
     }
 
     /// Adds the loads of all pairs.
@@ -176,13 +201,7 @@ impl Detailed {
             if approach + excess <= 0.0 {
                 continue;
             }
-            let mut see = |pair: &ToothPair| {
-                let tooth = match flank {
-                    Flank::Drive => pair.number - state.wrapped,
-                    Flank::Coast => -(pair.number + state.wrapped),
-                };
-                visit(PairName { planet: teeth.planet, side: teeth.side, flank, tooth }, pair);
-            };
+            let mut see = |pair: &ToothPair| visit(teeth.name(flank, pair.number, state.wrapped), pair);
             if self.single {
                 see(&ToothPair::single(flank, approach));
             } else {

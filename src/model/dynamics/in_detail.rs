@@ -77,6 +77,23 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         }
     }
 
+    /// The fraction of a step of `h` [s] from `at` on after which the force of the mesh of group `g` with side `s` has its
+    /// first kink.
+    #[inline(always)]
+    pub(super) fn mesh_kink(&self, at: &Point<N>, h: f64, g: usize, s: usize) -> Option<f64> {
+        let mesh = &self.teeth.mesh;
+        let state = self.mesh_state(at, g, s);
+        let teeth = self.mesh_teeth(g, s);
+        let detailed = &self.teeth.additions.detailed;
+        if !(WITH_EFFECTS && self.in_detail() && teeth.gaps.is_some()) {
+            return mesh.kink::<false>(&state, h, |_, _, _| 0.0);
+        }
+        let in_detail = self.detailed_state(at, g, s);
+        mesh.kink::<true>(&state, h, |flank, number, s| {
+            detailed.opened(&teeth, &in_detail, (flank, number, s), mesh.cone)
+        })
+    }
+
     /// Loads of the mesh of group `g` with side `s` in detail; calls `look` with each loaded slice.
     pub(in crate::model) fn detail(
         &self,

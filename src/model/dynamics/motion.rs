@@ -178,7 +178,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         let mut first: Option<f64> = None;
         for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
             for s in 0..2 {
-                let found = self.teeth.mesh.kink(&self.mesh_state(at, g, s), h);
+                let found = self.mesh_kink(at, h, g, s);
                 first = match (first, found) {
                     (Some(a), Some(b)) => Some(a.min(b)),
                     (a, b) => a.or(b),

@@ -1,4 +1,4 @@
-//! Everything that changes while a simulation runs: small, `Copy`, and complete, so that a snapshot is an assignment.
+//! What changes while a simulation runs, but the damage of teeth: small and `Copy`, so that a snapshot is an assignment.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +8,6 @@ use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::body_effects::BodyEffects;
 use crate::model::assembly::teeth::Teeth;
 use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::effects::strength::Fatigue;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, PLANET};
 use crate::model::scene::{InputDerivatives, Layout};
 use crate::model::setup::effect_outputs::HEATS;
@@ -47,15 +46,13 @@ pub struct State {
     pub carrier_command: f64,
     /// Derivatives of the inputs, where the host set them.
     pub input_derivatives: Option<InputDerivatives>,
-    /// Damage of the teeth.
-    pub fatigue: Fatigue,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
     /// When the integration last began anew, as inputs had changed [s].
     pub begun: Option<f64>,
     /// How long inputs had held before [s].
     pub held: f64,
-    /// The integrator's step that goes beyond the present. Work, heat, damage and friction are those at its begin.
+    /// The integrator's step that goes beyond the present. Work, heat and friction are those at its begin, and so is damage.
     pub ahead: Option<Ahead>,
 }
 
@@ -77,7 +74,6 @@ impl State {
             lock: 0.0,
             carrier_command: 0.0,
             input_derivatives: None,
-            fatigue: Fatigue::default(),
             energy_at_start: 0.0,
             begun: None,
             held: f64::INFINITY,
@@ -191,11 +187,11 @@ impl State {
             self.bias.since,
             self.carrier_command,
         ];
-        // 0 times a number is 0 unless the number is not finite
-        let zero = |numbers: &[f64]| numbers.iter().map(|x| 0.0 * x).sum::<f64>();
-        let anchors: f64 = self.friction.iter().map(|f| 0.0 * f.anchor).sum();
+        // a sum is not finite if a term is not
+        let sum = |numbers: &[f64]| numbers.iter().sum::<f64>();
+        let anchors: f64 = self.friction.iter().map(|f| f.anchor).sum();
         let input_derivatives = self.input_derivatives.is_none_or(|input_derivatives| input_derivatives.is_finite());
-        zero(&self.q) + zero(&self.v) + zero(&numbers) + zero(&self.heat) + anchors == 0.0
+        (sum(&self.q) + sum(&self.v) + sum(&numbers) + sum(&self.heat) + anchors).is_finite()
             && input_derivatives
             && self.turns.iter().all(|turns| turns.unsigned_abs() < MOST_TURNS)
             && (0.0..=1.0).contains(&self.lock)

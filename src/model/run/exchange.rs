@@ -158,7 +158,7 @@ impl Simulation {
 
     /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
-        complete(&self.model, &mut self.state);
+        complete(&self.model, (&mut self.state, &mut self.fatigue));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
@@ -180,7 +180,7 @@ impl Simulation {
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
-        let (inputs, state) = (&self.inputs, &mut self.state);
+        let (inputs, state, fatigue) = (&self.inputs, &mut self.state, &mut self.fatigue);
         let mut is_due = false;
         let h = state.time - from.time;
         if h > 0.0 {
@@ -197,7 +197,7 @@ impl Simulation {
                 // the motion in between is the host's: for stiff teeth no curve through both ends describes it
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, power };
-                let State { work, heat, bias, fatigue, .. } = state;
+                let State { work, heat, bias, .. } = state;
                 let outcome = equations.admit(&end);
                 if outcome.is_ok() {
                     equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });

@@ -12,6 +12,7 @@ use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::{by_rigid_size, by_size};
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::friction_state::Mode;
+use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
 use crate::model::outputs::motion::Motion;
@@ -83,7 +84,7 @@ impl Simulation {
             let mut shown = self.present();
             if self.model.ideal.plan.ends && self.state.ahead.is_some() {
                 // means over mesh cycles count up to the present
-                shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().bias;
+                shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }
             self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state());
         }
@@ -119,11 +120,11 @@ impl Simulation {
         });
     }
 
-    /// The state with the step ahead completed up to the present.
-    fn completed(&self) -> State {
-        let mut state = self.state;
-        complete(&self.model, &mut state);
-        state
+    /// State and damage with the step ahead completed up to the present.
+    fn completed(&self) -> (State, Fatigue) {
+        let (mut state, mut fatigue) = (self.state, self.fatigue);
+        complete(&self.model, (&mut state, &mut fatigue));
+        (state, fatigue)
     }
 
     /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
@@ -134,10 +135,11 @@ impl Simulation {
 
     /// Ledger and solver statistics.
     pub fn ledger(&self) -> LedgerReadings {
-        let (s, state) = (&self.state.statistics, &self.completed());
+        let s = &self.state.statistics;
+        let (state, fatigue) = &self.completed();
         let mut readings = [0.0; READINGS];
         if let Some(strength) = &self.model.strength {
-            strength.read_damage(&state.fatigue, &mut readings[places_of("strength")]);
+            strength.read_damage(fatigue, &mut readings[places_of("strength")]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = state.friction[range].iter();

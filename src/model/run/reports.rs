@@ -26,7 +26,7 @@ impl Simulation {
         }
         if self.model.strength.is_some() {
             for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
-                if let Some(overload) = self.state.fatigue.overloads.of(what) {
+                if let Some(overload) = self.fatigue.overloads.of(what) {
                     *reported = true;
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }

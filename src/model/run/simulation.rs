@@ -10,6 +10,7 @@ use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
+use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
 use crate::model::setup::Parameters;
@@ -24,6 +25,8 @@ const FIRST_STEP: f64 = 1e-6;
 pub struct Simulation {
     pub(super) model: Arc<Model>,
     pub(super) state: State,
+    /// Damage of the teeth.
+    pub(super) fatigue: Fatigue,
     pub(super) inputs: Inputs,
     pub(super) forces: Option<Forces>,
     /// Where the last step ended that a solver of the host's completed.
@@ -43,7 +46,8 @@ impl Simulation {
         time: f64,
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
-        let mut simulation = Self::resume_with(parameters, inputs, State::at_rest(time, FIRST_STEP), given)?;
+        let mut simulation =
+            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Fatigue::default()), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
         if parameters.scene.start == Start::Equilibrium {
@@ -64,20 +68,20 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// A simulation of `parameters` that continues from `state`.
+    /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        Self::resume_with(parameters, inputs, state, &Given::default())
+        Self::resume_with(parameters, inputs, (state, Fatigue::default()), &Given::default())
     }
 
-    /// The same with what is `given` besides.
+    /// A simulation of `parameters` that continues from a state and damaged teeth, with what is `given` besides.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
-        state: State,
+        (state, fatigue): (State, Fatigue),
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
-        Ok(Self { model, state, inputs: *inputs, forces: None, accepted: None })
+        Ok(Self { model, state, fatigue, inputs: *inputs, forces: None, accepted: None })
     }
 
     /// Sets the inputs that act from now on.
@@ -108,7 +112,7 @@ impl Simulation {
 
     /// Takes over tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
-        progress::complete(&self.model, &mut self.state);
+        progress::complete(&self.model, (&mut self.state, &mut self.fatigue));
         Arc::make_mut(&mut self.model).tune(parameters);
         self.forces = None;
     }
@@ -116,7 +120,7 @@ impl Simulation {
     /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
-        let Self { model, state, inputs, .. } = self;
+        let Self { model, state, fatigue, inputs, .. } = self;
         let model = &**model;
         let holds = state.ahead.as_ref().is_some_and(|ahead| ahead.inputs == *inputs);
         if holds && state.input_derivatives.is_none() {
@@ -125,7 +129,7 @@ impl Simulation {
                 return Ok(());
             }
         } else {
-            begin_anew(model, inputs, state);
+            begin_anew(model, inputs, (state, fatigue));
         }
         if let Gears::Rigid(rigid) = &model.gears
             && !rigid.bodies.act_in(state)
@@ -143,18 +147,21 @@ impl Simulation {
             state.wrap(&model.periods, &model.layout);
             return Ok(());
         }
-        let before = *state;
-        let given = *inputs;
-        let outcome = progress::integrate(model, (inputs, state), (&before, &given), until);
-        match outcome {
+        let before = (*inputs, *state);
+        // what nothing counts need not be kept
+        let damage = model.strength.as_ref().map(|_| *fatigue);
+        let mut outcome = progress::integrate(model, (inputs, state, fatigue), until);
+        if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            Err(failure) if failure.time < before.time => {
-                *state = before;
-                begin_anew(model, inputs, state);
-                progress::integrate(model, (inputs, state), (&before, &given), until)
-            }
-            outcome => outcome,
+            go_back((inputs, state, fatigue), &before, &damage);
+            begin_anew(model, inputs, (state, fatigue));
+            outcome = progress::integrate(model, (inputs, state, fatigue), until);
         }
+        if outcome.is_ok() && !state.is_sound() {
+            outcome = Err(StepFailure::not_finite(state.time));
+            go_back((inputs, state, fatigue), &before, &damage);
+        }
+        outcome
     }
 
     /// Where the host's solver last completed a step, for snapshots.
@@ -170,5 +177,23 @@ impl Simulation {
     /// The state, for snapshots.
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Damage of the teeth, for snapshots.
+    pub fn fatigue(&self) -> &Fatigue {
+        &self.fatigue
+    }
+}
+
+/// Takes all that changes back to what it was `before`.
+#[cold]
+fn go_back(
+    (inputs, state, fatigue): (&mut Inputs, &mut State, &mut Fatigue),
+    before: &(Inputs, State),
+    damage: &Option<Fatigue>,
+) {
+    (*inputs, *state) = *before;
+    if let Some(damage) = damage {
+        *fatigue = *damage;
     }
 }

@@ -13,6 +13,7 @@ use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
+use crate::model::effects::strength::Fatigue;
 use crate::model::scene::{Inputs, Method, SolverSpec};
 use crate::numeric::lanes::{Task, in_lanes};
 
@@ -60,6 +61,8 @@ pub struct Stretch<'a> {
     pub is_shown: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
+    /// Damage of the teeth.
+    pub fatigue: &'a mut Fatigue,
 }
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
@@ -103,7 +106,7 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Stretch { clock, begin, is_shown, inputs } = stretch;
+    let Stretch { clock, begin, is_shown, inputs, fatigue } = stretch;
     let mut course = Course {
         longest: LONGEST,
         resolution: RESOLUTION,
@@ -121,8 +124,8 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
     let mut anchors = equations.friction_state().map(|state| state.anchor);
     while switched && outcome.is_ok() {
         switched = false;
-        let State { control, statistics, work, heat, bias, fatigue, .. } = state;
-        let mut records = Records { begin, work, heat, bias, fatigue };
+        let State { control, statistics, work, heat, bias, .. } = state;
+        let mut records = Records { begin, work, heat, bias, fatigue: &mut *fatigue };
         let mut observe = |step: Step<N, Power>| {
             if !is_shown {
                 equations.admit(step.end)?;
