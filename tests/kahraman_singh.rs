@@ -89,7 +89,7 @@ impl SecondOrder<2> for Oscillator {
     }
 
     fn kink(&self, at: &Point<2>, h: f64) -> Option<f64> {
-        if self.kinks { self.mesh.kink::<false>(&Self::state(at), h, |_, _, _| 0.0) } else { None }
+        if self.kinks { self.mesh.kink(&Self::state(at), h) } else { None }
     }
 }
 

@@ -115,20 +115,24 @@ impl Mesh {
     }
 
     /// The fraction of the motion of `h` [s] from `state` on after which the first kink of the force lies; a mesh of
-    /// one spring has one where flanks touch or separate. If flanks may not fit (`OPEN`), `opening` is by how much those of a
-    /// pair with its number, at its place on the path, do not [rad].
+    /// one spring has one where flanks touch or separate.
     #[inline(always)]
-    pub fn kink<const OPEN: bool>(
-        &self,
-        state: &MeshState,
-        h: f64,
-        opening: impl Fn(Flank, i64, f64) -> f64,
-    ) -> Option<f64> {
+    pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
         // the force of solid teeth is smooth enough between facets
         if matches!(self.law, Law::Solid(_)) {
             return None;
         }
-        self.engagement.kink::<OPEN>(state.position, state.rate.map(|rate| h * rate), opening)
+        self.engagement.kink::<false>(state.position, state.rate.map(|rate| h * rate), |_, _, _| 0.0)
+    }
+
+    /// The same of flanks that may not fit: `opening` is by how much those of a pair with its number, at its place on the path,
+    /// do not [rad].
+    #[inline(always)]
+    pub fn kink_of_open(&self, state: &MeshState, h: f64, opening: impl Fn(Flank, i64, f64) -> f64) -> Option<f64> {
+        if matches!(self.law, Law::Solid(_)) {
+            return None;
+        }
+        self.engagement.kink::<true>(state.position, state.rate.map(|rate| h * rate), opening)
     }
 
     /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh of one spring has one, at s = 0.

@@ -4,6 +4,7 @@
 //! Everything here is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to `model`.
 
 pub mod any_spring;
+pub mod bodies;
 pub mod damping;
 pub mod detailed;
 pub mod errors;

@@ -6,6 +6,7 @@ pub mod compare_solvers;
 pub mod cost;
 pub mod drivetrain;
 pub mod solids;
+pub mod stiffness;
 
 use anyhow::Result;
 use clap::Subcommand;
@@ -16,6 +17,7 @@ use clap::Subcommand;
 pub enum MeasureCommand {
     Cost(cost::CostCommand),
     Solids(solids::SolidsCommand),
+    Stiffness(stiffness::StiffnessCommand),
     #[command(alias = "peers")]
     CompareSimulators(compare_simulators::CompareSimulatorsCommand),
     #[command(alias = "foreign")]
@@ -29,6 +31,7 @@ impl MeasureCommand {
         match self {
             Self::Cost(command) => command.run(),
             Self::Solids(command) => command.run(),
+            Self::Stiffness(command) => command.run(),
             Self::CompareSimulators(command) => command.run(),
             Self::CompareSolvers(command) => command.run(),
             Self::Drivetrain(command) => command.run(),

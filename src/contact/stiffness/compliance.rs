@@ -11,7 +11,7 @@
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
 use super::quadrature::integrate;
-use super::section::ToothSection;
+use super::section::{FlankLoad, ToothSection};
 use crate::numeric::{PI, cos, sqrt, tan};
 
 /// Elastic constants of both gears.
@@ -63,6 +63,27 @@ impl ToothSection {
     pub fn compliance(&self, roll: f64, elasticity: &Elasticity) -> f64 {
         let load = self.load(roll);
         let nu = elasticity.poisson / (1.0 - elasticity.poisson);
+        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
+        let slide = 2.4 * (1.0 + nu);
+        let [bending, shear] = self.beam(&load);
+        let share = load.lever / self.root_chord;
+        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_tau * tan_tau / slide);
+        cos_tau * cos_tau / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_tau * tan_tau) * shear + root)
+    }
+
+    /// The same of the tooth alone, on a root that does not give way. Bending and compression are those of plane strain times
+    /// `softening`.
+    pub fn beam_compliance(&self, roll: f64, elasticity: &Elasticity, softening: f64) -> f64 {
+        let load = self.load(roll);
+        let nu = elasticity.poisson / (1.0 - elasticity.poisson);
+        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
+        let [bending, shear] = self.beam(&load);
+        cos_tau * cos_tau / elasticity.plane_modulus()
+            * (softening * (12.0 * bending + tan_tau * tan_tau * shear) + 2.4 * (1.0 + nu) * shear)
+    }
+
+    /// ∫(y_c−y)²/s³ dy and ∫dy/s from the root section to where `load` crosses the middle.
+    fn beam(&self, load: &FlankLoad) -> [f64; 2] {
         let top = load.height;
         let mut bending = 0.0;
         let mut shear = 0.0;
@@ -89,11 +110,7 @@ impl ToothSection {
                 shear += s;
             }
         }
-        let (cos_tau, tan_tau) = (cos(load.angle), tan(load.angle));
-        let slide = 2.4 * (1.0 + nu);
-        let share = load.lever / self.root_chord;
-        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_tau * tan_tau / slide);
-        cos_tau * cos_tau / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_tau * tan_tau) * shear + root)
+        [bending, shear]
     }
 }
 

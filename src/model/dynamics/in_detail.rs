@@ -81,17 +81,17 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// first kink.
     #[inline(always)]
     pub(super) fn mesh_kink(&self, at: &Point<N>, h: f64, g: usize, s: usize) -> Option<f64> {
-        let mesh = &self.teeth.mesh;
-        let state = self.mesh_state(at, g, s);
-        let teeth = self.mesh_teeth(g, s);
-        let detailed = &self.teeth.additions.detailed;
-        if !(WITH_EFFECTS && self.in_detail() && teeth.gaps.is_some()) {
-            return mesh.kink::<false>(&state, h, |_, _, _| 0.0);
+        let (mesh, state) = (&self.teeth.mesh, self.mesh_state(at, g, s));
+        if WITH_EFFECTS && self.in_detail() {
+            let (teeth, detailed) = (self.mesh_teeth(g, s), &self.teeth.additions.detailed);
+            if teeth.gaps.is_some() {
+                let in_detail = self.detailed_state(at, g, s);
+                return mesh.kink_of_open(&state, h, |flank, number, s| {
+                    detailed.opened(&teeth, &in_detail, (flank, number, s), mesh.cone)
+                });
+            }
         }
-        let in_detail = self.detailed_state(at, g, s);
-        mesh.kink::<true>(&state, h, |flank, number, s| {
-            detailed.opened(&teeth, &in_detail, (flank, number, s), mesh.cone)
-        })
+        mesh.kink(&state, h)
     }
 
     /// Loads of the mesh of group `g` with side `s` in detail; calls `look` with each loaded slice.

@@ -1,0 +1,104 @@
+//! The body of one gear: how far a load on one tooth moves this tooth and others.
+//!
+//! Loads and displacements of the roots belong to each other by work. Harmonics of all orders act on a tooth that stands
+//! `angle` further: cos(n·angle) between loads of like parity, sin(n·angle) else.
+
+use super::cone::HollowCone;
+use super::root::{RootLoad, RootPatch};
+use super::support::Support;
+use crate::contact::stiffness::{Elasticity, ToothSection};
+use crate::geometry::Pair;
+use crate::numeric::{PI, TAU, sin, sin_cos};
+use crate::problem::Problem;
+
+/// Waves over the width of a root up to which the series goes.
+const WAVES: f64 = 4.0;
+/// Harmonics up to which the face is finite; of shorter waves the ends soften as much as they are long.
+const FINITE: usize = 8;
+/// Harmonics up to which the cone's curvature is followed exactly; shorter waves see a half-space and its correction of first
+/// order.
+const CURVED: usize = 40;
+
+/// The body of a gear under its teeth.
+#[derive(Clone, Debug)]
+pub struct GearBody {
+    /// The teeth's roots.
+    pub root: RootPatch,
+    /// Compliance between unit loads of each harmonic: across, along, moment [1/Pa].
+    harmonics: Vec<[[f64; 3]; 3]>,
+}
+
+impl GearBody {
+    /// The body of gear `i` of `pair`, whose teeth have the section `section`, held by `support`; `name` is what a problem
+    /// with it names.
+    pub fn new(
+        pair: &Pair,
+        i: usize,
+        (section, elasticity): (&ToothSection, &Elasticity),
+        support: Support,
+        name: &'static str,
+    ) -> Result<Self, Problem> {
+        let root = RootPatch::new(pair, i, section);
+        let held = support.held(pair, i, name)?;
+        let face = [pair.inner_cone, pair.outer_cone];
+        let cone = HollowCone { surface: root.polar, held, face, elasticity: *elasticity };
+        let area = TAU * sin(root.polar) * sin(root.polar);
+        let last = (WAVES * TAU / root.half_azimuth) as usize;
+        let ends = cone.compliance(FINITE, false, 3).trace() / cone.compliance(FINITE, false, 1).trace() - 1.0;
+        let correction = cone.compliance(CURVED, false, 1) - cone.half_space(CURVED);
+        let compliance = |n: usize| {
+            if n <= FINITE {
+                return cone.compliance(n, support.turns(), 3);
+            }
+            let endless = if n <= CURVED {
+                cone.compliance(n, false, 1)
+            } else {
+                let ratio = CURVED as f64 / n as f64;
+                cone.half_space(n) + correction * (ratio * ratio)
+            };
+            endless * (1.0 + ends * FINITE as f64 / n as f64)
+        };
+        let harmonics = (0..=last)
+            .map(|n| {
+                let compliance = compliance(n);
+                let waves = root.waves(n);
+                let factor = if n == 0 { area } else { 2.0 * area };
+                let moved =
+                    waves.map(|load| [0, 1, 2].map(|k| (0..3).map(|j| compliance[(k, j)] * load[j]).sum::<f64>()));
+                waves.map(|by| [0, 1, 2].map(|of| factor * (0..3).map(|k| by[k] * moved[of][k]).sum::<f64>()))
+            })
+            .collect();
+        Ok(Self { root, harmonics })
+    }
+
+    /// Compliance between the load on one tooth (column) and the displacement of a tooth that stands `angle` [rad] further
+    /// toward positive ζ (row) [1/Pa].
+    pub fn between(&self, angle: f64) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        // angle sums: one sine and cosine for all
+        let (step_sin, step_cos) = sin_cos(angle.rem_euclid(TAU) - if angle.rem_euclid(TAU) > PI { TAU } else { 0.0 });
+        let (mut odd, mut even) = (0.0, 1.0);
+        for part in &self.harmonics {
+            for (row, by) in part.iter().enumerate() {
+                for (column, compliance) in by.iter().enumerate() {
+                    sum[row][column] += compliance
+                        * match (row == ALONG, column == ALONG) {
+                            (true, false) => odd,
+                            (false, true) => -odd,
+                            _ => even,
+                        };
+                }
+            }
+            (odd, even) = (odd * step_cos + even * step_sin, even * step_cos - odd * step_sin);
+        }
+        sum
+    }
+
+    /// Displacement along the load `measured` of a tooth that the load `acting` on another moves; `between` is theirs [1/Pa].
+    pub fn moved(between: &[[f64; 3]; 3], measured: &RootLoad, acting: &RootLoad) -> f64 {
+        (0..3).map(|i| measured[i] * (0..3).map(|j| between[i][j] * acting[j]).sum::<f64>()).sum()
+    }
+}
+
+/// Index of the force along the tooth.
+const ALONG: usize = 1;

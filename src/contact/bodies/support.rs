@@ -1,0 +1,50 @@
+//! Where the body of a gear is held.
+
+use super::cone::Held;
+use crate::geometry::Pair;
+use crate::numeric::sin;
+use crate::problem::Problem;
+
+/// A body without a bore is held this many modules below its root.
+const DEPTH: f64 = 2.0;
+/// Least thickness of the rim between bore and root [modules].
+const THINNEST: f64 = 0.25;
+
+/// How the body of a gear is held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Support {
+    /// On the cone two modules below its root.
+    NearRoot,
+    /// On a bore of a diameter [m].
+    Bore(f64),
+    /// On a bore of a diameter [m] that takes no torque: the body turns with the mean of its root.
+    FreeBore(f64),
+}
+
+impl Support {
+    /// Where gear `i` of `pair` is held; `name` is what a problem names.
+    pub fn held(self, pair: &Pair, i: usize, name: &'static str) -> Result<Held, Problem> {
+        let root = pair.gears[i].root;
+        let diameter = match self {
+            Self::NearRoot => return Ok(Held::Cone((root - DEPTH * pair.module / pair.outer_cone).max(0.25 * root))),
+            Self::Bore(diameter) | Self::FreeBore(diameter) => diameter,
+        };
+        let thickest = 2.0 * (pair.inner_cone * sin(root) - THINNEST * pair.module * pair.inner_cone / pair.outer_cone);
+        if !(diameter > 0.0 && diameter < thickest) {
+            return Err(Problem::new(
+                name,
+                format!(
+                    "a bore of {:.3} mm leaves no body below the teeth: it must be within 0 and {:.3} mm",
+                    diameter * 1e3,
+                    thickest * 1e3
+                ),
+            ));
+        }
+        Ok(Held::Cylinder(0.5 * diameter))
+    }
+
+    /// Whether it leaves the body free to turn.
+    pub fn turns(self) -> bool {
+        matches!(self, Self::FreeBore(_))
+    }
+}
