@@ -1,5 +1,5 @@
-//! Proof that effects that are off cost nothing: a build without any is compared with the full build, bit by bit and
-//! instruction by instruction.
+//! Proof that effects that are off cost nothing: the full build gives the same bits as a build without any, and takes no more
+//! instructions.
 
 use std::path::Path;
 use std::process::Command;
@@ -64,17 +64,25 @@ fn run(quick: bool, write: bool) -> Result<()> {
         table.push([format!("`{}`", effect.name)].into_iter().chain(counts).chain([cost]));
     }
     progress.finish();
-    ensure!(left_out == off, "effects that are off change results or instructions: left out {left_out:?}, off {off:?}");
+    for (off, left_out) in off.iter().zip(&left_out) {
+        ensure!(off.bits == left_out.bits, "effects that are off change results: left out {left_out:?}, off {off:?}");
+        // compilers arrange the same blocks in different orders, and then jump more or less often
+        ensure!(
+            off.instructions <= left_out.instructions,
+            "effects that are off cost instructions: left out {left_out:?}, off {off:?}"
+        );
+    }
     if quick {
         println!(
-            "left out and off: {:.0} instructions per communication step in the turn, same bits",
-            off[1].instructions
+            "left out {:.0} and off {:.0} instructions per communication step in the turn, same bits",
+            left_out[1].instructions, off[1].instructions
         );
         return Ok(());
     }
     let page = format!(
-        "{}\nInstructions per communication step of 1 ms in the study's turn. \"Left out\" is a build without any effect; its \
-         results have the same bits. Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
+        "{}\nInstructions per communication step of 1 ms in the study's turn. \"Left out\" is a build without any effect: its \
+         results have the same bits, and off takes no more instructions. The compiler may order the same blocks differently \
+         in both builds and jump more often in one. Switching on takes the time of more steps, too, where the effect brings faster motion.\n",
         table.markdown(),
     );
     println!("{}", for_terminal(&page));

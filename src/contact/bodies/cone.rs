@@ -280,8 +280,7 @@ mod tests {
         // the motion that is the same at all R is one of those that a finite face can have
         for n in [1, 2, 5, 8] {
             let [endless, finite] = [1, 3].map(|across| cone(0.86, 0.3).compliance(n, false, across));
-            assert!((finite - endless).cholesky().is_some() || n > 5, "{n}: {endless} {finite}");
-            assert!(finite.trace() > endless.trace(), "{n}: {endless} {finite}");
+            assert!((finite - endless).cholesky().is_some(), "{n}: {endless} {finite}");
         }
     }
 
@@ -300,7 +299,7 @@ mod tests {
                 let loads = DMatrix::from_fn(3 * across, 3, |i, j| if i % 3 == j { shares[i / 3] } else { 0.0 });
                 let stiffness = below.expect("elements");
                 let fine = loads.transpose() * stiffness.cholesky().expect("a stiffness").solve(&loads);
-                assert!((&coarse - &fine).norm() < 5e-3 * fine.norm(), "{n}: {coarse} {fine}");
+                assert!((coarse - &fine).norm() < 5e-3 * fine.norm(), "{n}: {fine}");
             }
         }
     }
