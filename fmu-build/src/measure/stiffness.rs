@@ -73,10 +73,10 @@ fn sets() -> Result<Vec<Set>> {
         }
         let Some(set) = sets.last_mut() else { continue };
         let s = number(10)?.to_radians();
-        if &row[9] == "one" {
-            set.single.push([s, number(14)? * PER_MM_UM]);
-        } else {
-            set.double.push([s, number(15)? * PER_MM_UM, number(15)? / number(16)?]);
+        match &row[9] {
+            "one" => set.single.push([s, number(14)? * PER_MM_UM]),
+            "two" => set.double.push([s, number(15)? * PER_MM_UM, number(15)? / number(16)?]),
+            other => bail!("no kind \"{other}\""),
         }
     }
     Ok(sets)
@@ -106,7 +106,8 @@ impl Set {
         let supports = match self.columns[6].as_str() {
             "tooth" => [Support::NearRoot; 2],
             // the reference names radii
-            _ => [Support::Bore(2e-3 * number(7)?), Support::Bore(2e-3 * number(8)?)],
+            "full" => [Support::Bore(2e-3 * number(7)?), Support::Bore(2e-3 * number(8)?)],
+            other => bail!("no support \"{other}\""),
         };
         let mesh =
             MeshOnBodies::new(&pair, &stiffness.teeth, supports).map_err(|problem| anyhow::anyhow!("{problem}"))?;
@@ -179,11 +180,13 @@ fn page(sets: &[Set]) -> Result<String> {
     ))
 }
 
-/// Secant stiffness of IMPACT per width under the reference load [Pa].
+/// Secant stiffness of IMPACT under the reference load [Pa]: torque over arc and ∫R²dR, its force at the mean cone distance.
 fn impact(gears: &Gears) -> f64 {
-    let width = gears.spec.face_width;
-    let depth = (LINE_LOAD * width / IMPACT[0]).powf(1.0 / IMPACT[1]);
-    LINE_LOAD / depth
+    let Pair { mean_cone, outer_cone, inner_cone, .. } = gears.pair;
+    let force = LINE_LOAD * gears.spec.face_width;
+    let depth = (force / IMPACT[0]).powf(1.0 / IMPACT[1]);
+    let moment = (outer_cone.powi(3) - inner_cone.powi(3)) / 3.0;
+    force * mean_cone * mean_cone / (depth * moment)
 }
 
 /// Mean, smallest and largest of ratios, as differences from 1 in per cent.

@@ -75,11 +75,12 @@ impl MeshOnBodies {
     }
 
     /// By how much a load on the pair at place `s` [rad] moves the pair that stands `further` pitches nearer to the planet's
-    /// tip, and the other way round [1/Pa].
+    /// tip, and the other way round [1/Pa]; 0 if more than two.
     pub fn coupling(&self, s: f64, further: usize) -> f64 {
         let other = s + further as f64 * self.base_pitch;
         [0, 1]
             .into_iter()
+            .filter(|_| further < NEIGHBOURS)
             .map(|i| GearBody::moved(&self.between[i][further], &self.root_load(i, other), &self.root_load(i, s)))
             .sum()
     }
@@ -101,7 +102,8 @@ impl MeshOnBodies {
 /// strain; toward each end of the face it turns into plane stress over about half the tooth's height, as in Saint-Venant's
 /// principle. A tooth no wider than high is a thin plate.
 fn softening(pair: &Pair, i: usize, poisson: f64) -> f64 {
-    let height = pair.gears[i].addendum + pair.gears[i].dedendum;
+    // the tooth's height shrinks toward the apex
+    let height = (pair.gears[i].addendum + pair.gears[i].dedendum) * pair.mean_cone / pair.outer_cone;
     let ends = (height / (pair.outer_cone - pair.inner_cone)).min(1.0);
     let square = poisson * poisson;
     1.0 + square / (1.0 - square) * ends

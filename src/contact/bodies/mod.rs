@@ -12,7 +12,6 @@ mod root;
 mod support;
 
 pub use body::GearBody;
-pub use cone::HollowCone;
 pub use mesh::MeshOnBodies;
 pub use root::{RootLoad, RootPatch};
 pub use support::Support;

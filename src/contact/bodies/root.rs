@@ -41,8 +41,8 @@ impl RootPatch {
     /// The root of the teeth of gear `i` of `pair` with the section `section`.
     pub fn new(pair: &Pair, i: usize, section: &ToothSection) -> Self {
         let gear = &pair.gears[i];
-        let arc = asin(0.5 * section.root_chord / section.root_radius) * section.root_radius;
-        let half_azimuth = arc / (pair.outer_cone * sin(gear.root));
+        // an angle of the virtual gear is one of the gear over cos δ
+        let half_azimuth = asin(0.5 * section.root_chord / section.root_radius) / cos(gear.pitch);
         let mut patch = Self { polar: gear.root, half_azimuth, means: [0.0; 3], arm: sin(gear.base) };
         let mut means = [0.0; 3];
         patch.spread(1, |zeta, weight, [parabola, constant, linear]| {
@@ -54,15 +54,17 @@ impl RootPatch {
         patch
     }
 
-    /// The load at the root of a unit load on the flank at the angle `angle` to the chord [rad]. Slices bear no load on their
-    /// sides in the mean, so that both have the same moment about the apex. The load crosses the tooth's middle at the polar
-    /// angle φ_c, sin φ_c = sin δ_b/cos τ.
+    /// The load at the root of a unit load on the flank at the angle `angle` to the chord [rad], negative toward the tip. The
+    /// stresses between slices have no moment about the apex, so that both loads have the same. The load crosses the
+    /// tooth's middle at the polar angle φ_c, sin φ_c = sin δ_b/cos τ.
     pub fn load(&self, angle: f64) -> RootLoad {
         let (s, c) = (sin(self.polar), cos(self.polar));
         let [across, along, turn] = self.means;
         let flat = sqrt((cos(angle) * cos(angle) - self.arm * self.arm).max(0.0));
         let force = (s * self.arm + c * flat) / (c * c + s * s * across);
-        [force, sin(angle) / (c * c + s * s * along), (self.arm - force * s * across) / (s * c * turn)]
+        // cos τ sin(φ_c − δ_f), and what the spread of the force across takes of it
+        let lever = self.arm * c - flat * s + force * s * c * (1.0 - across);
+        [force, sin(angle) / (c * c + s * s * along), lever / (s * turn)]
     }
 
     /// Calls `visit` at Gauss points of one half of the root with ζ, the weight of both halves, and the spread of a unit force
@@ -100,5 +102,41 @@ impl RootPatch {
             }
         });
         waves
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::stiffness::SectionSpec;
+    use crate::geometry::GearSpec;
+
+    #[test]
+    fn the_root_bears_the_moment_of_the_flank_about_the_apex() {
+        // e_R × t over the root, from the first harmonics; with the tooth's middle at ζ = 0 in the plane x, z
+        let pair = Pair::new(&GearSpec::default());
+        for i in 0..2 {
+            let section = SectionSpec::of_gear(&pair, i).with_fillet(0.4 * pair.module, "").expect("a gap");
+            let patch = RootPatch::new(&pair, i, &section);
+            let (s, c) = (sin(patch.polar), cos(patch.polar));
+            let [even, first] = [0, 1].map(|n| patch.waves(n));
+            for angle in [-0.3, 0.0, 0.2, 0.4] {
+                let load = patch.load(angle);
+                let of = |n: usize, k: usize| -> f64 {
+                    let waves = if n == 0 { &even } else { &first };
+                    TAU * s * s * (0..3).map(|j| if j == 1 { 0.0 } else { load[j] * waves[j][k] }).sum::<f64>()
+                };
+                // about z: W sin φ. About x: −V sin ζ − W cos φ cos ζ. V = 2 V₁ sin ζ and W = 2 W₁ cos ζ of the first wave
+                let about_z = s * of(0, 2) / s;
+                let about_x = (-of(1, 1) - c * of(1, 2)) / s;
+                let crossing = asin(sin(pair.gears[i].base) / cos(angle));
+                assert!((about_z - sin(pair.gears[i].base)).abs() < 1e-9, "{i} {angle}: {about_z}");
+                assert!((about_x + cos(angle) * cos(crossing)).abs() < 1e-9, "{i} {angle}: {about_x}");
+                // about y, of the force along: V cos ζ − W cos φ sin ζ, w = −W₁ of its own sign
+                let along = &first[1];
+                let about_y = TAU * s * load[1] * (along[1] + c * along[2]);
+                assert!((about_y - sin(angle)).abs() < 1e-9, "{i} {angle}: {about_y}");
+            }
+        }
     }
 }

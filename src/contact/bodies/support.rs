@@ -15,9 +15,9 @@ const THINNEST: f64 = 0.25;
 pub enum Support {
     /// On the cone two modules below its root.
     NearRoot,
-    /// On a bore of a diameter [m].
+    /// On a bore of a diameter [m]; a solid body, 0, near its root.
     Bore(f64),
-    /// On a bore of a diameter [m] that takes no torque: the body turns with the mean of its root.
+    /// The same, but the bore takes no torque: the body turns with the mean of its root.
     FreeBore(f64),
 }
 
@@ -26,7 +26,9 @@ impl Support {
     pub fn held(self, pair: &Pair, i: usize, name: &'static str) -> Result<Held, Problem> {
         let root = pair.gears[i].root;
         let diameter = match self {
-            Self::NearRoot => return Ok(Held::Cone((root - DEPTH * pair.module / pair.outer_cone).max(0.25 * root))),
+            Self::NearRoot | Self::Bore(0.0) | Self::FreeBore(0.0) => {
+                return Ok(Held::Cone((root - DEPTH * pair.module / pair.outer_cone).max(0.25 * root)));
+            }
             Self::Bore(diameter) | Self::FreeBore(diameter) => diameter,
         };
         let thickest = 2.0 * (pair.inner_cone * sin(root) - THINNEST * pair.module * pair.inner_cone / pair.outer_cone);
