@@ -202,7 +202,7 @@ mod tests {
         let elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
         let body = |support| GearBody::new(&pair, 1, (&section, &elasticity), support, "").expect("a body");
         // held by its bore, a body turns with the load; free to turn, the mean of all its roots stands still
-        let [held, free] = [Support::Bore(0.01), Support::FreeBore(0.01)].map(|support| body(support));
+        let [held, free] = [Support::Bore(0.01), Support::FreeBore(0.01)].map(body);
         let mean = |body: &GearBody| (0..64).map(|k| body.between(TAU * f64::from(k) / 64.0)[0][0]).sum::<f64>() / 64.0;
         assert!(mean(&held) > 0.2 * held.between(0.0)[0][0]);
         assert!(mean(&free).abs() < 1e-3 * free.between(0.0)[0][0]);
