@@ -21,7 +21,7 @@ const FINITE: usize = 8;
 const ACROSS: usize = 3;
 /// Harmonics up to which the cone's curvature is followed exactly; shorter waves see a half-space and its correction of first
 /// order.
-const CURVED: usize = 40;
+const CURVED: usize = 24;
 
 /// The body of a gear under its teeth.
 #[derive(Clone, Debug)]
