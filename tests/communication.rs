@@ -42,6 +42,7 @@ fn scenes() -> Vec<Scene> {
         turn("rolling start", |p| p.scene.start = Start::Rolling),
         turn("line law", |p| p.contact.law = ContactLaw::Line),
         turn("tooth friction", |p| p.effects.tooth_friction = true),
+        turn("bodies", |p| (p.contact.law, p.effects.body_compliance) = (ContactLaw::Line, true)),
         turn("washers that stick", |p| p.effects.thrust_friction = true),
         turn("driven by torque", free),
         turn("half-shafts", |p| {

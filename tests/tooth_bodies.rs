@@ -66,7 +66,7 @@ fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
     assert_eq!(sets.len(), 8);
     for set in sets {
         let free = stiffness(&set.spec, FILLET);
-        let mesh = MeshOnBodies::new(&Pair::new(&set.spec), &free.teeth, set.supports).expect("bodies");
+        let mesh = MeshOnBodies::new(&Pair::new(&set.spec), &free.teeth, set.supports, 1).expect("bodies");
         let reference = LINE_LOAD / Pair::new(&set.spec).mean_cone;
         println!("{}", set.name);
         let mut mean = 0.0;
@@ -120,7 +120,7 @@ fn loads_and_displacements_of_any_gears_belong_to_each_other() {
                 other => other,
             }),
         ] {
-            let mesh = MeshOnBodies::new(&pair, &free.teeth, supports).expect("bodies");
+            let mesh = MeshOnBodies::new(&pair, &free.teeth, supports, 1).expect("bodies");
             let reference = LINE_LOAD / pair.mean_cone;
             let [low, high] = free.range;
             for k in 0..=8 {
@@ -160,7 +160,7 @@ fn loads_and_displacements_of_any_gears_belong_to_each_other() {
 fn a_bore_that_leaves_no_body_is_refused_by_name() {
     let pair = Pair::new(&GearSpec::default());
     let teeth = stiffness(&GearSpec::default(), FILLET).teeth;
-    let problem = MeshOnBodies::new(&pair, &teeth, [Support::NearRoot, Support::Bore(0.06)]).expect_err("no body");
+    let problem = MeshOnBodies::new(&pair, &teeth, [Support::NearRoot, Support::Bore(0.06)], 1).expect_err("no body");
     assert_eq!(problem.variable, "geometry.side_bore");
     assert!(problem.to_string().contains("60.000 mm"), "{problem}");
 }
@@ -170,7 +170,7 @@ fn a_deeper_hold_and_a_narrower_face_are_softer() {
     let spec = GearSpec::default();
     let reference = LINE_LOAD / Pair::new(&spec).mean_cone;
     let soft = |spec: &GearSpec, supports: [Support; 2]| {
-        let mesh = MeshOnBodies::new(&Pair::new(spec), &stiffness(spec, FILLET).teeth, supports).expect("bodies");
+        let mesh = MeshOnBodies::new(&Pair::new(spec), &stiffness(spec, FILLET).teeth, supports, 1).expect("bodies");
         mesh.alone(0.0, reference).total()
     };
     let bores = [6e-3, 12e-3, 20e-3, 28e-3].map(|side| soft(&spec, [Support::NearRoot, Support::Bore(side)]));

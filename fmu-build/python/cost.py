@@ -7,12 +7,11 @@ import sys
 from pathlib import Path
 
 from cost_figures.communication_step import communication_step
-from cost_figures.effects import effects
 from cost_figures.fidelity_ladder import fidelity_ladder
 from cost_figures.other_solvers import other_solvers
 from cost_figures.work_precision import counts, forces, speeds
 
-PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder, effects, communication_step]
+PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder, communication_step]
 
 
 def main():

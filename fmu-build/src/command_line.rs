@@ -16,7 +16,7 @@ use crate::measure::MeasureCommand;
 /// How users call this program.
 const PROGRAM: &str = "cargo run --release --";
 /// Exit code of usage errors.
-const USAGE: u8 = 2;
+pub const USAGE: u8 = 2;
 
 #[derive(Parser)]
 #[command(name = "fmu-build", bin_name = PROGRAM, version, disable_help_subcommand = true)]

@@ -2,7 +2,8 @@
 
 use std::process::ExitCode;
 
-use fmu_build::command_line;
+use fmu_build::command_line::{self, USAGE};
+use fmu_build::tools::usage::UsageError;
 
 fn main() -> ExitCode {
     let command = match command_line::parse(std::env::args_os()) {
@@ -13,7 +14,7 @@ fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            ExitCode::FAILURE
+            if error.is::<UsageError>() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
         }
     }
 }

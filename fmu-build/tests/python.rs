@@ -1,5 +1,7 @@
 //! The packaged FMU in a host that the project did not write.
 
+use std::path::Path;
+
 use anyhow::Result;
 use fmu_build::fmu::package;
 use fmu_build::tools::python::Environment;
@@ -9,6 +11,7 @@ fn the_fmu_passes_its_python_tests() -> Result<()> {
     let environment = Environment::ready(|what| println!("{what}"))?;
     let fmu = package::package()?;
     // the error is pytest's report, which Debug prints line by line
-    println!("{}", environment.test(&fmu, &["-q", "-n", "auto", "--dist", "worksteal"])?);
+    let program = Path::new(env!("CARGO_BIN_EXE_fmu-build"));
+    println!("{}", environment.test(&fmu, program, &["-q", "-n", "auto", "--dist", "worksteal"])?);
     Ok(())
 }

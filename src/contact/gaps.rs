@@ -81,16 +81,28 @@ impl FlankGaps {
     #[inline(always)]
     fn ids(&self, name: PairName) -> (MeshId, PairId) {
         let [planet, side] = &self.teeth_of;
-        let z_p = i64::from(planet.teeth.get());
-        let Turned { ahead, odd } = self.turned[name.planet];
-        let planet_tooth =
-            if name.side == 0 { name.tooth } else { z_p / 2 - if z_p % 2 == 0 { odd } else { 0 } - name.tooth };
-        let ahead = name.tooth + if name.side == 1 && z_p % 2 == 1 { ahead[0] } else { ahead[1] };
-        let side_tooth = if name.flank == Flank::Drive { ahead } else { ahead - 1 };
+        let [planet_tooth, side_tooth] = self.unrolled(name);
         (
             MeshId { planet: name.planet, side: name.side },
             PairId { planet_tooth: planet.tooth(planet_tooth), side_tooth: side.tooth(side_tooth), flank: name.flank },
         )
+    }
+
+    /// Number of the tooth of `planet` that stands at its right mesh's line as tooth 0 does at the left one's.
+    pub fn opposite(&self, planet: usize) -> i64 {
+        let z_p = i64::from(self.teeth_of[0].teeth.get());
+        z_p / 2 - if z_p % 2 == 0 { self.turned[planet].odd } else { 0 }
+    }
+
+    /// The same numbers of teeth, beyond whole turns.
+    #[inline(always)]
+    pub fn unrolled(&self, name: PairName) -> [i64; 2] {
+        let z_p = i64::from(self.teeth_of[0].teeth.get());
+        let Turned { ahead, .. } = self.turned[name.planet];
+        let planet_tooth =
+            if name.side == 0 { name.tooth } else { self.opposite(name.planet).wrapping_sub(name.tooth) };
+        let ahead = name.tooth + if name.side == 1 && z_p % 2 == 1 { ahead[0] } else { ahead[1] };
+        [planet_tooth, if name.flank == Flank::Drive { ahead } else { ahead - 1 }]
     }
 
     /// Opening of a pair of teeth in `mesh` at place `s` [rad].

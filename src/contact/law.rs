@@ -107,11 +107,11 @@ pub struct Face<S> {
     pub damping: Damping,
 }
 
-impl<S: Spring> PairLaw for Face<S> {
-    const PLACED: bool = true;
+impl<S: Spring> Face<S> {
+    /// The response at the place `place` of the specific law.
     #[inline(always)]
-    fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response {
-        let e = self.specific.at(d * self.per_cone, s);
+    pub fn respond_at(&self, place: &S::Place, d: f64, rate: f64) -> Response {
+        let e = self.specific.respond(place, d * self.per_cone);
         let (per_arc, per_depth) = (self.moment, self.moment * self.per_cone);
         let (elastic, stiffness) = (per_depth * e.torque, per_depth * self.per_cone * e.stiffness);
         let force = self.damping.apply(elastic, stiffness, d, rate);
@@ -130,6 +130,14 @@ impl<S: Spring> PairLaw for Face<S> {
             by_place_twice: per_arc * e.by_place_twice,
             energy: per_arc * e.energy,
         }
+    }
+}
+
+impl<S: Spring> PairLaw for Face<S> {
+    const PLACED: bool = true;
+    #[inline(always)]
+    fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response {
+        self.respond_at(&self.specific.place(s), d, rate)
     }
     #[inline(always)]
     fn energy(&self, d: f64, s: f64) -> f64 {

@@ -16,6 +16,7 @@ pub mod law;
 pub mod mesh;
 pub mod pair_load;
 pub mod pairs;
+pub mod shared;
 pub mod solid;
 mod spec;
 pub mod spring;

@@ -20,6 +20,9 @@ pub struct Elastic {
 
 /// Elasticity of a tooth pair.
 pub trait Spring {
+    /// Whether the torque is proportional to the penetration, or zero.
+    const LINEAR: bool = false;
+
     /// What of it follows from the place alone: the same at every cone distance.
     type Place: Copy;
 

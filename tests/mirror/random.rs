@@ -64,6 +64,7 @@ pub fn scene(index: u64) -> Option<Scene> {
     contact(d, &mut p);
     drives(d, &mut p);
     effects(d, &mut p);
+    bodies(&mut Draw::new(!index), &mut p);
     solver(d, &mut p);
     let inputs = inputs(d, &p);
     let duration = d.between(3e-3, 8e-3);
@@ -188,6 +189,15 @@ fn effects(d: &mut Draw, p: &mut Parameters) {
     s.strength.bending_strength = d.about(3e8, 2.0);
     s.strength.contact_strength = d.about(5e8, 2.0);
     e.wheel_brake = d.chance(0.3);
+}
+
+/// Gear bodies, drawn by a generator of their own.
+fn bodies(d: &mut Draw, p: &mut Parameters) {
+    let m = p.geometry.module;
+    p.effects.body_compliance =
+        p.scene.gear_contact == GearContact::Tooth && p.contact.law != ContactLaw::Impact && d.chance(0.5);
+    p.geometry.planet_bore = if d.chance(0.5) { m * d.between(0.5, 3.0) } else { 0.0 };
+    p.geometry.side_bore = if d.chance(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
 }
 
 fn solver(d: &mut Draw, p: &mut Parameters) {

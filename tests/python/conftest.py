@@ -54,10 +54,10 @@ def literals(description):
 
 @pytest.fixture(scope="session")
 def run(unpacked, description, literals):
-    """run(start_values, stop, step, output): a simulation; enumerations by literal, (value, unit) as fmpy takes it."""
+    """run(start_values, stop, step, output): a simulation; enumerations by literal or number, (value, unit) as fmpy takes it."""
 
     def simulate(start_values=None, stop=0.5, step=0.001, output=None):
-        values = {name: literals[name][value] if name in literals else value
+        values = {name: literals[name].get(value, value) if name in literals else value
                   for name, value in (start_values or {}).items()}
         return simulate_fmu(unpacked, model_description=description, start_values=values, stop_time=stop,
                             output_interval=step, output=output, logger=lambda *_: None)

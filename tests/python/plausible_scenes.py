@@ -168,4 +168,5 @@ def effects(scene, u):
     scene["tooth_fault.index"] = int(u["tooth_fault.index"] * 2)
     scene["tooth_fault.tooth"] = int(u["tooth_fault.tooth"] * scene["geometry.planet_teeth"])
     if scene["contact.law"] == IMPACT:
+        scene["effects.body_compliance"] = False
         scene["tooth_fault.missing_fraction"] = 0.55 + 0.45 * u["tooth_fault.missing_fraction"]

@@ -12,6 +12,8 @@ from sampling import latin, spread
 KINDS = ("wild", "bold", "plausible")
 # of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make steps expensive
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
+# switches that came after the seeds were chosen: drawn by a generator of their own, so that the other draws stay as they were
+LATER = {"effects.body_compliance"}
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 
@@ -41,17 +43,19 @@ def schedule(random, duration, inputs, draw):
 
 def scenes(description, kind, count, seed, first=0, last=None):
     """Scenes `first` to `last` of the `count` of a kind: {"start": values by name, "steps": [(size, inputs)]}."""
-    variables = free_variables(description)
+    everything = free_variables(description)
+    variables = [v for v in everything if v.name not in LATER]
     inputs = [v for v in variables if v.causality == "input"]
     cube = latin(count, len(variables), np.random.default_rng([seed, KINDS.index(kind)]))
     for index in range(first, count if last is None else last):
         random = np.random.default_rng([seed, KINDS.index(kind), index])
-        shares = dict(zip((v.name for v in variables), cube[index].tolist()))
+        later = np.random.default_rng([seed, KINDS.index(kind), index, len(LATER)])
+        shares = dict(zip((v.name for v in variables), cube[index].tolist())) | {name: later.random() for name in LATER}
         if kind == "wild":
-            start = {v.name: wild_value(v, shares[v.name]) for v in variables}
+            start = {v.name: wild_value(v, shares[v.name]) for v in everything}
             draw = wild_value
         else:
-            start = plausible_scenes.values(variables, shares)
+            start = plausible_scenes.values(everything, shares)
             draw = lambda v, u: plausible_scenes.value(v, u, start)  # noqa: E731
             if kind == "bold":
                 start |= {v.name: wild_value(v, random.random()) for v in variables if random.random() < BOLD}

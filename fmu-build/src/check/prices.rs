@@ -11,10 +11,12 @@ use crate::check::stepping::{self, Vectors};
 use crate::tools::machine::machine;
 use crate::tools::numbers::{Spread, significant};
 use crate::tools::progress::Progress;
-use crate::tools::sections;
 use crate::tools::table::{Table, for_terminal};
+use crate::tools::{paths, sections};
 
 const DOCUMENT: &str = "docs/prices.md";
+/// The same prices for the command `accuracy`, which counts by them.
+const DATA: &str = "fmu-build/data/prices.csv";
 /// The marks around the tables.
 const MARKS: [&str; 2] = ["<!-- prices:begin -->", "<!-- prices:end -->"];
 const SCENE: &str = "turn";
@@ -31,6 +33,14 @@ const ALL: [&str; 11] = [
     "tooth_errors",
     "tooth_errors.accuracy_grade=6",
     "tooth_errors.planet_tip_relief=0",
+];
+/// Levels and laws beside plain teeth, with the options that choose them.
+const LEVELS: [(&str, &str); 5] = [
+    ("ideal", "scene.gear_contact=1"),
+    ("lumped", "scene.gear_contact=2"),
+    ("line", "line"),
+    ("line_weber", "line_weber"),
+    ("solid", "solid=32"),
 ];
 /// Communication steps of a timed run, and how often it is repeated.
 const TIMED: u32 = 500;
@@ -73,7 +83,7 @@ impl PricesCommand {
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("building the stepping program");
         let program = stepping::build(true, "full")?;
-        let (_, page) = stepping::counted(|vectors| {
+        let (_, (page, data)) = stepping::counted(|vectors| {
             let measured = Measured { program: program.clone(), vectors };
             page(&measured, &progress, self.quick)
         })?;
@@ -82,13 +92,14 @@ impl PricesCommand {
         if self.write {
             ensure!(!self.quick, "--write needs the pairs: leave out --quick");
             sections::renew(DOCUMENT, MARKS, &page)?;
+            std::fs::write(paths::workspace().join(DATA), data).with_context(|| format!("{DATA} cannot be written"))?;
         }
         Ok(())
     }
 }
 
-/// All tables.
-fn page(measured: &Measured, progress: &Progress, quick: bool) -> Result<String> {
+/// All tables, and the prices of each alone as CSV.
+fn page(measured: &Measured, progress: &Progress, quick: bool) -> Result<(String, String)> {
     let price = |name: &str, options: &[&str]| {
         progress.stage(&format!("counting {name}"));
         measured.price(options)
@@ -98,12 +109,13 @@ fn page(measured: &Measured, progress: &Progress, quick: bool) -> Result<String>
     alone.push(cells("nothing", &plain, None));
     // by how much an evaluation costs more than one of plain teeth
     let mut extra = 0.0;
-    let singles: Vec<(&str, Price)> = ["line"]
-        .into_iter()
-        .chain(EFFECTS.iter().map(|effect| effect.name))
-        .map(|name| Ok((name, price(name, &[name])?)))
-        .collect::<Result<_>>()?;
-    for (name, single) in &singles {
+    let levels = LEVELS.iter().map(|&(name, option)| Ok((name, price(name, &[option])?)));
+    let levels: Vec<(&str, Price)> = levels.collect::<Result<_>>()?;
+    let own = EFFECTS.iter().map(|effect| Ok((effect.name, price(effect.name, &[effect.name])?)));
+    let own: Vec<(&str, Price)> = own.collect::<Result<_>>()?;
+    let singles: Vec<&(&str, Price)> = levels.iter().chain(&own).collect();
+    let data = data(&plain, &singles)?;
+    for (name, single) in singles {
         alone.push(cells(&format!("`{name}`"), single, Some(&plain)));
         if ALL.contains(name) {
             extra += single.per_evaluation / plain.per_evaluation - 1.0;
@@ -120,18 +132,31 @@ fn page(measured: &Measured, progress: &Progress, quick: bool) -> Result<String>
         significant(1.0 + extra, 3),
     );
     if !quick {
-        page += &format!("\nEach pair.\n\n{}", pairs(&singles, &plain, &price)?.markdown());
+        let line = levels.iter().find(|(name, _)| *name == "line");
+        let all: Vec<&(&str, Price)> = line.into_iter().chain(&own).collect();
+        page += &format!("\nEach pair.\n\n{}", pairs(&all, &plain, &price)?.markdown());
     }
     let vectors = match measured.vectors {
         Vectors::Wide => "the widest vectors of the processor",
         Vectors::Narrow => "vectors that every processor has",
     };
     page += &format!("\nInstructions with {vectors}. Times with the widest: {}.\n", machine());
-    Ok(page)
+    Ok((page, data))
+}
+
+/// Prices of plain teeth, levels, laws and effects alone.
+fn data(plain: &Price, singles: &[&(&str, Price)]) -> Result<String> {
+    let mut rows = csv::Writer::from_writer(Vec::new());
+    rows.write_record(["on", "instructions_per_evaluation", "instructions_per_step"])?;
+    for (name, price) in [("nothing", plain)].into_iter().chain(singles.iter().map(|(name, price)| (*name, price))) {
+        let numbers = [price.per_evaluation, price.per_step].map(|x| format!("{x:.0}"));
+        rows.write_record([name, &numbers[0], &numbers[1]])?;
+    }
+    String::from_utf8(rows.into_inner()?).context("prices are text")
 }
 
 /// The table of each pair of effects, with what the pair costs over the sum of both.
-fn pairs(singles: &[(&str, Price)], plain: &Price, price: &impl Fn(&str, &[&str]) -> Result<Price>) -> Result<Table> {
+fn pairs(singles: &[&(&str, Price)], plain: &Price, price: &impl Fn(&str, &[&str]) -> Result<Price>) -> Result<Table> {
     let mut table = table("over the sum");
     for (i, (first, one)) in singles.iter().enumerate() {
         for (second, other) in &singles[i + 1..] {
@@ -159,6 +184,7 @@ fn table(over: &str) -> Table {
 
 /// A row: `price`, and its instructions per evaluation over those of `sum`.
 fn cells(name: &str, price: &Price, sum: Option<&Price>) -> [String; 8] {
+    let sum = sum.filter(|_| price.per_evaluation > 0.0);
     let over = sum.map_or(String::new(), |sum| format!("{:.2}", price.per_evaluation / sum.per_evaluation));
     let whole = |x: f64| format!("{x:.0}");
     [
@@ -179,7 +205,9 @@ impl Measured {
         let evaluations = stepping::COUNTED.map(|steps| Ok(counts(&self.program, steps, options)?[2]));
         let [first, last]: [Result<f64>; 2] = evaluations;
         let steps = f64::from(stepping::COUNTED[1] - stepping::COUNTED[0]);
-        let per_evaluation = per_step * steps / (last? - first?);
+        let evaluated = last? - first?;
+        // without teeth nothing is evaluated
+        let per_evaluation = if evaluated > 0.0 { per_step * steps / evaluated } else { 0.0 };
         let runs = (0..REPEATED).map(|_| counts(&self.program, TIMED, options)).collect::<Result<Vec<_>>>()?;
         let seconds = Spread::of(&runs.iter().map(|run| run[3]).collect::<Vec<_>>()).median;
         let [steps, rejected, evaluations, _] = runs[0];

@@ -1,8 +1,9 @@
 //! The Python tests, run on the packaged FMU.
 
+use std::env;
 use std::ffi::OsString;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Args;
 
 use crate::fmu::package;
@@ -24,8 +25,9 @@ impl TestPythonCommand {
         let environment = Environment::ready(|what| progress.stage(what))?;
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
+        let program = env::current_exe().context("this program does not know its own file")?;
         progress.stage("running pytest");
-        let report = environment.test(&fmu, &self.pytest)?;
+        let report = environment.test(&fmu, &program, &self.pytest)?;
         progress.finish();
         print!("{report}");
         Ok(())

@@ -1,7 +1,7 @@
-//! What a user of gears runs: the study, scenes and their tooth loads, which effects matter, dimensions and solids, contact
-//! patterns. Commands: `study`, `scene`, `loads`, `effects`, `geometry`, `pattern`.
+//! What a user of gears runs: the study, scenes and their tooth loads, what accuracy costs, dimensions and solids, contact
+//! patterns. Commands: `study`, `scene`, `loads`, `accuracy`, `geometry`, `pattern`.
 
-pub mod effects;
+pub mod accuracy;
 pub mod geometry;
 pub mod pattern;
 pub mod scene;
@@ -17,7 +17,7 @@ pub enum GearsCommand {
     Study(study::StudyCommand),
     Scene(scene::command::SceneCommand),
     Loads(scene::command::LoadsCommand),
-    Effects(effects::job::EffectsCommand),
+    Accuracy(accuracy::command::AccuracyCommand),
     Geometry(geometry::command::GeometryCommand),
     Pattern(pattern::PatternCommand),
 }
@@ -29,7 +29,7 @@ impl GearsCommand {
             Self::Study(command) => command.run(),
             Self::Scene(command) => command.run(),
             Self::Loads(command) => command.run(),
-            Self::Effects(command) => command.run(),
+            Self::Accuracy(command) => command.run(),
             Self::Geometry(command) => command.run(),
             Self::Pattern(command) => command.run(),
         }

@@ -7,6 +7,7 @@ pub mod cost;
 pub mod drivetrain;
 pub mod solids;
 pub mod stiffness;
+pub mod survey;
 
 use anyhow::Result;
 use clap::Subcommand;
@@ -18,6 +19,7 @@ pub enum MeasureCommand {
     Cost(cost::CostCommand),
     Solids(solids::SolidsCommand),
     Stiffness(stiffness::StiffnessCommand),
+    Survey(survey::SurveyCommand),
     #[command(alias = "peers")]
     CompareSimulators(compare_simulators::CompareSimulatorsCommand),
     #[command(alias = "foreign")]
@@ -32,6 +34,7 @@ impl MeasureCommand {
             Self::Cost(command) => command.run(),
             Self::Solids(command) => command.run(),
             Self::Stiffness(command) => command.run(),
+            Self::Survey(command) => command.run(),
             Self::CompareSimulators(command) => command.run(),
             Self::CompareSolvers(command) => command.run(),
             Self::Drivetrain(command) => command.run(),

@@ -110,7 +110,7 @@ impl Set {
             other => bail!("no support \"{other}\""),
         };
         let mesh =
-            MeshOnBodies::new(&pair, &stiffness.teeth, supports).map_err(|problem| anyhow::anyhow!("{problem}"))?;
+            MeshOnBodies::new(&pair, &stiffness.teeth, supports, 1).map_err(|problem| anyhow::anyhow!("{problem}"))?;
         Ok(Gears { spec, pair, stiffness, mesh })
     }
 

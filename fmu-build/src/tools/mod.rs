@@ -7,6 +7,8 @@ pub mod numbers;
 pub mod paths;
 pub mod progress;
 pub mod python;
+pub mod random;
 pub mod script;
 pub mod sections;
 pub mod table;
+pub mod usage;

@@ -151,14 +151,15 @@ impl Environment {
         command
     }
 
-    /// Runs pytest on tests/python with the packaged `fmu`; its report is the error if a test fails.
-    pub fn test(&self, fmu: &Path, arguments: &[impl AsRef<OsStr>]) -> Result<String> {
+    /// Runs pytest on tests/python with the packaged `fmu` and this `program`; its report is the error if a test fails.
+    pub fn test(&self, fmu: &Path, program: &Path, arguments: &[impl AsRef<OsStr>]) -> Result<String> {
         let output = self
             .command()
             .current_dir(paths::workspace())
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "tests/python"])
             .args(arguments)
             .env("FMU", fmu)
+            .env("FMU_BUILD", program)
             .output()
             .context("pytest cannot be run")?;
         let report = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);

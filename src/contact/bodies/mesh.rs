@@ -9,6 +9,7 @@ use nalgebra::{SMatrix, SVector};
 use super::body::GearBody;
 use super::root::RootLoad;
 use super::support::Support;
+use crate::contact::pairs::Flank;
 use crate::contact::stiffness::{PairCompliance, SectionPair};
 use crate::geometry::Pair;
 use crate::numeric::{TAU, sqrt};
@@ -18,6 +19,25 @@ use crate::problem::Problem;
 const NEIGHBOURS: usize = 3;
 /// What problems with the supports name.
 const BORE: [&str; 2] = ["geometry.planet_bore", "geometry.side_bore"];
+
+/// A load on a pair as it acts on the numbered teeth of its gears.
+pub(super) struct LoadedTooth {
+    /// Left (0) or right (1) side gear.
+    pub side: usize,
+    /// Flank.
+    pub flank: Flank,
+    /// Place on the path [rad].
+    pub s: f64,
+}
+
+impl LoadedTooth {
+    /// Whether the load on gear `i` points to higher numbers of teeth, or to lower ones. The planet is pressed toward lower
+    /// numbers by the drive flank on the left, the side gear toward higher ones.
+    fn sign(&self, i: usize) -> f64 {
+        let forward = if self.flank == Flank::Drive { 1.0 } else { -1.0 };
+        if i == 0 && self.side == 0 { -forward } else { forward }
+    }
+}
 
 /// A mesh on elastic bodies.
 #[derive(Clone, Debug)]
@@ -30,45 +50,114 @@ pub struct MeshOnBodies {
     softening: [f64; 2],
     /// Between a tooth and itself, the next tooth and the next but one, toward the planet's tip [1/Pa].
     between: [[[[f64; 3]; 3]; NEIGHBOURS]; 2],
+    /// Between a tooth and all others of its gear, toward higher numbers.
+    around: [Vec<[[f64; 3]; 3]>; 2],
+    /// Angles between neighbouring teeth [rad].
+    pitches: [f64; 2],
+    /// Meshes of each gear that press alike, evenly around it: the planet's other mesh does not.
+    presses: [u32; 2],
     outer_cone: f64,
     base_pitch: f64,
 }
 
 impl MeshOnBodies {
-    /// The mesh of `pair` with the sections `teeth`, its gears held by `supports`.
-    pub fn new(pair: &Pair, teeth: &SectionPair, supports: [Support; 2]) -> Result<Self, Problem> {
+    /// The mesh of `pair` with the sections `teeth`, its gears held by `supports`. Each of `planets` planets presses on the
+    /// side gear; all are taken to carry what this one does.
+    pub fn new(pair: &Pair, teeth: &SectionPair, supports: [Support; 2], planets: u32) -> Result<Self, Problem> {
         let softening = [0, 1].map(|i| softening(pair, i, teeth.elasticity.poisson));
         let body = |i: usize| {
             let section = (&teeth.sections[i], &teeth.elasticity);
             GearBody::new(pair, i, section, supports[i], BORE[i])
         };
         let bodies = [body(0)?, body(1)?];
-        let between = [0, 1].map(|i| {
-            // toward the planet's tip is against the load on the planet
-            let pitch = if i == 0 { -TAU } else { TAU } / f64::from(pair.gears[i].teeth);
-            std::array::from_fn(|k| bodies[i].between(k as f64 * pitch))
-        });
         let (outer_cone, base_pitch) = (pair.outer_cone, pair.base_pitch);
-        Ok(Self { teeth: teeth.clone(), bodies, softening, between, outer_cone, base_pitch })
+        let pitches = pair.gears.map(|gear| TAU / f64::from(gear.teeth));
+        let presses = [1, planets.max(1)];
+        let nothing = [[[[0.0; 3]; 3]; NEIGHBOURS]; 2];
+        let mut mesh = Self {
+            teeth: teeth.clone(),
+            bodies,
+            softening,
+            between: nothing,
+            around: [Vec::new(), Vec::new()],
+            pitches,
+            presses,
+            outer_cone,
+            base_pitch,
+        };
+        mesh.between = [0, 1].map(|i| {
+            // toward the planet's tip is against the load on the planet
+            let toward = if i == 0 { -1.0 } else { 1.0 };
+            std::array::from_fn(|k| mesh.between_teeth(i, toward * k as f64))
+        });
+        mesh.around = [0, 1].map(|i| (0..mesh.teeth_of(i)).map(|k| mesh.between_teeth(i, k as f64)).collect());
+        Ok(mesh)
     }
 
-    /// Load at the root of gear `i` of a unit load on the path at `s` [rad].
-    fn root_load(&self, i: usize, s: f64) -> RootLoad {
-        let roll = self.teeth.rolls(self.outer_cone * s)[i];
+    /// Compliance between the loads on a tooth of gear `i` and on those that stand for it under the other planets (column) and
+    /// the displacement of a tooth `pitches` further (row) [1/Pa].
+    pub fn between_teeth(&self, i: usize, pitches: f64) -> [[f64; 3]; 3] {
+        let mut sum = [[0.0; 3]; 3];
+        for planet in 0..self.presses[i] {
+            let around = TAU * f64::from(planet) / f64::from(self.presses[i]);
+            let between = self.bodies[i].between(pitches * self.pitches[i] + around);
+            for (to, from) in sum.as_flattened_mut().iter_mut().zip(between.as_flattened()) {
+                *to += from;
+            }
+        }
+        sum
+    }
+
+    /// Number of teeth of gear `i`.
+    pub(super) fn teeth_of(&self, i: usize) -> usize {
+        (TAU / self.pitches[i] + 0.5) as usize
+    }
+
+    /// By how much loads on two pairs move each other whose teeth of planet and side gear stand `further` teeth apart, the first
+    /// at higher numbers [1/Pa]; pairs of different meshes share the planet alone.
+    pub(super) fn coupling_of(&self, further: [i64; 2], a: &LoadedTooth, b: &LoadedTooth) -> f64 {
+        let shared = if a.side == b.side { 2 } else { 1 };
+        (0..shared)
+            .map(|i| {
+                let [measured, acting] = [a, b].map(|tooth| {
+                    let roll = self.teeth.rolls(self.outer_cone * tooth.s)[i];
+                    let ([across, along, moment], sign) = (self.root_load(i, roll), tooth.sign(i));
+                    [sign * across, along, sign * moment]
+                });
+                let count = self.teeth_of(i) as i64;
+                GearBody::moved(&self.around[i][further[i].rem_euclid(count) as usize], &measured, &acting)
+            })
+            .sum()
+    }
+
+    /// Least compliance of a pair alone on `path` [rad], Hertz's part aside [1/Pa].
+    pub(super) fn least_alone(&self, path: [f64; 2]) -> f64 {
+        let alone = |k: u32| {
+            let s = path[0] + (path[1] - path[0]) * f64::from(k) / 8.0;
+            let rolls = self.teeth.rolls(self.outer_cone * s);
+            self.gear(0, rolls[0]) + self.gear(1, rolls[1])
+        };
+        (0..=8).map(alone).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Load at the root of gear `i` of a unit load at roll length `roll` [m].
+    fn root_load(&self, i: usize, roll: f64) -> RootLoad {
         self.bodies[i].root.load(self.teeth.sections[i].load(roll).angle)
+    }
+
+    /// Compliance of a tooth of gear `i` and of its body under a load on it alone at roll length `roll` [m] [1/Pa].
+    pub fn gear(&self, i: usize, roll: f64) -> f64 {
+        let root = self.root_load(i, roll);
+        self.teeth.sections[i].beam_compliance(roll, &self.teeth.elasticity, self.softening[i])
+            + GearBody::moved(&self.between[i][0], &root, &root)
     }
 
     /// Compliances of a pair alone at place `s` [rad] on the path under a line load per cone distance of `load` [N/m²].
     pub fn alone(&self, s: f64, load: f64) -> PairCompliance {
         let rolls = self.teeth.rolls(self.outer_cone * s);
         let line_load = self.outer_cone * load;
-        let gear = [0, 1].map(|i| {
-            let root = self.root_load(i, s);
-            self.teeth.sections[i].beam_compliance(rolls[i], &self.teeth.elasticity, self.softening[i])
-                + GearBody::moved(&self.between[i][0], &root, &root)
-        });
         PairCompliance {
-            gear,
+            gear: [0, 1].map(|i| self.gear(i, rolls[i])),
             local: self.teeth.local(rolls, line_load),
             half_width: sqrt(self.teeth.half_width_squared(rolls, line_load)),
         }
@@ -77,11 +166,13 @@ impl MeshOnBodies {
     /// By how much a load on the pair at place `s` [rad] moves the pair that stands `further` pitches nearer to the planet's
     /// tip, and the other way round [1/Pa]; 0 if more than two.
     pub fn coupling(&self, s: f64, further: usize) -> f64 {
-        let other = s + further as f64 * self.base_pitch;
+        let [here, there] = [s, s + further as f64 * self.base_pitch].map(|s| self.teeth.rolls(self.outer_cone * s));
         [0, 1]
             .into_iter()
             .filter(|_| further < NEIGHBOURS)
-            .map(|i| GearBody::moved(&self.between[i][further], &self.root_load(i, other), &self.root_load(i, s)))
+            .map(|i| {
+                GearBody::moved(&self.between[i][further], &self.root_load(i, there[i]), &self.root_load(i, here[i]))
+            })
             .sum()
     }
 

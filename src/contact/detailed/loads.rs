@@ -34,6 +34,22 @@ pub struct DetailedLoad<T> {
     pub energy: f64,
 }
 
+impl<T> DetailedLoad<T> {
+    /// The same in other numbers.
+    #[inline(always)]
+    pub fn map<U>(self, f: impl Fn(T) -> U) -> DetailedLoad<U> {
+        DetailedLoad {
+            force: self.force.map(&f),
+            normal: f(self.normal),
+            planet_axial: f(self.planet_axial),
+            side_axial: f(self.side_axial),
+            tangential: f(self.tangential),
+            heat: self.heat,
+            energy: self.energy,
+        }
+    }
+}
+
 impl<T: Scalar> DetailedLoad<T> {
     /// No load.
     pub fn zero() -> Self {

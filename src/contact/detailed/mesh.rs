@@ -8,9 +8,9 @@ use super::super::tooth_friction::ToothFriction;
 use super::directions::{Arcs, Directions};
 use super::face::{Cut, Face, Node, Part};
 use super::pair::PairMotion;
-use super::sums::{LoadedNode, Rubbing, Sums};
 use super::totals::Totals;
-use super::{DetailedLoad, DetailedState, Gaps, Opening, PairName, SliceLoad};
+use super::touching::Touching;
+use super::{DetailedLoad, DetailedState, Gaps, LOCAL, Opening, PairName, SliceLoad};
 use crate::geometry::Pair;
 use crate::numeric::Dual;
 
@@ -20,7 +20,7 @@ pub struct Detailed {
     /// Specific elastic law.
     pub spring: AnySpring,
     /// Damping, of the whole face in one state; every slice has its share of it.
-    damping: Damping,
+    pub(super) damping: Damping,
     /// The face.
     pub face: Face,
     /// One spring per mesh instead of tooth pairs.
@@ -31,7 +31,7 @@ pub struct Detailed {
     pub thrust: bool,
     /// Whether side gears move along their axes.
     pub seats: bool,
-    directions: Directions,
+    pub(super) directions: Directions,
     /// Sum of the face's weights, and the cone distance of its resultant [m].
     pub(super) moment: f64,
     resultant: f64,
@@ -97,21 +97,21 @@ impl Detailed {
 
     /// Loads at `state`.
     pub fn load(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<f64> {
-        let mut totals = Totals::<0>::default();
+        let mut totals = Totals::<0, LOCAL>::default();
         self.sum(&mut totals, teeth, state, self.thrust, |_| {});
         totals.load()
     }
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
-    pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<6>> {
-        let mut totals = Totals::<7>::default();
+    pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
+        let mut totals = Totals::<7, LOCAL>::default();
         self.sum(&mut totals, teeth, state, self.thrust, |_| {});
         totals.linearised()
     }
 
     /// Loads at `state`; calls `look` with each loaded slice. Compiled once, for whoever looks.
     pub fn look(&self, teeth: &Teeth, state: &DetailedState, look: &mut dyn FnMut(&SliceLoad)) -> DetailedLoad<f64> {
-        let mut totals = Totals::<0>::default();
+        let mut totals = Totals::<0, LOCAL>::default();
         self.sum(&mut totals, teeth, state, true, look);
         totals.load()
     }
@@ -141,7 +141,7 @@ impl Detailed {
     #[inline(always)]
     fn sum<const ROWS: usize>(
         &self,
-        totals: &mut Totals<ROWS>,
+        totals: &mut Totals<ROWS, LOCAL>,
         teeth: &Teeth,
         state: &DetailedState,
         thrust: bool,
@@ -150,12 +150,12 @@ impl Detailed {
         let open = self.is_open(teeth);
         with_spring!(&self.spring, spring => {
             if open {
-                self.each(teeth, state, |name, pair| {
-                    self.add::<_, ROWS, true>(spring, totals, teeth, name, pair, state, thrust, &mut look)
+                self.each(teeth, state, [0.0; 2], |name, pair| {
+                    self.add::<_, ROWS, true>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
                 });
             } else {
-                self.each(teeth, state, |name, pair| {
-                    self.add::<_, ROWS, false>(spring, totals, teeth, name, pair, state, thrust, &mut look)
+                self.each(teeth, state, [0.0; 2], |name, pair| {
+                    self.add::<_, ROWS, false>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
                 });
             }
         });
@@ -165,7 +165,7 @@ impl Detailed {
     pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
         let mut energy = 0.0;
         with_spring!(&self.spring, spring => {
-            self.each(teeth, state, |name, pair| {
+            self.each(teeth, state, [0.0; 2], |name, pair| {
                 let mut opening = self.opening(teeth, name, pair.s);
                 if self.seats {
                     opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
@@ -189,14 +189,21 @@ impl Detailed {
         energy
     }
 
-    /// Calls `visit` with each pair that may touch.
+    /// Calls `visit` with each pair that may touch, or is as near to it as `margin` of its flank, drive and coast [rad].
     #[inline(always)]
-    fn each(&self, teeth: &Teeth, state: &DetailedState, mut visit: impl FnMut(PairName, &ToothPair)) {
+    pub(super) fn each(
+        &self,
+        teeth: &Teeth,
+        state: &DetailedState,
+        margin: [f64; 2],
+        mut visit: impl FnMut(PairName, &ToothPair),
+    ) {
         let [q, x, w] = state.position;
         // closes gaps beyond the approach of error-free teeth
         let slack = teeth.gaps.map_or(0.0, |g| -g.least()) + (-w).max(0.0);
-        let excess = slack / self.face.inner();
-        for (flank, sign) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)] {
+        let slack = slack / self.face.inner();
+        for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
+            let excess = slack + margin;
             let approach = q * sign - teeth.engagement.half_backlash();
             if approach + excess <= 0.0 {
                 continue;
@@ -211,34 +218,38 @@ impl Detailed {
     }
 
     #[inline(always)]
-    fn opening(&self, teeth: &Teeth, name: PairName, s: f64) -> Opening {
+    pub(super) fn opening(&self, teeth: &Teeth, name: PairName, s: f64) -> Opening {
         teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
+    /// What opens the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs where seats need them.
+    #[inline(always)]
+    pub(super) fn opened_pair(&self, teeth: &Teeth, name: PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
+        let mut opening = self.opening(teeth, name, s);
+        if !self.seats {
+            return (opening, [0.0; 2], Arcs::NONE);
+        }
+        let arcs = self.directions.arcs(s);
+        let axial = self.directions.axial(&arcs);
+        opening.displace(w, axial);
+        (opening, axial, arcs)
+    }
+
     /// Adds the loads of a pair.
-    #[allow(clippy::too_many_arguments)]
     #[inline(always)]
     fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
         &self,
-        spring: &S,
-        totals: &mut Totals<ROWS>,
-        teeth: &Teeth,
-        name: PairName,
-        pair: &ToothPair,
+        (spring, teeth, thrust): (&S, &Teeth, bool),
+        totals: &mut Totals<ROWS, LOCAL>,
+        (name, pair): (PairName, &ToothPair),
         state: &DetailedState,
-        thrust: bool,
-        mut look: impl FnMut(&SliceLoad),
+        look: impl FnMut(&SliceLoad),
     ) {
         let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
         let mut cut = Cut::default();
         let mut parts = [Part::of(&self.whole), Part::NONE];
         if OPEN {
-            opening = self.opening(teeth, name, pair.s);
-            if self.seats {
-                arcs = self.directions.arcs(pair.s);
-                axial = self.directions.axial(&arcs);
-                opening.displace(state.position[2], axial);
-            }
+            (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
             parts = self.face.loaded(pair.depth, &opening, &mut cut);
         }
         // most pairs that are near do not touch
@@ -246,54 +257,9 @@ impl Detailed {
         if is_clear {
             return;
         }
-        if !(OPEN && self.seats) && (thrust || self.friction.is_some()) {
-            arcs = self.directions.arcs(pair.s);
-        }
-        let motion = PairMotion::<OPEN>::new(pair, &opening, axial, state);
-        let rubbing = self.friction.as_ref().map(|law| {
-            let arms = self.directions.arms(&arcs);
-            Rubbing { law, speeds: motion.speeds(&arms), arms }
-        });
-        let normal = thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
-        let mut see = |node: &LoadedNode| {
-            let Some(normal) = &normal else { return };
-            let force = node.torque * node.node.weight * node.node.per_cone;
-            let [planet, side, forward] = normal.parts;
-            look(&SliceLoad {
-                pair,
-                spot: pair.spot,
-                place: pair.place,
-                cone: node.node.cone,
-                share: node.node.weight / self.moment,
-                line_load: force / node.node.width,
-                arc: node.arc,
-                s: pair.s,
-                energy: node.elastic.energy * node.node.weight,
-                name,
-                normal: force,
-                friction: node.friction.map_or(0.0, |(h, _)| -h * force),
-                sliding: node.friction.map(|(_, sliding)| sliding),
-                parts: [planet, side, -motion.sign * forward],
-            });
-        };
-        let place = spring.place(pair.s);
-        let law = (spring, &place, &self.damping);
-        let mut sums = Sums::default();
-        for part in if OPEN { &parts[..] } else { &parts[..1] } {
-            let (at, rubbing) = (&motion.approach, rubbing.as_ref());
-            if const { ROWS > 0 } {
-                sums.add::<S, true, OPEN>(part, law, at, &opening, rubbing, &mut see);
-            } else {
-                sums.add::<S, false, OPEN>(part, law, at, &opening, rubbing, &mut see);
-            }
-        }
-        totals.add_teeth(&motion, &sums);
-        if let Some(rubbing) = &rubbing {
-            totals.add_rubbing(&motion, &sums, rubbing);
-        }
-        if let Some(normal) = &normal {
-            totals.add_thrust(&motion, &sums, normal, pair.spot);
-        }
+        let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
+        let touching = Touching { name, pair, opening: &opening, arcs, parts, motion };
+        self.add_touching((spring, teeth.engagement, thrust), totals, touching, look);
     }
 }
 

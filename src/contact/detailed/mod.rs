@@ -16,11 +16,19 @@ mod face_load;
 mod loads;
 mod mesh;
 mod pair;
+mod shared;
 mod sums;
 mod totals;
+mod touching;
 
 pub use directions::Arms;
 pub use face::{Face, Node};
 pub use face_load::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, Teeth};
+pub use shared::SharedTeeth;
+
+/// Variables of a mesh: q, x, w and their rates.
+pub const LOCAL: usize = 6;
+/// The same, and q, x, w of the planet's other mesh.
+pub const WITH_OTHER: usize = LOCAL + 3;

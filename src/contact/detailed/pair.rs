@@ -2,11 +2,11 @@
 
 use super::super::pairs::ToothPair;
 use super::sums::{Approach, By};
-use super::{Arms, DetailedState, Opening};
+use super::{Arms, DetailedState, LOCAL, Opening};
 
-/// Motion of a pair; `OPEN` where its flanks may not fit.
+/// Motion of a pair; `OPEN` where its flanks may not fit, `SHARED` where others move it.
 #[derive(Clone, Copy, Debug)]
-pub struct PairMotion<const OPEN: bool> {
+pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     /// Where it is and how it moves.
     pub approach: Approach,
     /// ∂a/∂q.
@@ -25,9 +25,11 @@ pub struct PairMotion<const OPEN: bool> {
     turn: [f64; 2],
     spread: [f64; 2],
     rate: [f64; 2],
+    /// ∂a of the own arc by q, x, w of its mesh and of the planet's other one, where others move it.
+    pub own: [[f64; 3]; 2],
 }
 
-impl<const OPEN: bool> PairMotion<OPEN> {
+impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
     /// Motion of `pair` with all of its `opening`, `axial` being ν and ∂ν/∂s.
     #[inline(always)]
     pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
@@ -51,25 +53,41 @@ impl<const OPEN: bool> PairMotion<OPEN> {
             turn: [qq * (dq + dx), qq * dq + xx * dx],
             spread: [twice[0] * dx + twice[1] * dw, twice[1] * dx],
             rate: [dq, dx],
+            own: [[0.0; 3]; 2],
         }
     }
 
-    /// Derivatives by q, x, w and their rates of what depends on A, E, s, Ȧ, Ė as `by`.
+    /// Derivatives by q, x, w and their rates, then by q, x, w of the other mesh, of what depends on A, E, s, Ȧ, Ė as `by`.
     #[inline(always)]
-    pub fn slopes(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; 6] {
+    pub fn slopes<const WIDE: usize>(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; WIDE] {
         let ([q, x], [ex, ew]) = (self.slope, self.opening);
-        if !OPEN {
-            let by_x = arc * x + place * self.s_slope + rate * self.turn[1];
-            return [arc * q + rate * self.turn[0], by_x, 0.0, rate * q, rate * x, 0.0];
+        let mut slopes = [0.0; WIDE];
+        let of_arc = if SHARED { self.own[0] } else { [q, x, 0.0] };
+        let local = if OPEN {
+            let by_w = even * ew + opening_rate * self.spread[1];
+            [
+                arc * of_arc[0] + rate * self.turn[0],
+                arc * of_arc[1]
+                    + even * ex
+                    + place * self.s_slope
+                    + rate * self.turn[1]
+                    + opening_rate * self.spread[0],
+                if SHARED { by_w + arc * of_arc[2] } else { by_w },
+                rate * q,
+                rate * x + opening_rate * ex,
+                opening_rate * ew,
+            ]
+        } else {
+            let by_x = arc * of_arc[1] + place * self.s_slope + rate * self.turn[1];
+            [arc * of_arc[0] + rate * self.turn[0], by_x, 0.0, rate * q, rate * x, 0.0]
+        };
+        slopes[..LOCAL].copy_from_slice(&local);
+        if SHARED {
+            for (slope, other) in slopes[LOCAL..].iter_mut().zip(self.own[1]) {
+                *slope = arc * other;
+            }
         }
-        [
-            arc * q + rate * self.turn[0],
-            arc * x + even * ex + place * self.s_slope + rate * self.turn[1] + opening_rate * self.spread[0],
-            even * ew + opening_rate * self.spread[1],
-            rate * q,
-            rate * x + opening_rate * ex,
-            opening_rate * ew,
-        ]
+        slopes
     }
 
     /// Travels of the flanks of planet and side gear along the line of action [rad/s].

@@ -1,10 +1,10 @@
 //! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
 
 use super::super::pairs::Spot;
-use super::DetailedLoad;
 use super::directions::Normal;
 use super::pair::PairMotion;
 use super::sums::{Rubbing, Sums};
+use super::{DetailedLoad, LOCAL};
 use crate::numeric::Dual;
 
 /// Places of the sums: forces conjugate to q, x and w, then those under which gears rub.
@@ -16,25 +16,25 @@ const PLANET: usize = 4;
 const SIDE: usize = 5;
 const TANGENTIAL: usize = 6;
 
-/// Sums over tooth pairs; `ROWS` of them have derivatives, all or none.
+/// Sums over tooth pairs; `ROWS` of them have derivatives by `WIDE` variables, all or none.
 #[derive(Clone, Copy, Debug)]
-pub struct Totals<const ROWS: usize> {
+pub struct Totals<const ROWS: usize, const WIDE: usize> {
     value: [f64; 7],
-    slopes: [[f64; 6]; ROWS],
+    slopes: [[f64; WIDE]; ROWS],
     heat: [f64; 2],
     energy: f64,
 }
 
-impl<const ROWS: usize> Default for Totals<ROWS> {
+impl<const ROWS: usize, const WIDE: usize> Default for Totals<ROWS, WIDE> {
     fn default() -> Self {
-        Self { value: [0.0; 7], slopes: [[0.0; 6]; ROWS], heat: [0.0; 2], energy: 0.0 }
+        Self { value: [0.0; 7], slopes: [[0.0; WIDE]; ROWS], heat: [0.0; 2], energy: 0.0 }
     }
 }
 
-impl<const ROWS: usize> Totals<ROWS> {
+impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
     /// Adds `factor` times `slopes` to the derivatives of sum `i`.
     #[inline(always)]
-    fn slope(&mut self, i: usize, factor: f64, slopes: &[f64; 6]) {
+    fn slope(&mut self, i: usize, factor: f64, slopes: &[f64; WIDE]) {
         for (sum, slope) in self.slopes[i].iter_mut().zip(slopes) {
             *sum += factor * slope;
         }
@@ -42,7 +42,7 @@ impl<const ROWS: usize> Totals<ROWS> {
 
     /// Adds elastic and damping forces of a pair.
     #[inline(always)]
-    pub fn add_teeth<const OPEN: bool>(&mut self, motion: &PairMotion<OPEN>, sums: &Sums) {
+    pub fn add_teeth<const OPEN: bool, const SHARED: bool>(&mut self, motion: &PairMotion<OPEN, SHARED>, sums: &Sums) {
         let (torque, normal) = (sums.torque, sums.normal);
         let ([aq, ax], [ex, ew]) = (motion.slope, motion.opening);
         self.value[Q] -= torque * aq;
@@ -78,7 +78,12 @@ impl<const ROWS: usize> Totals<ROWS> {
 
     /// Adds friction along the flanks of a pair: −h N along the planet's flank has the lever arms R cotδ_b sinψ.
     #[inline(always)]
-    pub fn add_rubbing<const OPEN: bool>(&mut self, motion: &PairMotion<OPEN>, sums: &Sums, rubbing: &Rubbing) {
+    pub fn add_rubbing<const OPEN: bool, const SHARED: bool>(
+        &mut self,
+        motion: &PairMotion<OPEN, SHARED>,
+        sums: &Sums,
+        rubbing: &Rubbing,
+    ) {
         let ([planet, side], sign) = (rubbing.arms.arm, motion.sign);
         let levers = [-sign * side, -sign * (side - planet)];
         self.value[Q] += levers[0] * sums.rubbed;
@@ -103,9 +108,9 @@ impl<const ROWS: usize> Totals<ROWS> {
 
     /// Adds the parts of a pair's normal force along the axes and the rotation.
     #[inline(always)]
-    pub fn add_thrust<const OPEN: bool>(
+    pub fn add_thrust<const OPEN: bool, const SHARED: bool>(
         &mut self,
-        motion: &PairMotion<OPEN>,
+        motion: &PairMotion<OPEN, SHARED>,
         sums: &Sums,
         normal: &Normal,
         spot: Spot,
@@ -130,6 +135,20 @@ impl<const ROWS: usize> Totals<ROWS> {
         }
     }
 
+    /// Adds what a pair's place does to how it moves others: a force along x with its derivatives by the positions of the own
+    /// mesh and of the other, and energy.
+    #[inline(always)]
+    pub fn add_moving(&mut self, force: f64, [own, other]: [[f64; 3]; 2], energy: f64) {
+        self.value[X] += force;
+        self.energy += energy;
+        if ROWS > 0 {
+            for i in 0..3 {
+                self.slopes[X][i] += own[i];
+                self.slopes[X][LOCAL + i] += other[i];
+            }
+        }
+    }
+
     /// The loads without derivatives.
     pub fn load(&self) -> DetailedLoad<f64> {
         self.of(|i| self.value[i])
@@ -149,9 +168,9 @@ impl<const ROWS: usize> Totals<ROWS> {
     }
 }
 
-impl Totals<7> {
+impl<const WIDE: usize> Totals<7, WIDE> {
     /// The loads with their derivatives.
-    pub fn linearised(&self) -> DetailedLoad<Dual<6>> {
+    pub fn linearised(&self) -> DetailedLoad<Dual<WIDE>> {
         self.of(|i| Dual { v: self.value[i], d: self.slopes[i] })
     }
 }

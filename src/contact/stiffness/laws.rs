@@ -31,6 +31,7 @@ impl Line {
 }
 
 impl Spring for Line {
+    const LINEAR: bool = true;
     /// 1/q, and the slopes of q.
     type Place = [f64; 3];
 

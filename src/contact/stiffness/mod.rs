@@ -55,10 +55,11 @@ pub struct PairStiffness {
     pub limit: f64,
     /// Compliance Q at ω₀ [1/Pa].
     table: Arc<ComplianceTable>,
-    /// R_e [m], p_b [rad], ends of the path [rad].
+    /// Ends of the path [rad].
+    pub path: [f64; 2],
+    /// R_e [m], p_b [rad].
     outer_cone: f64,
     base_pitch: f64,
-    path: [f64; 2],
     /// Corners at the lower end, the side gear's, and the upper end, the planet's.
     corners: [TipCorner; 2],
 }
@@ -67,21 +68,38 @@ impl PairStiffness {
     /// Stiffness of `pair` with roots of shape `root`, modulus `young` [Pa] and Poisson's ratio `poisson`; the linear
     /// law takes Hertz's part at `line_load` [N/m] at the mean cone distance.
     pub fn new(pair: &Pair, root: &RootSpec, young: f64, poisson: f64, line_load: f64) -> Result<Self, Problem> {
+        let teeth = Self::teeth(pair, root, Elasticity { young, poisson })?;
+        Self::of_gears(pair, &teeth, line_load, |i, roll| teeth.sections[i].compliance(roll, &teeth.elasticity))
+    }
+
+    /// Sections of the teeth of `pair` with roots of shape `root`.
+    pub fn teeth(pair: &Pair, root: &RootSpec, elasticity: Elasticity) -> Result<SectionPair, Problem> {
+        let Elasticity { young, poisson } = elasticity;
         if !(young > 0.0 && young.is_finite()) {
             return Err(Problem::new("material.young_modulus", format!("{young:e} Pa is not a positive number")));
         }
         if !(0.0..0.5).contains(&poisson) {
             return Err(Problem::new("material.poisson_ratio", format!("{poisson} is not within 0 and 0.5")));
         }
-        if !(line_load > 0.0 && line_load.is_finite()) {
-            return Err(Problem::new("contact.reference_line_load", format!("{line_load:e} N/m is not positive")));
-        }
         if !(root.fillet > 0.0 && root.fillet.is_finite()) {
             return Err(Problem::new("geometry.root_fillet", format!("{} modules is not positive", root.fillet)));
         }
         let section = |i: usize| SectionSpec::of_gear(pair, i).with_fillet(root.fillet * pair.module, DEDENDUM[i]);
-        let elasticity = Elasticity { young, poisson };
-        let teeth = SectionPair { sections: [section(0)?, section(1)?], elasticity };
+        Ok(SectionPair { sections: [section(0)?, section(1)?], elasticity })
+    }
+
+    /// Stiffness of `pair` with the sections `teeth`, where a load at a roll length [m] of gear 0 or 1 meets the compliance
+    /// `gear` [1/Pa], Hertz's part aside.
+    pub fn of_gears(
+        pair: &Pair,
+        teeth: &SectionPair,
+        line_load: f64,
+        gear: impl Fn(usize, f64) -> f64,
+    ) -> Result<Self, Problem> {
+        if !(line_load > 0.0 && line_load.is_finite()) {
+            return Err(Problem::new("contact.reference_line_load", format!("{line_load:e} N/m is not positive")));
+        }
+        let teeth = teeth.clone();
         let corners = [TipCorner::new(pair, &teeth, 1), TipCorner::new(pair, &teeth, 0)];
         let path = [-corners[0].end(), corners[1].end()];
         let (outer_cone, base_pitch) = (pair.outer_cone, pair.base_pitch);
@@ -92,7 +110,10 @@ impl PairStiffness {
         let limit = beams::places(range)
             .map(|s| limit_line_load(&teeth, s * outer_cone) / outer_cone)
             .fold(f64::INFINITY, f64::min);
-        let on_path = |s: f64| teeth.at(outer_cone * s, limit * outer_cone).total();
+        let on_path = |s: f64| {
+            let rolls = teeth.rolls(outer_cone * s);
+            gear(0, rolls[0]) + gear(1, rolls[1]) + teeth.local(rolls, limit * outer_cone)
+        };
         let table = ComplianceTable::new(range[0], range[1], on_path, |i, end| {
             if corner_range[i] == 0.0 {
                 return Beyond::level(end, LEVEL * base_pitch);
@@ -101,11 +122,10 @@ impl PairStiffness {
             let arc = corner.mate_arc(0.0);
             let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], bend: arc * arc };
             // the own tooth carries at its tip all along
-            let tip = teeth.sections[own].compliance(corner.rolls(0.0)[own], &teeth.elasticity);
+            let tip = gear(own, corner.rolls(0.0)[own]);
             Beyond::corner(&part, end, LEVEL * base_pitch, |delta| {
                 let rolls = corner.rolls(delta);
-                let mate = teeth.sections[1 - own].compliance(rolls[1 - own], &teeth.elasticity);
-                tip + mate + teeth.local(rolls, limit * outer_cone)
+                tip + gear(1 - own, rolls[1 - own]) + teeth.local(rolls, limit * outer_cone)
             })
         });
         let reference = line_load / pair.mean_cone;
@@ -123,7 +143,7 @@ impl PairStiffness {
         })
     }
 
-    /// Compliances and width of contact by the formulas at place `s` [rad], on the path or past its ends where the corners'
+    /// Compliances and width of contact by Weber's formulas at place `s` [rad], on the path or past its ends where the corners'
     /// are, for a line load per cone distance of `load` [N/m²]: at the outer cone distance. At R, b is R/R_e of it, the
     /// compliances are the same.
     pub fn exact(&self, s: f64, load: f64) -> PairCompliance {

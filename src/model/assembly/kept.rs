@@ -8,12 +8,13 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::shelf::Shelf;
 use super::solid;
+use crate::contact::bodies::{MeshOnBodies, SharedBodies, Support};
 use crate::contact::damping::Damping;
 use crate::contact::errors::ToothErrorSpec;
 use crate::contact::impact::Impact;
 use crate::contact::pairs::Engagement;
 use crate::contact::solid::mesh::SolidMesh;
-use crate::contact::stiffness::{PairStiffness, RootSpec};
+use crate::contact::stiffness::{Elasticity, PairStiffness, RootSpec};
 use crate::geometry::solid::mass::{GearMass, gear_mass};
 use crate::geometry::{GearSpec, Pair, checks};
 use crate::model::scene::SolidTeeth;
@@ -31,6 +32,15 @@ pub struct CheckedPair {
     pub warnings: Vec<Problem>,
 }
 
+/// Tooth pairs of gears with elastic bodies.
+#[derive(Debug)]
+pub struct OnBodies {
+    /// Stiffness of a pair alone, teeth and bodies.
+    pub stiffness: PairStiffness,
+    /// How pairs move each other.
+    pub bodies: Arc<SharedBodies>,
+}
+
 /// What is kept.
 #[derive(Debug, Default)]
 pub struct Kept {
@@ -38,6 +48,7 @@ pub struct Kept {
     masses: Shelf<[GearMass; 2]>,
     engagements: Shelf<Engagement>,
     stiffness: Shelf<Result<Arc<PairStiffness>, Problem>>,
+    bodies: Shelf<Result<Arc<OnBodies>, Problem>>,
     means: Shelf<Result<f64, Problem>>,
     solids: Shelf<SolidMesh>,
 }
@@ -67,6 +78,25 @@ impl Kept {
         let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
         self.stiffness.get(&(pair, fillet, young, poisson, load), || {
             PairStiffness::new(pair, &RootSpec { fillet }, young, poisson, load).map(Arc::new)
+        })
+    }
+
+    /// Tooth pairs of `pair` on the bodies of its gears in the scene `p`: side gears on their splines, planets on pins that take
+    /// no torque.
+    pub fn on_bodies(&self, p: &Parameters, pair: &Pair) -> Result<Arc<OnBodies>, Problem> {
+        let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
+        let (bores, planets) = ([p.geometry.planet_bore, p.geometry.side_bore], p.geometry.planet_count.unsigned_abs());
+        self.bodies.get(&(pair, fillet, [young, poisson, load], bores, planets), || {
+            let teeth = PairStiffness::teeth(pair, &RootSpec { fillet }, Elasticity { young, poisson })?;
+            let supports = [Support::FreeBore(bores[0]), Support::Bore(bores[1])];
+            let mesh = MeshOnBodies::new(pair, &teeth, supports, planets)?;
+            let stiffness = PairStiffness::of_gears(pair, &teeth, load, |i, roll| mesh.gear(i, roll))?;
+            let bodies = Arc::new(SharedBodies::new(
+                &mesh,
+                [stiffness.path, stiffness.range],
+                (pair.centred_position(), pair.base_pitch),
+            ));
+            Ok(Arc::new(OnBodies { stiffness, bodies }))
         })
     }
 

@@ -1,16 +1,21 @@
 //! The contact law of a scene: from parameters to what a mesh, plain or in detail, follows.
 
+use std::sync::Arc;
+
 use crate::contact::any_spring::{self, AnySpring, Linear};
+use crate::contact::bodies::SharedBodies;
 use crate::contact::damping::{self, Damping};
 use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::impact::Impact;
 use crate::contact::law::{Face, Lumped, Power};
 use crate::contact::mesh::Law;
+use crate::contact::stiffness::PairStiffness;
 use crate::contact::{ContactLaw, DampingModel, hertz};
 use crate::geometry::Pair;
 use crate::model::assembly::face::centroid;
 use crate::model::assembly::kept::Kept;
 use crate::model::assembly::solid;
+use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
@@ -25,11 +30,15 @@ pub struct Laws {
     pub face: CutFace,
     /// Cone distance at which the resultant of a pair acts [m].
     pub cone: f64,
+    /// The bodies that pairs share, where they are elastic.
+    pub bodies: Option<Arc<SharedBodies>>,
 }
 
 impl Laws {
-    /// Law of the scene; `cut` asks for loads that differ over the face, where the law holds at every cone distance.
-    pub fn new(p: &Parameters, pair: &Pair, cut: bool, kept: &Kept) -> Result<Self, Problem> {
+    /// Law of the scene with what effects do to the teeth: loads that differ over the face, where the law holds at every cone
+    /// distance, and elastic bodies.
+    pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, kept: &Kept) -> Result<Self, Problem> {
+        let cut = tooth.sliced;
         let damping = Self::damping(p);
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
@@ -49,6 +58,7 @@ impl Laws {
                 spring: AnySpring::Linear(Linear::new(k, centroid)),
                 face: whole(centroid, 1.0),
                 cone: centroid,
+                bodies: None,
             });
         }
         if p.scene.gear_contact == GearContact::Solid {
@@ -59,6 +69,7 @@ impl Laws {
                 spring: AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone }),
                 face: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,
+                bodies: None,
             });
         }
         Ok(match p.contact.law {
@@ -69,21 +80,21 @@ impl Laws {
                     Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
                 };
                 let spring = AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone });
-                Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone }
+                Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone, bodies: None }
             }
             ContactLaw::Line => {
-                let specific = kept.stiffness(p, pair)?.line();
+                let (specific, bodies) = of_teeth(p, pair, tooth, kept, PairStiffness::line)?;
                 let spring = AnySpring::Line(specific.clone());
                 let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::cut(inner, outer) } else { whole(centroid, moment) };
-                Self { law, spring, face, cone: centroid }
+                Self { law, spring, face, cone: centroid, bodies }
             }
             ContactLaw::LineWeber => {
-                let specific = kept.stiffness(p, pair)?.line_weber();
+                let (specific, bodies) = of_teeth(p, pair, tooth, kept, PairStiffness::line_weber)?;
                 let spring = AnySpring::LineWeber(specific.clone());
                 let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::sliced(inner, outer) } else { whole(centroid, moment) };
-                Self { law, spring, face, cone: centroid }
+                Self { law, spring, face, cone: centroid, bodies }
             }
         })
     }
@@ -100,6 +111,21 @@ impl Laws {
             },
         }
     }
+}
+
+/// A law by the stiffness of the teeth, and the bodies that pairs share, where they are elastic.
+fn of_teeth<S>(
+    p: &Parameters,
+    pair: &Pair,
+    tooth: &ToothEffects,
+    kept: &Kept,
+    law: impl Fn(&PairStiffness) -> S,
+) -> Result<(S, Option<Arc<SharedBodies>>), Problem> {
+    if !tooth.on_bodies {
+        return Ok((law(&*kept.stiffness(p, pair)?), None));
+    }
+    let gears = kept.on_bodies(p, pair)?;
+    Ok((law(&gears.stiffness), Some(gears.bodies.clone())))
 }
 
 fn impact(p: &Parameters, pair: &Pair) -> Impact {

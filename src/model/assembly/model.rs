@@ -20,7 +20,7 @@ use crate::model::effects::strength::GearStrength;
 use crate::model::scene::layout::MAX_DOF;
 use crate::model::scene::{GearContact, Layout, Plan, Requests};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
-use crate::model::setup::{Parameters, SceneEffects, validation};
+use crate::model::setup::{Parameters, SceneEffects, advice, validation};
 use crate::problem::Problem;
 
 /// How the gears are represented.
@@ -94,11 +94,12 @@ impl Model {
         let ideal = Ideal { plan, inertia, ratio };
         let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
+        warnings.extend(advice::warnings(parameters));
         let bodies = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
             GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
-                let laws = Laws::new(parameters, &pair, tooth.sliced, kept).map_err(|p| vec![p])?;
+                let laws = Laws::new(parameters, &pair, &tooth, kept).map_err(|p| vec![p])?;
                 Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, bodies), kept)))
             }
         };
@@ -169,7 +170,7 @@ fn teeth(
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
-    bodies.always |= in_detail || p.effects.strength;
+    bodies.always |= in_detail || laws.bodies.is_some() || p.effects.strength;
     let engagement = kept.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
@@ -183,5 +184,5 @@ fn teeth(
         planet_moment: ideal.inertia.planet_moment,
         bodies,
     };
-    Teeth::new(pair, mesh, plan, &ideal.inertia, deflection_limit, additions)
+    Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, additions)
 }

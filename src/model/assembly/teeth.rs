@@ -1,7 +1,10 @@
 //! Constants of the equations of motion of a differential with teeth.
 
+use std::sync::Arc;
+
 use super::additions::Additions;
 use super::inertias::Inertias;
+use crate::contact::bodies::SharedBodies;
 use crate::contact::mesh::Mesh;
 use crate::geometry::Pair;
 use crate::model::scene::layout::{CARRIER, MAX_DOF};
@@ -31,6 +34,8 @@ pub struct Teeth {
     pub base_pitch: f64,
     /// Largest approach of flanks: more exceeds the working depth, or half the base pitch [rad].
     pub deflection_limit: f64,
+    /// The bodies of the gears that pairs share, where they are elastic.
+    pub shared: Option<Arc<SharedBodies>>,
     /// What acts besides plain teeth; boxed, so that the layout of these constants is the same in every build.
     pub additions: Box<Additions>,
 }
@@ -47,7 +52,7 @@ impl Teeth {
     /// Constants of the scene `plan` with the meshes `mesh` of `pair`.
     pub fn new(
         pair: &Pair,
-        mesh: Mesh,
+        (mesh, shared): (Mesh, Option<Arc<SharedBodies>>),
         plan: Plan,
         inertias: &Inertias,
         deflection_limit: f64,
@@ -81,6 +86,7 @@ impl Teeth {
             sin_base: pair.sin_base(),
             base_pitch: pair.base_pitch,
             deflection_limit,
+            shared,
             additions: Box::new(additions),
         }
     }

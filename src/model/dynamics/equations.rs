@@ -168,9 +168,15 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
     #[inline(always)]
     pub(in crate::model) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        self.block_between(s, s, by)
+    }
+
+    /// The same of the mesh of side `s` by the coordinates of that of side `other`.
+    #[inline(always)]
+    pub(in crate::model) fn block_between(&self, s: usize, other: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let [planet, side] = self.teeth.sin_base;
-        let turn = SIGMA[s] * planet;
-        let columns = by.map(|[q, x, w]| [side * q, turn * (x - q), w]);
+        let [turn, turned] = [s, other].map(|s| SIGMA[s] * planet);
+        let columns = by.map(|[q, x, w]| [side * q, turned * (x - q), w]);
         std::array::from_fn(|row| {
             std::array::from_fn(|c| match row {
                 0 => side * columns[0][c],
@@ -281,6 +287,10 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
                 load[g] = load[twin];
                 continue;
             }
+            if let Some(bodies) = self.bodies_of_gears() {
+                load[g] = self.forces_on_bodies(bodies, at, g);
+                continue;
+            }
             for s in 0..2 {
                 load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
             }
@@ -294,7 +304,11 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         let mut energy = [0.0; G];
         for g in 0..G {
             let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
-            energy[g] = self.twin(at, g).map_or_else(|| of(0) + of(1), |twin| energy[twin]);
+            energy[g] = match (self.twin(at, g), self.bodies_of_gears()) {
+                (Some(twin), _) => energy[twin],
+                (None, None) => of(0) + of(1),
+                (None, Some(bodies)) => self.energy_on_bodies(bodies, [at, at], g),
+            };
         }
         in_pairs(G, |g| self.members(g) * energy[g])
     }

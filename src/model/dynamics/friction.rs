@@ -1,11 +1,12 @@
 //! Dry friction in the equations of motion: torques, derivatives, energy, and where it sticks or slides.
 
 use super::equations::Equations;
-use super::in_detail::{LOCAL, Local};
+use super::in_detail::Local;
 use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::DetailedLoad;
-use crate::integrate::{Point, in_pairs};
+use crate::contact::detailed::{LOCAL, WITH_OTHER};
+use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::teeth::SIGMA;
 use crate::model::effect_kinds::dry_friction::DryFriction;
 use crate::model::effect_kinds::friction_state::Mode;
@@ -191,14 +192,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 continue;
             }
             let torque = in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value());
-            let slopes: [[f64; LOCAL]; G] = std::array::from_fn(|g| {
+            let slopes: [[f64; WITH_OTHER]; G] = std::array::from_fn(|g| {
                 let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
                 std::array::from_fn(|k| {
                     self.members(g) * (of_side[0] * axial[k] + of_side[1] * torque.signum() * side * force[k])
                 })
             });
             for (row, sign) in [(s, -direction), (CARRIER, direction)] {
-                self.spread(row, sign, s, &slopes, j);
+                self.spread::<T>(row, sign, s, &slopes, j);
             }
         }
         for g in 0..G {
@@ -213,10 +214,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             for s in 0..2 {
                 let load = &loads[g][s];
                 let (t, a, p) = (load.tangential.slopes(), load.side_axial.slopes(), load.planet_axial.slopes());
-                let mut slopes = [[0.0; LOCAL]; G];
+                let mut slopes = [[0.0; WITH_OTHER]; G];
                 slopes[g] =
                     std::array::from_fn(|k| of_planet[0] * p[k] + per * (across * t[k] + SIGMA[s] * along * a[k]));
-                self.spread(Self::PLANET + g, -direction, s, &slopes, j);
+                self.spread::<T>(Self::PLANET + g, -direction, s, &slopes, j);
             }
         }
     }
@@ -230,22 +231,37 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         }
     }
 
-    /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`.
-    fn spread(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; LOCAL]; G], j: &mut Jacobian<N>) {
+    /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes
+    /// where those matter.
+    fn spread<T: Local>(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; WITH_OTHER]; G], j: &mut Jacobian<N>) {
+        self.spread_positions(row, sign, s, |g, k| slopes[g][k], &mut j.by_position);
+        self.spread_positions(row, sign, s, |g, k| slopes[g][3 + k], &mut j.by_rate);
+        if T::BY_OTHER {
+            self.spread_positions(row, sign, 1 - s, |g, k| slopes[g][LOCAL + k], &mut j.by_position);
+        }
+    }
+
+    /// Adds to row `row` the slopes of something by q, x, w, or their rates, of all meshes of side `s`.
+    #[inline(always)]
+    fn spread_positions(
+        &self,
+        row: usize,
+        sign: f64,
+        s: usize,
+        slopes: impl Fn(usize, usize) -> f64,
+        m: &mut Matrix<N>,
+    ) {
         let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
-        for (part, m) in [(0, &mut j.by_position), (3, &mut j.by_rate)] {
-            m[row][s] += sign * in_pairs(G, |g| side * slopes[g][part]);
-            for g in 0..G {
-                let d = &slopes[g];
-                m[row][Self::PLANET + g] += sign * turn * (d[part + 1] - d[part]);
-                if P > 0 {
-                    m[row][Self::PIN + g] -= sign * side * d[part];
-                }
-            }
+        m[row][s] += sign * in_pairs(G, |g| side * slopes(g, 0));
+        for g in 0..G {
+            m[row][Self::PLANET + g] += sign * turn * (slopes(g, 1) - slopes(g, 0));
             if P > 0 {
-                m[row][Self::SEAT + s] += sign * in_pairs(G, |g| slopes[g][part + 2]);
+                m[row][Self::PIN + g] -= sign * side * slopes(g, 0);
             }
+        }
+        if P > 0 {
+            m[row][Self::SEAT + s] += sign * in_pairs(G, |g| slopes(g, 2));
         }
     }
 

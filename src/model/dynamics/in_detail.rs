@@ -3,24 +3,38 @@
 use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
-use crate::contact::detailed::{Detailed, DetailedLoad, DetailedState, SliceLoad, Teeth as MeshTeeth};
+use crate::contact::detailed::{
+    Detailed, DetailedLoad, DetailedState, LOCAL, SharedTeeth, SliceLoad, Teeth as MeshTeeth, WITH_OTHER,
+};
 use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::MeshState;
+use crate::contact::pairs::Flank;
+use crate::contact::shared::Moved;
 use crate::integrate::{Point, in_pairs};
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::{Dual, Scalar, sqrt};
 
-/// Variables of a mesh in detail: q, x, w and their rates.
-pub(super) const LOCAL: usize = 6;
-
 /// Numbers, or numbers with derivatives by the variables of one mesh.
 pub trait Local: Scalar {
     /// Loads of a mesh.
     fn load(mesh: &Detailed, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Self>;
-    /// Derivatives by the variables of the mesh; zero for plain numbers.
-    fn slopes(&self) -> [f64; LOCAL];
+    /// Loads of both meshes of a planet on elastic bodies.
+    fn load_shared(mesh: &Detailed, teeth: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<Self>; 2];
+    /// Whether they have derivatives by the positions of the planet's other mesh.
+    const BY_OTHER: bool = false;
+    /// Derivatives by the variables of the mesh, then by the positions of the other; zero for plain numbers.
+    fn slopes(&self) -> [f64; WITH_OTHER];
+}
+
+/// Loads with other numbers.
+fn converted<const A: usize, const B: usize>(load: DetailedLoad<Dual<A>>) -> DetailedLoad<Dual<B>> {
+    load.map(|from| {
+        let mut d = [0.0; B];
+        d.iter_mut().zip(from.d).for_each(|(to, from)| *to = from);
+        Dual { v: from.v, d }
+    })
 }
 
 impl Local for f64 {
@@ -29,8 +43,12 @@ impl Local for f64 {
         mesh.load(teeth, state)
     }
     #[inline]
-    fn slopes(&self) -> [f64; LOCAL] {
-        [0.0; LOCAL]
+    fn load_shared(mesh: &Detailed, teeth: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<Self>; 2] {
+        mesh.load_shared(teeth, states)
+    }
+    #[inline]
+    fn slopes(&self) -> [f64; WITH_OTHER] {
+        [0.0; WITH_OTHER]
     }
 }
 
@@ -40,7 +58,28 @@ impl Local for Dual<LOCAL> {
         mesh.linearise(teeth, state)
     }
     #[inline]
-    fn slopes(&self) -> [f64; LOCAL] {
+    fn load_shared(mesh: &Detailed, teeth: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<Self>; 2] {
+        mesh.linearise_shared(teeth, states).map(converted)
+    }
+    #[inline]
+    fn slopes(&self) -> [f64; WITH_OTHER] {
+        let [q, x, w, dq, dx, dw] = self.d;
+        [q, x, w, dq, dx, dw, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Local for Dual<WITH_OTHER> {
+    #[inline]
+    fn load(mesh: &Detailed, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Self> {
+        converted(mesh.linearise(teeth, state))
+    }
+    #[inline]
+    fn load_shared(mesh: &Detailed, teeth: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<Self>; 2] {
+        mesh.linearise_shared(teeth, states)
+    }
+    const BY_OTHER: bool = true;
+    #[inline]
+    fn slopes(&self) -> [f64; WITH_OTHER] {
         self.d
     }
 }
@@ -61,14 +100,20 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// State of the mesh of group `g` with side `s` in detail.
-    fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
+    #[inline(always)]
+    pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
         let [w, dw] = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
         DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
     }
 
+    /// States of both meshes of group `g` in detail.
+    pub(super) fn detailed_states(&self, at: &Point<N>, g: usize) -> [DetailedState; 2] {
+        [0, 1].map(|s| self.detailed_state(at, g, s))
+    }
+
     /// Teeth of the mesh of group `g` with side `s` as they are now.
-    fn mesh_teeth(&self, g: usize, s: usize) -> MeshTeeth<'_> {
+    pub(super) fn mesh_teeth(&self, g: usize, s: usize) -> MeshTeeth<'_> {
         MeshTeeth {
             engagement: &self.teeth.mesh.engagement,
             gaps: self.gaps().map(|gaps| gaps as _),
@@ -78,18 +123,28 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// The fraction of a step of `h` [s] from `at` on after which the force of the mesh of group `g` with side `s` has its
-    /// first kink.
+    /// first kink; `moved` tells what others move its pairs by.
     #[inline(always)]
-    pub(super) fn mesh_kink(&self, at: &Point<N>, h: f64, g: usize, s: usize) -> Option<f64> {
+    pub(super) fn mesh_kink(
+        &self,
+        at: &Point<N>,
+        h: f64,
+        (g, s): (usize, usize),
+        moved: Option<&Moved>,
+    ) -> Option<f64> {
         let (mesh, state) = (&self.teeth.mesh, self.mesh_state(at, g, s));
+        let moved_by = |flank: Flank, number: i64| moved.map_or(0.0, |moved| moved.of(s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
             let (teeth, detailed) = (self.mesh_teeth(g, s), &self.teeth.additions.detailed);
             if teeth.gaps.is_some() {
                 let in_detail = self.detailed_state(at, g, s);
-                return mesh.kink_of_open(&state, h, |flank, number, s| {
-                    detailed.opened(&teeth, &in_detail, (flank, number, s), mesh.cone)
+                return mesh.kink_of_open(&state, h, |flank, number, place| {
+                    detailed.opened(&teeth, &in_detail, (flank, number, place), mesh.cone) + moved_by(flank, number)
                 });
             }
+        }
+        if moved.is_some() {
+            return mesh.kink_of_open(&state, h, |flank, number, _| moved_by(flank, number));
         }
         mesh.kink(&state, h)
     }
@@ -102,6 +157,16 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         s: usize,
         mut look: impl FnMut(&SliceLoad),
     ) -> DetailedLoad<f64> {
+        if let Some(bodies) = self.bodies_of_gears() {
+            return self.with_shared_teeth(bodies, g, |teeth| {
+                let mut look = |slice: &SliceLoad| {
+                    if slice.name.side == s {
+                        look(slice);
+                    }
+                };
+                self.teeth.additions.detailed.look_shared(teeth, &self.detailed_states(at, g), &mut look)[s]
+            });
+        }
         self.teeth.additions.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), &mut look)
     }
 
@@ -140,12 +205,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     pub(in crate::model) fn all_loads<T: Local>(&self, at: &Point<N>) -> [[DetailedLoad<T>; 2]; G] {
-        let mesh = &self.teeth.additions.detailed;
         let mut loads = [[DetailedLoad::zero(); 2]; G];
         for (g, sides) in loads.iter_mut().enumerate() {
-            for (s, load) in sides.iter_mut().enumerate() {
-                *load = T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s));
-            }
+            *sides = self.planet_loads(at, g);
         }
         loads
     }
@@ -178,7 +240,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             let block = |part: usize| {
                 std::array::from_fn(|g| {
                     [0, 1].map(|s| {
-                        let force: [[f64; LOCAL]; 3] = loads[g][s].force.map(|f| f.slopes());
+                        let force: [[f64; WITH_OTHER]; 3] = loads[g][s].force.map(|f| f.slopes());
                         self.local_block(s, &force.map(|d| [d[part], d[part + 1], d[part + 2]]))
                     })
                 })
@@ -186,6 +248,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             j.elastic_energy = in_pairs(G, |g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
             self.add_blocks(&block(0), &mut j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
+            if T::BY_OTHER {
+                let cross = self.cross_blocks(&loads);
+                self.add_cross_blocks(&cross, &mut j.by_position);
+            }
             if let Some((_, planets)) = &surfaces {
                 self.friction_slopes_by_loads(&loads, planets, j);
                 self.friction_slopes_by_orbit(at, j);

@@ -19,6 +19,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     pub fn tooth_stiffness(&self, at: &Point<N>) -> Matrix<N> {
         let mut m = [[0.0; N]; N];
         let mut by = [[[[0.0; 3]; 3]; 2]; G];
+        if let Some(bodies) = self.bodies_of_gears() {
+            let still = Point { q: at.q, v: [0.0; N] };
+            let shared = std::array::from_fn(|g| self.linearised_on_bodies(bodies, &self.mesh_states(&still, g), g));
+            self.add_shared_blocks(&shared, &mut m);
+            return m;
+        }
         for g in 0..G {
             for s in 0..2 {
                 let mut state = self.mesh_state(at, g, s);

@@ -52,11 +52,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     ) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
-        let wrapped = self.wrapped(g, s);
-        let teeth = |flank: Flank, number: i64| {
-            let tooth = if flank == Flank::Drive { number - wrapped } else { -(number + wrapped) };
-            self.teeth.additions.perfect.teeth(crate::contact::detailed::PairName { planet, side: s, flank, tooth })
-        };
+        let teeth = |flank: Flank, number: i64| self.teeth.additions.perfect.teeth(self.pair_name(g, s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
             self.detail(at, g, s, |slice| {
                 visit(&ToothLoad {
@@ -102,7 +98,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             });
             return;
         }
-        mesh.loaded(&self.mesh_state(at, g, s), |contact, force| {
+        self.loaded_pairs(at, g, s, |contact, force| {
             visit(&ToothLoad {
                 planet,
                 side: s,

@@ -14,6 +14,7 @@ pub mod jacobian;
 mod linearised;
 mod loads;
 mod motion;
+mod on_bodies;
 mod pair_loads;
 pub mod power;
 pub mod rigid_equations;

@@ -177,8 +177,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
         for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
+            let moved = self.bodies_of_gears().map(|bodies| self.moved_pairs(bodies, at, g));
             for s in 0..2 {
-                let found = self.mesh_kink(at, h, g, s);
+                let found = self.mesh_kink(at, h, (g, s), moved.as_ref());
                 first = match (first, found) {
                     (Some(a), Some(b)) => Some(a.min(b)),
                     (a, b) => a.or(b),

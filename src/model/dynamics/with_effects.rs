@@ -1,9 +1,9 @@
 //! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
 
 use super::equations::Equations;
-use super::in_detail::LOCAL;
 use super::jacobian::Jacobian;
 use super::power::Power;
+use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::contact::mesh::MeshForce;
 use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
@@ -42,8 +42,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 self.act_on_bodies(at, sum, imposed, power);
             }
             Some(j) => {
-                if self.in_detail() {
+                if self.in_detail() && self.bodies_of_gears().is_some() {
+                    self.act_in_detail::<Dual<WITH_OTHER>>(at, sum, power, Some(j));
+                } else if self.in_detail() {
                     self.act_in_detail::<Dual<LOCAL>>(at, sum, power, Some(j));
+                } else if let Some(bodies) = self.bodies_of_gears() {
+                    j.elastic_energy =
+                        self.add_shared_forces(bodies, at, sum, [&mut j.by_position, &mut j.by_rate], power);
+                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 } else {
                     let mut load = [[MeshForce::default(); 2]; G];
                     let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
@@ -133,7 +139,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let (mut sum, mut j) = ([0.0; N], Jacobian::default());
         let mut power = Power::default();
         let still = Point { q: at.q, v: [0.0; N] };
-        let loads = self.all_loads::<Dual<LOCAL>>(&still);
+        let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
         self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
         if P > 0 {
             for s in 0..2 {
@@ -144,6 +150,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]])))
         });
         self.add_blocks(&blocks, &mut j.by_position);
+        if self.bodies_of_gears().is_some() {
+            self.add_cross_blocks(&self.cross_blocks(&loads), &mut j.by_position);
+        }
         let mut carrier = 0.0;
         let bodies = self.bodies(&still);
         let mut action =
@@ -165,7 +174,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
     pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
         let teeth = if self.in_detail() {
-            in_pairs(G, |g| self.members(g) * (self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1)))
+            in_pairs(G, |g| self.members(g) * self.planet_energy(at, g))
         } else {
             self.elastic_energy(at)
         };

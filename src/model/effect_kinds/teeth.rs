@@ -14,6 +14,8 @@ pub struct ToothEffects {
     pub individual: bool,
     /// Whether loads differ over the face.
     pub sliced: bool,
+    /// Whether the bodies of the gears are elastic.
+    pub on_bodies: bool,
 }
 
 /// Friction along the flanks.

@@ -3,6 +3,7 @@
 //! add one.
 
 mod bearing_drag;
+mod body_compliance;
 mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
@@ -167,6 +168,7 @@ effects! {
         final_drive: final_drive::FinalDriveSpec,
         strength: strength::StrengthSpec,
         wheel_brake: wheel_brake::WheelBrakeSpec,
+        body_compliance: body_compliance::BodyComplianceSpec,
     }
     commanded {
         lock: lock::LockSpec,

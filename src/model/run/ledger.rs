@@ -145,8 +145,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 // steps may be so short there that a part of one is lost in rounding
                 let at_once = AT_ONCE.max(RESOLVED / change[1].abs());
                 self.teeth.mesh.engagement.jumps(start, change, |t| {
-                    let [before, after] = [t - at_once, t + at_once].map(|t| self.mesh_energy(&between(t), g, s));
-                    energy += self.members(g) * (after - before);
+                    let [before, after] = [t - at_once, t + at_once].map(between);
+                    energy += self.members(g) * self.energy_brought([&before, &after], g, s);
                 });
             }
         }

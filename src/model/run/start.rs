@@ -116,8 +116,9 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     let mut point = Point::ZERO;
     press_sides(model, teeth, equations, still, &mut point)?;
     let mut carried = still;
-    let in_detail = WITH_EFFECTS && (equations.in_detail() || P > 0);
-    if !plan.spin_imposed || in_detail {
+    // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
+    let otherwise = WITH_EFFECTS && (equations.in_detail() || P > 0 || equations.bodies_of_gears().is_some());
+    if !plan.spin_imposed || otherwise {
         if let Some(settled) = minimum(equations, still, &point) {
             point = settled;
         } else if !plan.spin_imposed {
@@ -129,13 +130,21 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     let speeds = state.v;
     point.v = state.point::<N>().v;
     // quasi-static: while the planets spin, α follows the changing stiffness
+    let spin = |g: usize| teeth.layout.planet(g);
+    let by_spins = [0, 1].map(|s| (0..G).map(|g| stiffness[s][spin(g)] * speeds[spin(g)]).sum::<f64>());
+    let follows = [0, 1].map(|s| stiffness[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
     for s in 0..2 {
-        if stiffness[s][s] != 0.0 {
-            let spin = |g: usize| teeth.layout.planet(g);
-            let by_spin: f64 = (0..G).map(|g| stiffness[s][spin(g)] * speeds[spin(g)]).sum();
-            if !plan.shafts[s] || !plan.side_imposed[s] {
-                point.v[s] = speeds[CARRIER] - by_spin / stiffness[s][s];
+        if follows[s] {
+            // planets whose bodies are elastic join both sides
+            let other = 1 - s;
+            let across = stiffness[s][other];
+            let (mut by_spin, mut own) = (by_spins[s], stiffness[s][s]);
+            if across != 0.0 && follows[other] {
+                let share = across / stiffness[other][other];
+                by_spin -= share * by_spins[other];
+                own -= share * stiffness[other][s];
             }
+            point.v[s] = speeds[CARRIER] - by_spin / own;
         }
         if plan.shafts[s] {
             point.q[teeth.layout.end(s)] = teeth.additions.bodies.half_shafts.static_twist(s, carried[s]);

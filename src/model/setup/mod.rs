@@ -1,5 +1,6 @@
 //! What a user sets before the first step: all parameters, the effects that follow from them, and contradictions between them.
 
+pub mod advice;
 pub mod effect_outputs;
 mod parameters;
 pub mod scene_effects;

@@ -1,17 +1,17 @@
 //! The commands `scene` and `loads`.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
 
 use super::run::SceneRun;
-use super::{find, list, loads, plan, run, units};
+use super::{find, find_with, list, loads, plan, run, script, ssv, units};
 use crate::tools::paths;
 
-/// Describes a scene, or lists all scenes; --run simulates it
+/// Describes a scene, or lists all scenes; simulates it, or writes it for other hosts of the FMU
 #[derive(Args, Clone, Debug)]
 pub struct SceneCommand {
     /// A scene file, or the name of a scene; without it, list the scenes
@@ -23,6 +23,15 @@ pub struct SceneCommand {
     /// Simulate the scene and record its outputs at each communication point
     #[arg(long, value_name = "OUT.csv")]
     csv: Option<PathBuf>,
+    /// Change the scene, such as left.load_torque="400 N.m", scene.start=rest, stop_time="20 ms" (may be repeated)
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<String>,
+    /// Write the start values as a parameter set of SSP 1.0, which hosts read into the FMU
+    #[arg(long, value_name = "OUT.ssv")]
+    ssv: Option<PathBuf>,
+    /// Write a Python script that simulates the scene with the FMU by fmpy, and records the same numbers as --csv
+    #[arg(long, value_name = "OUT.py")]
+    python: Option<PathBuf>,
 }
 
 /// Records the force on each loaded tooth pair of a scene, for FEA
@@ -43,14 +52,22 @@ impl SceneCommand {
     /// Describes, lists or simulates.
     pub fn run(&self) -> Result<()> {
         let Some(name) = &self.name else {
-            if self.run || self.csv.is_some() {
-                return Err(anyhow!("--run and --csv need a scene; name one of these:\n{}", list()?));
+            if self.run || self.csv.is_some() || !self.set.is_empty() || self.ssv.is_some() || self.python.is_some() {
+                bail!("--run, --csv, --set, --ssv and --python need a scene; name one of these:\n{}", list()?);
             }
             print!("{}", list()?);
             return Ok(());
         };
-        let scene = find(name)?;
+        let scene = find_with(name, &self.set)?;
         print!("{}", plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation));
+        if let Some(path) = &self.ssv {
+            write(path, &ssv::text(&scene)?)?;
+            println!("parameter set: {}", paths::shown(path));
+        }
+        if let Some(path) = &self.python {
+            write(path, &script::text(&scene)?)?;
+            println!("script: {}", paths::shown(path));
+        }
         if !self.run && self.csv.is_none() {
             return Ok(());
         }
@@ -78,6 +95,10 @@ impl LoadsCommand {
         println!("{}: {lines} loads of tooth pairs", paths::shown(path));
         Ok(())
     }
+}
+
+fn write(path: &Path, text: &str) -> Result<()> {
+    fs::write(path, text).with_context(|| format!("{} cannot be written", path.display()))
 }
 
 fn create(path: &Path) -> Result<BufWriter<File>> {

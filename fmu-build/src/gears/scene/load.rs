@@ -2,8 +2,8 @@
 //!
 //! ```toml
 //! description = "what it shows"
-//! stop_time = 0.5                        # s
-//! step = 1e-3                            # communication step, s
+//! stop_time = 0.5                        # in s, or with a unit: "500 ms"
+//! step = 1e-3                            # communication step
 //! outputs = ["left.speed"]
 //!
 //! [set]                                  # any parameter or input of the FMU
@@ -19,9 +19,12 @@
 //! time = [0.0, 0.05]
 //! value = ["0 deg/s", "100 deg/s"]
 //! period = 0.1                           # repeats; without it the last value stays
+//!
+//! [[inputs]]                             # the same for all inputs in a CSV file
+//! file = "cycle.csv"                     # relative to this file
 //! ```
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use bevel_differential::model::{Inputs, Parameters};
@@ -30,7 +33,8 @@ use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::set::{Setting, closest, real, variable, written};
-use super::{Event, InputTable, Scene};
+use super::times::{check_step, seconds, span};
+use super::{Event, InputTable, Scene, input_file};
 use crate::tools::paths;
 
 /// The contents of a file.
@@ -38,14 +42,16 @@ use crate::tools::paths;
 #[serde(deny_unknown_fields)]
 struct File {
     description: String,
-    stop_time: f64,
-    step: f64,
+    stop_time: Value,
+    step: Value,
     #[serde(default)]
     set: Table,
     #[serde(default)]
     at: Vec<Table>,
     #[serde(default)]
     table: Vec<InputTableEntry>,
+    #[serde(default)]
+    inputs: Vec<InputFileEntry>,
     outputs: Vec<String>,
 }
 
@@ -53,9 +59,16 @@ struct File {
 #[serde(deny_unknown_fields)]
 struct InputTableEntry {
     input: String,
-    time: Vec<f64>,
+    time: Vec<Value>,
     value: Vec<Value>,
-    period: Option<f64>,
+    period: Option<Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InputFileEntry {
+    file: PathBuf,
+    period: Option<Value>,
 }
 
 /// Loads the scene in `file`.
@@ -70,15 +83,17 @@ pub fn load(file: &Path) -> Result<Scene> {
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
     let entry: File = toml::from_str(text)?;
     let mut problems = Vec::new();
-    times(&entry, &mut problems);
+    let (stop_time, step) = times(&entry, &mut problems);
     let settings = settings("[set]", &entry.set, &mut problems);
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
-    let mut events: Vec<Event> =
-        entry.at.into_iter().filter_map(|at| event(at, &entry.stop_time, &mut problems)).collect();
+    let mut events: Vec<Event> = entry.at.into_iter().filter_map(|at| event(at, stop_time, &mut problems)).collect();
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
-    let input_tables: Vec<InputTable> =
+    let mut input_tables: Vec<InputTable> =
         entry.table.into_iter().filter_map(|table| input_table(table, &mut problems)).collect();
+    for input_file in &entry.inputs {
+        add_input_file(input_file, file, &mut input_tables, &mut problems);
+    }
     let outputs = outputs(&entry.outputs, &mut problems);
     if !problems.is_empty() {
         bail!("{}", problems.join("\n"));
@@ -92,8 +107,8 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
         name: name.into(),
         file: file.into(),
         description: entry.description,
-        stop_time: entry.stop_time,
-        step: entry.step,
+        stop_time,
+        step,
         parameters,
         inputs,
         settings,
@@ -103,15 +118,14 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
     })
 }
 
-fn times(entry: &File, problems: &mut Vec<String>) {
-    for (key, value) in [("stop_time", entry.stop_time), ("step", entry.step)] {
-        if !(value > 0.0 && value.is_finite()) {
-            problems.push(format!("{key} = {value}: must be above 0 s"));
-        }
+/// Simulated time and communication step [s]; NaN where they are wrong.
+fn times(entry: &File, problems: &mut Vec<String>) -> (f64, f64) {
+    let mut checked = |key: &str, value: &Value| span(key, value).map_err(|problem| problems.push(problem));
+    let (stop_time, step) = (checked("stop_time", &entry.stop_time), checked("step", &entry.step));
+    if let (Ok(stop_time), Ok(step)) = (stop_time, step) {
+        problems.extend(check_step(step, stop_time).err());
     }
-    if entry.step > entry.stop_time {
-        problems.push(format!("step = {} s is longer than stop_time = {} s", entry.step, entry.stop_time));
-    }
+    (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
 }
 
 /// Values of a table whose keys may be dotted or nested.
@@ -138,21 +152,20 @@ fn flatten<'a>(prefix: &str, table: &'a Table, out: &mut Vec<(String, &'a Value)
     }
 }
 
-fn event(mut table: Table, stop: &f64, problems: &mut Vec<String>) -> Option<Event> {
-    let time = match table.remove("time") {
-        Some(Value::Float(time)) => time,
-        Some(Value::Integer(time)) => time as f64,
-        Some(other) => {
-            problems.push(format!("[[at]] time = {}: must be a number of seconds", written(&other)));
-            return None;
-        }
-        None => {
-            problems.push("[[at]] has no time".into());
+fn event(mut table: Table, stop_time: f64, problems: &mut Vec<String>) -> Option<Event> {
+    let Some(value) = table.remove("time") else {
+        problems.push("[[at]] has no time".into());
+        return None;
+    };
+    let time = match seconds(&value) {
+        Ok(time) => time,
+        Err(problem) => {
+            problems.push(format!("[[at]] time = {}: {problem}", written(&value)));
             return None;
         }
     };
-    if !(0.0..=*stop).contains(&time) {
-        problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop}] s"));
+    if !stop_time.is_nan() && !(0.0..=stop_time).contains(&time) {
+        problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
     }
     let place = format!("[[at]] time = {time}:");
     let settings = settings(&place, &table, problems);
@@ -184,22 +197,45 @@ fn input_table(entry: InputTableEntry, problems: &mut Vec<String>) -> Option<Inp
             Err(problem) => wrong(format!("value {}: {problem}", written(value))),
         }
     }
+    let mut times = Vec::new();
+    for value in &entry.time {
+        match seconds(value) {
+            Ok(time) => times.push(time),
+            Err(problem) => wrong(format!("time {}: {problem}", written(value))),
+        }
+    }
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
         wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
     }
-    let rising = entry.time.windows(2).all(|pair| pair[0] < pair[1]) && entry.time.first().is_none_or(|&t| t >= 0.0);
-    if !rising || !entry.time.iter().all(|time| time.is_finite()) {
+    let rising = times.windows(2).all(|pair| pair[0] < pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
+    if !rising || !times.iter().all(|time| time.is_finite()) {
         wrong("times must rise from 0 on".into());
     }
-    if let Some(period) = entry.period.filter(|&period| !(period > 0.0 && period.is_finite())) {
-        wrong(format!("period = {period}: must be above 0 s"));
+    let period = entry.period.map(|period| span("period", &period)).transpose().map_err(wrong).ok()?;
+    let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();
+    (complete && rising).then_some(InputTable { row, times, values, period })
+}
+
+/// Adds the inputs of a CSV file, whose path is relative to that of the scene, `scene`.
+fn add_input_file(entry: &InputFileEntry, scene: &Path, tables: &mut Vec<InputTable>, problems: &mut Vec<String>) {
+    let place = format!("[[inputs]] file = \"{}\":", entry.file.display());
+    let period = match entry.period.as_ref().map(|period| span("period", period)).transpose() {
+        Ok(period) => period,
+        Err(problem) => return problems.push(format!("{place} {problem}")),
+    };
+    let file = scene.parent().unwrap_or(Path::new("")).join(&entry.file);
+    match input_file::read(&file, period) {
+        Ok(read) => {
+            for table in read {
+                let name = table.row.name;
+                if tables.iter().any(|known| known.row.name == name) {
+                    problems.push(format!("{place} {name} has another table in the scene already; remove one of them"));
+                }
+                tables.push(table);
+            }
+        }
+        Err(found) => problems.extend(found.iter().map(|problem| format!("[[inputs]] {problem}"))),
     }
-    (values.len() == entry.time.len() && rising && !values.is_empty()).then_some(InputTable {
-        row,
-        times: entry.time,
-        values,
-        period: entry.period,
-    })
 }
 
 fn outputs(names: &[String], problems: &mut Vec<String>) -> Vec<&'static Variable> {

@@ -1,11 +1,17 @@
 //! Scenes: what to set, what to feed in and what to record, kept as TOML files; run with the library itself.
 
+pub mod assignments;
 pub mod command;
+pub mod input_file;
 pub mod load;
 pub mod loads;
 pub mod plan;
 pub mod run;
+pub mod script;
 pub mod set;
+pub mod ssv;
+pub mod start_values;
+pub mod times;
 pub mod units;
 
 use std::path::{Path, PathBuf};
@@ -97,6 +103,13 @@ pub fn find(what: &str) -> Result<Scene> {
         Some(name) => bail!("no scene is named '{what}'; did you mean '{name}'?"),
         None => bail!("no scene is named '{what}', and there is no such file; scenes: {}", names.join(", ")),
     }
+}
+
+/// The same scene, changed by `assignments`, each `name=value`: a variable of the FMU, stop_time or step.
+pub fn find_with<T: AsRef<str>>(what: &str, assignments: &[T]) -> Result<Scene> {
+    let mut scene = find(what)?;
+    assignments::apply(&mut scene, assignments)?;
+    Ok(scene)
 }
 
 /// Files of all scenes in the workspace, by name.

@@ -4,10 +4,12 @@ use std::fmt::Write as _;
 
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
 use bevel_differential::variables::{Access, Causality, Variable, table};
+use cpu_time::ThreadTime;
 
+use super::run::SceneRun;
 use super::set::literal;
 use super::{Scene, units};
-use crate::tools::paths;
+use crate::tools::{numbers, paths};
 
 /// What each class of cost means.
 fn meaning(cost: CostClass) -> &'static str {
@@ -18,6 +20,26 @@ fn meaning(cost: CostClass) -> &'static str {
         CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
         CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",
     }
+}
+
+/// Time for a piece of the scene from which its cost is expected [s].
+const PIECE: f64 = 0.05;
+
+/// What the scene is expected to cost on this machine, from its first piece; none if that fails.
+fn cost(scene: &Scene) -> Option<String> {
+    let begun = ThreadTime::now();
+    let mut run = SceneRun::start(scene, scene.step).ok()?;
+    let started = begun.elapsed();
+    while !run.is_over() && begun.elapsed().as_secs_f64() < PIECE {
+        run.advance().ok()?;
+    }
+    let (simulated, taken) = (run.time(), (begun.elapsed() - started).as_secs_f64().max(f64::MIN_POSITIVE));
+    let ratio = numbers::significant(simulated / taken, 2);
+    let all = numbers::significant(scene.stop_time * taken / simulated, 2);
+    Some(format!(
+        "{ratio} x real time on this machine, {all} s for all, as the first {} s take",
+        units::digits(simulated)
+    ))
 }
 
 /// The plan of `scene`, whose simulation is about to start.
@@ -44,6 +66,9 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     let (freedoms, imposed) = (plan.freedoms(), plan.imposed());
     line("size", &format!("{freedoms} degrees of freedom, {imposed} of them imposed; {} states", 2 * freedoms));
     line("cost class", meaning(simulation.cost()));
+    if let Some(cost) = cost(scene) {
+        line("cost", &cost);
+    }
     let mut active: Vec<String> =
         simulation.active_effects().map(|name| format!("{name}: {}", description(name))).collect();
     if scene.inputs.lock > 0.0 {

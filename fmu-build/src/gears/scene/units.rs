@@ -5,7 +5,7 @@ use bevel_differential::variables::units::Unit;
 
 use crate::tools::numbers;
 
-/// Units of time besides the second, and how many of them make one.
+/// Units of time, and how many of each make a second.
 const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0)];
 
 /// SI value of `text`, a number with a unit of `row`.
@@ -33,8 +33,23 @@ pub fn seconds(text: &str) -> Result<f64, String> {
     let unit = if name.is_empty() { "s" } else { name.as_str() };
     match TIMES.iter().find(|(known, _)| *known == unit) {
         Some((_, per_second)) => Ok(number / per_second),
-        None => Err(format!("unit {name} of \"{text}\" is none of time; known: {}", TIMES.map(|t| t.0).join(", "))),
+        None => Err(format!("unit {name} of \"{text}\" is none of time; known: {}", times().join(", "))),
     }
+}
+
+/// Whether values of `row` may be given in the unit `name`.
+pub fn check(row: &Variable, name: &str) -> Result<(), String> {
+    parse(row, &format!("1 {name}")).map(drop).map_err(|_| match row.unit {
+        Some(unit) if unit.name != "1" => {
+            format!("unit {name} does not fit; units that do: {}", names(&unit).join(", "))
+        }
+        _ => format!("unit {name} does not fit; write the number without a unit"),
+    })
+}
+
+/// Units of time.
+pub fn times() -> [&'static str; TIMES.len()] {
+    TIMES.map(|(name, _)| name)
 }
 
 /// Names of a unit, the one of the interface first.

@@ -41,7 +41,7 @@ fn faceted(p: &mut Parameters, facets: i32) {
 }
 
 /// All rungs, the plainest first; solids are as exact teeth with the same law become if they are cut into facets.
-const RUNGS: [Rung; 13] = [
+const RUNGS: [Rung; 14] = [
     rung("ideal", "no teeth: Willis' equation", |p| p.scene.gear_contact = GearContact::Ideal),
     rung("lumped", "a spring with play per mesh", |p| p.scene.gear_contact = GearContact::Lumped),
     solid("solid, 4 facets", "IMPACT on facets: no hand-over left", |p| faceted(p, 4), false),
@@ -58,6 +58,7 @@ const RUNGS: [Rung; 13] = [
         p.effects.thrust_friction = true;
     }),
     rung("+ pins and case", "give way; slices over the face", |p| p.effects.pin_compliance = true),
+    rung("+ gear bodies", "turn, tilt and couple their teeth", |p| p.effects.body_compliance = true),
 ];
 
 /// What is looked at: names and units.

@@ -2,7 +2,8 @@
 //!
 //! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
 //! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
-//! 3. Effects: what each changes in a scene, what it costs, and which the scene needs ([`switched`]).
+//! 3. Decisions: the cheapest setting for a quantity and an accuracy ([`decisions`]), and the laws over gears and loads
+//!    ([`laws`]).
 //! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
 //!
 //! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
@@ -10,11 +11,12 @@
 pub mod cases;
 pub mod communication;
 pub mod coupling;
+pub mod decisions;
 pub mod fidelity;
+pub mod laws;
 pub mod measure;
 pub mod reference;
 pub mod summary;
-pub mod switched;
 pub mod vehicle;
 pub mod work_precision;
 
@@ -35,15 +37,19 @@ use summary::TitledTable;
 /// The document or the marks of the summary.
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
+const DECISIONS: [&str; 2] = ["<!-- decisions:begin -->", "<!-- decisions:end -->"];
 /// Share of the bar that belongs to each figure, and to drawing.
 const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
 
-/// Measures what accuracy costs: methods, fidelities, effects and communication steps
+/// Measures what accuracy costs: methods, fidelities, settings and communication steps
 #[derive(Args, Clone, Debug)]
 pub struct CostCommand {
     /// Take under a minute: fewer tolerances, steps and runs
     #[arg(long)]
     quick: bool,
+    /// Make only the table of decisions and that of the laws
+    #[arg(long, conflicts_with = "quick")]
+    decisions: bool,
     /// Also renew docs/cost.md and its figures
     #[arg(long)]
     write: bool,
@@ -60,8 +66,8 @@ pub struct CostPlan {
     pub fixed_steps: &'static [f64],
     /// Communication steps, each an exact part of 0.1 s [s].
     pub communication_steps: &'static [f64],
-    /// Scenes whose effects are switched.
-    pub scenes: &'static [&'static str],
+    /// Questions that are answered.
+    pub decisions: usize,
     /// Runs of each setting.
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
@@ -74,7 +80,7 @@ const FULL: CostPlan = CostPlan {
     tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
     fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
     communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
-    scenes: &["torque_bias", "clunk"],
+    decisions: decisions::ALL.len(),
     runs: 15,
     patience: 10.0,
     short: false,
@@ -84,7 +90,7 @@ const QUICK: CostPlan = CostPlan {
     tolerances: &[1e-3, 1e-6, 1e-9],
     fixed_steps: &[1e-4, 1e-5],
     communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
-    scenes: &["clunk"],
+    decisions: 1,
     runs: 5,
     patience: 0.5,
     short: true,
@@ -94,17 +100,24 @@ impl CostCommand {
     /// Measures, draws and prints the summary.
     pub fn run(&self) -> Result<()> {
         let form = if self.quick { QUICK } else { FULL };
-        // Python first: what the user has to install should not come out after minutes of measuring
-        let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.stage(what))?;
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("cost"));
-        paths::create_folder(&folder)?;
         let begun = Instant::now();
-        progress.begin_bar("measuring");
+        let progress = Progress::start("looking for Python");
         let report = |part: usize, done: f64, what: &str| {
             let done = SHARES[..part].iter().sum::<f64>() + SHARES[part] * done;
             progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
         };
+        if self.decisions {
+            paths::create_folder(&folder)?;
+            progress.begin_bar("measuring");
+            let tables = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
+            progress.finish();
+            return self.conclude(&tables, &[], &folder);
+        }
+        // Python first: what the user has to install should not come out after minutes of measuring
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        paths::create_folder(&folder)?;
+        progress.begin_bar("measuring");
         let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
         save(&folder, "work_precision.csv", &found.csv()?)?;
         save(
@@ -113,28 +126,47 @@ impl CostCommand {
             &communication::measure(&form, &mut |done, what| report(1, done, what))?,
         )?;
         save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| report(2, done, what))?)?;
-        save(&folder, "effects.csv", &switched::measure(&form, &mut |done, what| report(3, done, what))?)?;
+        let decisions = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
         report(4, 0.0, "drawing");
         let script = paths::workspace().join("fmu-build").join("python").join("cost.py");
         script::run(&environment, &script, &[&folder], &progress)?;
         progress.finish();
-        let tables = summary::tables(&found);
-        for table in &tables {
+        self.conclude(&decisions, &summary::tables(&found), &folder)
+    }
+
+    /// Prints what was found, and renews the document.
+    fn conclude(&self, decisions: &[TitledTable], tables: &[TitledTable], folder: &Path) -> Result<()> {
+        for table in decisions.iter().chain(tables) {
             println!("{}", table.terminal());
         }
-        let mut files = files(&folder)?;
+        let mut files = files(folder)?;
         files.sort();
         println!("machine: {}\nfiles:", machine());
         files.iter().for_each(|file| println!("  {}", paths::shown(file)));
         if self.write {
-            let text: Vec<String> = tables.iter().map(TitledTable::markdown).collect();
-            let text = format!("{}\nMeasured on {}.\n", text.join("\n"), machine());
-            sections::renew(DOCUMENT, MARKS, &text)?;
+            for (tables, marks) in [(decisions, DECISIONS), (tables, MARKS)] {
+                if !tables.is_empty() {
+                    let text: Vec<String> = tables.iter().map(TitledTable::markdown).collect();
+                    let text = format!("{}\nMeasured on {}.\n", text.join("\n"), machine());
+                    sections::renew(DOCUMENT, marks, &text)?;
+                }
+            }
             copy_pictures(&files)?;
             println!("renewed: {DOCUMENT}, docs/figures");
         }
         Ok(())
     }
+}
+
+/// The table of decisions, and that of the laws unless the plan is short.
+fn decide(form: &CostPlan, folder: &Path, report: &mut dyn FnMut(f64, &str)) -> Result<Vec<TitledTable>> {
+    let (csv, table) = decisions::measure(form.decisions, !form.short, &mut |done, what| report(0.7 * done, what))?;
+    save(folder, "decisions.csv", &csv)?;
+    let mut tables = vec![table];
+    if !form.short {
+        tables.push(laws::measure(&mut |done, what| report(0.7 + 0.3 * done, what))?);
+    }
+    Ok(tables)
 }
 
 /// The time left, once it can be estimated.

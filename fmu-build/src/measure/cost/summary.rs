@@ -20,6 +20,11 @@ pub struct TitledTable {
 }
 
 impl TitledTable {
+    /// `table` under `title`.
+    pub fn new(title: &str, table: Table) -> Self {
+        Self { title: title.to_owned(), table }
+    }
+
     /// For the terminal.
     pub fn terminal(&self) -> String {
         format!("{}\n\n{}", self.title, self.table.terminal())

@@ -1,0 +1,61 @@
+//! Changes of a scene on the command line, each `name=value`: checked as the values in a file are.
+
+use anyhow::{Result, bail};
+
+use super::Scene;
+use super::set::{Setting, closest, value, variable};
+use super::times::{check_step, span};
+
+/// What can be set besides the variables of the FMU.
+const TIMES: [&str; 2] = ["stop_time", "step"];
+
+/// Changes `scene` by `assignments`, or tells all that is wrong with them.
+pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<()> {
+    let mut problems = Vec::new();
+    let mut named: Vec<&str> = Vec::new();
+    for assignment in assignments.iter().map(|text| -> &str { text.as_ref() }) {
+        let Some((name, text)) = assignment.split_once('=') else {
+            problems
+                .push(format!("\"{assignment}\" is not of the form name=value, such as left.load_torque=\"400 N.m\""));
+            continue;
+        };
+        let (name, text) = (name.trim(), text.trim());
+        if named.contains(&name) {
+            problems.push(format!("{name} is set twice; leave one out"));
+            continue;
+        }
+        named.push(name);
+        problems.extend(assign(scene, name, text).err());
+    }
+    if problems.is_empty() && named.iter().any(|name| TIMES.contains(name)) {
+        problems.extend(check_step(scene.step, scene.stop_time).err());
+    }
+    if !problems.is_empty() {
+        bail!("{}", problems.iter().map(|problem| format!("--set: {problem}")).collect::<Vec<_>>().join("\n"));
+    }
+    // a run that ends earlier does not come to what is set later
+    let stop_time = scene.stop_time;
+    scene.events.retain(|event| event.time <= stop_time);
+    Ok(())
+}
+
+fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), String> {
+    let value = value(text);
+    match name {
+        "stop_time" => scene.stop_time = span(name, &value)?,
+        "step" => scene.step = span(name, &value)?,
+        _ => {
+            if let (Err(_), Some(time)) = (variable(name), closest(name, TIMES.into_iter())) {
+                return Err(format!("there is no variable \"{name}\"; did you mean {time}?"));
+            }
+            let setting = Setting::new(name, &value)?;
+            if scene.input_tables.iter().any(|table| table.row.name == name) {
+                return Err(format!("{name} follows a table in the scene, which overrides a value; change the table"));
+            }
+            setting.apply(&mut scene.parameters, &mut scene.inputs);
+            scene.settings.retain(|known| known.row.name != name);
+            scene.settings.push(setting);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,55 @@
+//! Times in scenes: numbers of seconds, or texts with a unit of time.
+
+use toml::Value;
+
+use super::set::written;
+use super::units;
+
+/// Seconds of `value`.
+pub fn seconds(value: &Value) -> Result<f64, String> {
+    match value {
+        Value::Float(number) => Ok(*number),
+        Value::Integer(number) => Ok(*number as f64),
+        Value::String(text) => units::seconds(text),
+        _ => Err("must be a number of seconds, or a text like \"20 ms\"".into()),
+    }
+}
+
+/// Seconds of a length of time: finite and above zero. `key` names it in the error.
+pub fn span(key: &str, value: &Value) -> Result<f64, String> {
+    let wrong = |what: String| format!("{key} = {}: {what}", written(value));
+    let span = seconds(value).map_err(wrong)?;
+    if span > 0.0 && span.is_finite() { Ok(span) } else { Err(wrong("must be above 0 s".into())) }
+}
+
+/// Whether a communication step fits into the simulated time.
+pub fn check_step(step: f64, stop_time: f64) -> Result<(), String> {
+    if step > stop_time {
+        return Err(format!("step = {step} s is longer than stop_time = {stop_time} s"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_seconds_and_texts_have_units() {
+        let text = |text: &str| Value::String(text.into());
+        assert_eq!(seconds(&Value::Float(0.5)), Ok(0.5));
+        assert_eq!(seconds(&Value::Integer(2)), Ok(2.0));
+        assert_eq!(seconds(&text("20 ms")), Ok(0.02));
+        assert_eq!(seconds(&text("0.5 s")), Ok(0.5));
+        assert!(seconds(&text("20 mm")).is_err_and(|problem| problem.contains("s, ms, us, min")));
+        assert!(seconds(&Value::Boolean(true)).is_err_and(|problem| problem.contains("20 ms")));
+    }
+
+    #[test]
+    fn a_span_is_above_zero() {
+        for value in [Value::Float(0.0), Value::Float(f64::NAN), Value::String("-1 ms".into())] {
+            assert!(span("step", &value).is_err_and(|problem| problem.starts_with("step = ")), "{value:?}");
+        }
+        assert!(check_step(1.0, 0.5).is_err() && check_step(0.5, 0.5).is_ok());
+    }
+}

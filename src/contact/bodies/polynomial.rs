@@ -1,0 +1,80 @@
+//! A smooth function on an interval as a polynomial, constant beyond its ends.
+
+use crate::numeric::{PI, cos};
+
+/// Degree: couplings of teeth are met to 1e-6.
+const DEGREE: usize = 6;
+
+/// A polynomial in (u − middle)/half.
+#[derive(Clone, Debug, Default)]
+pub struct Polynomial {
+    middle: f64,
+    per_half: f64,
+    terms: [f64; DEGREE + 1],
+}
+
+impl Polynomial {
+    /// The interpolation of `f` at Chebyshev's points between `low` and `high`.
+    pub fn new([low, high]: [f64; 2], f: impl Fn(f64) -> f64) -> Self {
+        let (middle, half, count) = (0.5 * (low + high), 0.5 * (high - low), DEGREE + 1);
+        let angle = |j: usize| PI * (j as f64 + 0.5) / count as f64;
+        let values: Vec<f64> = (0..count).map(|j| f(middle + half * cos(angle(j)))).collect();
+        // T_n by powers
+        let (mut terms, mut last, mut this) = ([0.0; DEGREE + 1], [0.0; DEGREE + 1], [0.0; DEGREE + 1]);
+        this[0] = 1.0;
+        for n in 0..count {
+            let twice = if n == 0 { 1.0 } else { 2.0 };
+            let sum: f64 = (0..count).map(|j| values[j] * cos(n as f64 * angle(j))).sum();
+            for (term, part) in terms.iter_mut().zip(&this) {
+                *term += twice / count as f64 * sum * part;
+            }
+            let next = std::array::from_fn(|p| if p > 0 { twice * this[p - 1] } else { 0.0 } - last[p]);
+            (last, this) = (this, next);
+        }
+        Self { middle, per_half: 1.0 / half, terms }
+    }
+
+    /// Value at a share from −1 to 1 of the half interval.
+    pub fn at_share(&self, x: f64) -> f64 {
+        self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term)
+    }
+
+    /// Value, slope and, where `TWICE`, curvature at `u`.
+    #[inline(always)]
+    pub fn at<const TWICE: bool>(&self, u: f64) -> [f64; 3] {
+        let free = (u - self.middle) * self.per_half;
+        let x = free.clamp(-1.0, 1.0);
+        let (mut value, mut slope, mut bend) = (self.terms[DEGREE], 0.0, 0.0);
+        for term in self.terms[..DEGREE].iter().rev() {
+            if TWICE {
+                bend = bend * x + 2.0 * slope;
+            }
+            slope = slope * x + value;
+            value = value * x + term;
+        }
+        let scale = if free == x { self.per_half } else { 0.0 };
+        [value, slope * scale, bend * scale * scale]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::sin;
+
+    #[test]
+    fn a_smooth_function_is_met_with_its_slopes() {
+        let polynomial = Polynomial::new([-0.2, 0.4], |s| libm::exp(s) * cos(2.0 * s));
+        for j in 0..=100 {
+            let s = -0.2 + 0.006 * f64::from(j);
+            let (e, c, i) = (libm::exp(s), cos(2.0 * s), sin(2.0 * s));
+            let exact = [e * c, e * (c - 2.0 * i), e * (-3.0 * c - 4.0 * i)];
+            let found = polynomial.at::<true>(s.clamp(-0.2, 0.4 - 1e-16));
+            for k in 0..3 {
+                assert!((found[k] - exact[k]).abs() < [1e-6, 1e-4, 1e-2][k], "{s}: {found:?} {exact:?}");
+            }
+        }
+        let [end, slope, bend] = polynomial.at::<true>(2.0);
+        assert!((end - libm::exp(0.4) * cos(0.8)).abs() < 1e-6 && (slope, bend) == (0.0, 0.0));
+    }
+}

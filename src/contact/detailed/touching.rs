@@ -1,0 +1,93 @@
+//! A tooth pair that touches: all that its face carries, added to the loads of its mesh.
+
+use super::super::pairs::{Engagement, ToothPair};
+use super::super::spring::Spring;
+use super::directions::Arcs;
+use super::face::Part;
+use super::pair::PairMotion;
+use super::sums::{LoadedNode, Rubbing, Sums};
+use super::totals::Totals;
+use super::{Detailed, Opening, PairName, SliceLoad};
+
+/// A pair that touches.
+pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {
+    /// Which teeth.
+    pub name: PairName,
+    /// The pair; its depth is that of its own arc.
+    pub pair: &'a ToothPair,
+    /// What opens its flanks.
+    pub opening: &'a Opening,
+    /// Its arcs, where the axial seats need them.
+    pub arcs: Arcs,
+    /// The parts of the face that carry.
+    pub parts: [Part<'a>; 2],
+    /// How it moves.
+    pub motion: PairMotion<OPEN, SHARED>,
+}
+
+impl Detailed {
+    /// Adds the loads of a pair that touches.
+    #[inline(always)]
+    pub(super) fn add_touching<
+        S: Spring,
+        const ROWS: usize,
+        const WIDE: usize,
+        const OPEN: bool,
+        const SHARED: bool,
+    >(
+        &self,
+        (spring, engagement, thrust): (&S, &Engagement, bool),
+        totals: &mut Totals<ROWS, WIDE>,
+        touching: Touching<OPEN, SHARED>,
+        mut look: impl FnMut(&SliceLoad),
+    ) {
+        let Touching { name, pair, opening, mut arcs, parts, motion } = touching;
+        if !(OPEN && self.seats) && (thrust || self.friction.is_some()) {
+            arcs = self.directions.arcs(pair.s);
+        }
+        let rubbing = self.friction.as_ref().map(|law| {
+            let arms = self.directions.arms(&arcs);
+            Rubbing { law, speeds: motion.speeds(&arms), arms }
+        });
+        let normal = thrust.then(|| self.directions.normal(engagement, pair.spot, &arcs, pair.place));
+        let mut see = |node: &LoadedNode| {
+            let Some(normal) = &normal else { return };
+            let force = node.torque * node.node.weight * node.node.per_cone;
+            let [planet, side, forward] = normal.parts;
+            look(&SliceLoad {
+                pair,
+                spot: pair.spot,
+                place: pair.place,
+                cone: node.node.cone,
+                share: node.node.weight / self.moment,
+                line_load: force / node.node.width,
+                arc: node.arc,
+                s: pair.s,
+                energy: node.elastic.energy * node.node.weight,
+                name,
+                normal: force,
+                friction: node.friction.map_or(0.0, |(h, _)| -h * force),
+                sliding: node.friction.map(|(_, sliding)| sliding),
+                parts: [planet, side, -motion.sign * forward],
+            });
+        };
+        let place = spring.place(pair.s);
+        let law = (spring, &place, &self.damping);
+        let mut sums = Sums::default();
+        for part in if OPEN { &parts[..] } else { &parts[..1] } {
+            let (at, rubbing) = (&motion.approach, rubbing.as_ref());
+            if const { ROWS > 0 } {
+                sums.add::<S, true, OPEN>(part, law, at, opening, rubbing, &mut see);
+            } else {
+                sums.add::<S, false, OPEN>(part, law, at, opening, rubbing, &mut see);
+            }
+        }
+        totals.add_teeth(&motion, &sums);
+        if let Some(rubbing) = &rubbing {
+            totals.add_rubbing(&motion, &sums, rubbing);
+        }
+        if let Some(normal) = &normal {
+            totals.add_thrust(&motion, &sums, normal, pair.spot);
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Own arcs and loads of pairs that move each other.
+
+use super::couplings::Couplings;
+
+/// Newton steps at most; a few serve.
+const STEPS: usize = 40;
+/// What is left of an equation, relative to the largest arc.
+const SOLVED: f64 = 4e-15;
+/// Least arc to which it is related [rad]: a light load's.
+const LEAST: f64 = 1e-4;
+
+/// Own arcs of pairs with their loads.
+#[derive(Clone, Copy, Debug)]
+pub struct Own<const K: usize> {
+    /// a_k [rad].
+    pub arc: [f64; K],
+    /// Load ω_k per cone distance [N/m²].
+    pub load: [f64; K],
+    /// ∂ω_k/∂a_k.
+    pub stiffness: [f64; K],
+}
+
+impl<const K: usize> Own<K> {
+    /// The same of pairs under a law that is linear at positive arcs: where all of them carry, one solution is exact.
+    #[inline(always)]
+    pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
+        let n = couplings.count;
+        let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
+        let (mut right, mut carry) = ([[0.0]; K], true);
+        for k in 0..n {
+            own.stiffness[k] = law(k, 1.0)[1];
+            right[k][0] = arcs[k];
+        }
+        own.solve(couplings, &mut right);
+        for k in 0..n {
+            own.arc[k] = right[k][0];
+            own.load[k] = own.stiffness[k] * own.arc[k];
+            carry &= own.arc[k] > 0.0;
+        }
+        if carry { own } else { Self::new(couplings, arcs, law) }
+    }
+
+    /// Those of pairs whose arcs are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
+    #[inline(always)]
+    pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
+        let n = couplings.count;
+        let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
+        // what is left of an equation has the rounding of the openings of flanks, too
+        let scale = arcs[..n].iter().fold(LEAST, |most, arc| most.max(arc.abs()));
+        let (mut last, mut part) = (f64::INFINITY, 1.0);
+        for step in 0..STEPS {
+            for k in 0..n {
+                [own.load[k], own.stiffness[k]] = law(k, own.arc[k]);
+            }
+            let moved = couplings.times(&couplings.value, &own.load);
+            let (mut left, mut most) = ([[0.0]; K], 0.0f64);
+            for k in 0..n {
+                left[k][0] = arcs[k] - moved[k] - own.arc[k];
+                most = most.max(left[k][0].abs());
+            }
+            if most <= SOLVED * scale || n < 2 || step == STEPS - 1 {
+                break;
+            }
+            // pairs that come and go in turn are approached by halves
+            part = if most < last { 1.0 } else { 0.5 * part };
+            last = most;
+            own.solve(couplings, &mut left);
+            for k in 0..n {
+                own.arc[k] += part * left[k][0];
+            }
+        }
+        own
+    }
+
+    /// Solves (1 + t diag(∂ω/∂a)) x = `right`. The product is positive definite but for a factor at each column, so that
+    /// elimination needs no exchange of rows.
+    #[inline(always)]
+    pub fn solve<const R: usize>(&self, couplings: &Couplings<K>, right: &mut [[f64; R]; K]) {
+        let n = couplings.count;
+        let mut matrix = couplings.value;
+        for row in matrix.iter_mut().take(n) {
+            for (entry, stiffness) in row.iter_mut().zip(&self.stiffness) {
+                *entry *= stiffness;
+            }
+        }
+        for p in 0..n {
+            let pivot = 1.0 / (1.0 + matrix[p][p]);
+            for i in p + 1..n {
+                let factor = matrix[i][p] * pivot;
+                if factor != 0.0 {
+                    for j in p + 1..n {
+                        matrix[i][j] -= factor * matrix[p][j];
+                    }
+                    for r in 0..R {
+                        right[i][r] -= factor * right[p][r];
+                    }
+                }
+            }
+            matrix[p][p] = pivot;
+        }
+        for p in (0..n).rev() {
+            for r in 0..R {
+                let mut sum = right[p][r];
+                for j in p + 1..n {
+                    sum -= matrix[p][j] * right[j][r];
+                }
+                right[p][r] = sum * matrix[p][p];
+            }
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Couplings of all pairs that may carry.
+
+use crate::contact::bodies::{Coupling, SharedBodies, Standing};
+
+/// Pairs of a planet's two meshes that may carry at once: six in each. Flanks that approach by half a base pitch, the limit, have
+/// four in a mesh.
+pub const MOST: usize = 12;
+
+/// Couplings t_kl of up to `K` pairs, with their derivatives by the places.
+#[derive(Clone, Copy, Debug)]
+pub struct Couplings<const K: usize> {
+    /// Number of pairs.
+    pub count: usize,
+    /// t_kl, 0 for k = l [1/Pa].
+    pub value: [[f64; K]; K],
+    /// ∂t_kl/∂s_k.
+    pub by_own: [[f64; K]; K],
+}
+
+/// Second derivatives of the same.
+#[derive(Clone, Copy, Debug)]
+pub struct Bends<const K: usize> {
+    /// ∂²t_kl/∂s_k².
+    pub own: [[f64; K]; K],
+    /// ∂²t_kl/∂s_k∂s_l.
+    pub both: [[f64; K]; K],
+}
+
+impl<const K: usize> Couplings<K> {
+    /// Couplings of the first `count` pairs, each `standing` as told.
+    #[inline(always)]
+    pub fn new<'a>(bodies: &SharedBodies, count: usize, standing: impl Fn(usize) -> Option<&'a Standing>) -> Self {
+        let mut all = Self { count, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+        for_each_two(bodies, count, standing, |k, l, t: &Coupling| all.set(k, l, t), false);
+        all
+    }
+
+    /// The same with second derivatives.
+    #[inline(always)]
+    pub fn with_bends<'a>(
+        bodies: &SharedBodies,
+        count: usize,
+        standing: impl Fn(usize) -> Option<&'a Standing>,
+    ) -> (Self, Bends<K>) {
+        let mut all = Self { count, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+        let mut bends = Bends { own: [[0.0; K]; K], both: [[0.0; K]; K] };
+        let set = |k: usize, l: usize, t: &Coupling| {
+            all.set(k, l, t);
+            (bends.own[k][l], bends.own[l][k]) = (t.twice[0], t.twice[2]);
+            (bends.both[k][l], bends.both[l][k]) = (t.twice[1], t.twice[1]);
+        };
+        for_each_two(bodies, count, standing, set, true);
+        (all, bends)
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, l: usize, t: &Coupling) {
+        (self.value[k][l], self.value[l][k]) = (t.value, t.value);
+        (self.by_own[k][l], self.by_own[l][k]) = (t.by[0], t.by[1]);
+    }
+
+    /// Σ_l m_kl ω_l of one of the matrices above.
+    #[inline(always)]
+    pub fn times(&self, matrix: &[[f64; K]; K], load: &[f64; K]) -> [f64; K] {
+        let mut product = [0.0; K];
+        for k in 0..self.count {
+            for l in 0..self.count {
+                product[k] += matrix[k][l] * load[l];
+            }
+        }
+        product
+    }
+}
+
+/// Calls `visit` with each two pairs and their coupling; with second derivatives if `twice`.
+#[inline(always)]
+fn for_each_two<'a>(
+    bodies: &SharedBodies,
+    count: usize,
+    standing: impl Fn(usize) -> Option<&'a Standing>,
+    mut visit: impl FnMut(usize, usize, &Coupling),
+    twice: bool,
+) {
+    for k in 1..count {
+        for l in 0..k {
+            let (Some(a), Some(b)) = (standing(k), standing(l)) else { continue };
+            let t = if twice { bodies.coupling::<true>(a, b) } else { bodies.coupling::<false>(a, b) };
+            visit(k, l, &t);
+        }
+    }
+}

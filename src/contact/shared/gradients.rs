@@ -1,0 +1,68 @@
+//! How own arcs, loads and forces along the path change with the coordinates of both meshes.
+
+use super::arcs::Own;
+use super::couplings::{Bends, Couplings};
+
+/// How a pair changes directly: with the coordinate that moves its place, and with one that opens its flanks.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Change {
+    /// Number of the coordinate, ∂s, and ∂ω at the same own arc.
+    pub place: (usize, f64, f64),
+    /// Number of the coordinate, and ∂ω at the same own arc.
+    pub opening: (usize, f64),
+}
+
+/// How arcs and forces along the path change with `Z` coordinates.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradients<const K: usize, const Z: usize> {
+    /// ∂a_k.
+    pub own: [[f64; Z]; K],
+    /// ∂(ω_k τ_k), τ_k = Σ_l ∂t_kl/∂s_k ω_l.
+    pub along: [[f64; Z]; K],
+}
+
+impl<const K: usize, const Z: usize> Gradients<K, Z> {
+    /// Gradients of pairs that are `own`, where `along` is τ_k, from those of their arcs, `arc`, and what else changes.
+    #[inline(always)]
+    pub fn new(
+        (couplings, bends): (&Couplings<K>, &Bends<K>),
+        own: &Own<K>,
+        along: &[f64; K],
+        arc: [[f64; Z]; K],
+        changes: &[Change; K],
+    ) -> Self {
+        let n = couplings.count;
+        let mut right = arc;
+        for k in 0..n {
+            let (coordinate, slope, _) = changes[k].place;
+            right[k][coordinate] -= along[k] * slope;
+            for l in (0..n).filter(|&l| l != k) {
+                let Change { place: (coordinate, slope, load), opening: (opening, opened) } = changes[l];
+                right[k][coordinate] -= couplings.by_own[l][k] * own.load[l] * slope + couplings.value[k][l] * load;
+                right[k][opening] -= couplings.value[k][l] * opened;
+            }
+        }
+        own.solve(couplings, &mut right);
+        let mut load = right;
+        for k in 0..n {
+            load[k] = load[k].map(|by| own.stiffness[k] * by);
+            load[k][changes[k].place.0] += changes[k].place.2;
+            load[k][changes[k].opening.0] += changes[k].opening.1;
+        }
+        let mut along_by = [[0.0; Z]; K];
+        for k in 0..n {
+            let (coordinate, slope, _) = changes[k].place;
+            along_by[k] = load[k].map(|by| by * along[k]);
+            for l in (0..n).filter(|&l| l != k) {
+                let of_other = own.load[k] * own.load[l];
+                along_by[k][coordinate] += bends.own[k][l] * of_other * slope;
+                along_by[k][changes[l].place.0] += bends.both[k][l] * of_other * changes[l].place.1;
+                let by_other = own.load[k] * couplings.by_own[k][l];
+                for z in 0..Z {
+                    along_by[k][z] += by_other * load[l][z];
+                }
+            }
+        }
+        Self { own: right, along: along_by }
+    }
+}

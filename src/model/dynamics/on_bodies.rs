@@ -1,0 +1,237 @@
+//! Meshes of gears with elastic bodies: both meshes of a planet at once, since its body couples them.
+
+use super::equations::Equations;
+use super::in_detail::Local;
+use super::power::Power;
+use crate::contact::bodies::SharedBodies;
+use crate::contact::detailed::PairName;
+use crate::contact::detailed::{DetailedLoad, LOCAL, SharedTeeth};
+use crate::contact::impact::Force;
+use crate::contact::mesh::{Law, MeshForce, MeshState};
+use crate::contact::pairs::{Flank, ToothPair};
+use crate::contact::shared::{Moved, SharedForce, SharedMeshes};
+use crate::integrate::{Matrix, Point, in_pairs};
+use crate::model::scene::layout::CARRIER;
+use crate::model::setup::effect_outputs::CONTACT_HEAT;
+
+/// Evaluates an expression with `law` bound to the law of teeth in use; bodies are elastic under no other.
+macro_rules! with_teeth {
+    ($of:expr, $law:ident => $body:expr, $none:expr) => {
+        match $of {
+            Law::Line($law) => $body,
+            Law::LineWeber($law) => $body,
+            _ => $none,
+        }
+    };
+}
+
+impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+    /// The bodies that pairs share, where they are elastic.
+    #[inline(always)]
+    pub(in crate::model) fn bodies_of_gears(&self) -> Option<&SharedBodies> {
+        // a constant where no effect acts, so that plain scenes do not even ask
+        if WITH_EFFECTS { self.teeth.shared.as_deref() } else { None }
+    }
+
+    /// Number of the tooth of the unrolled sequence of the pair `number` of `flank`.
+    #[inline(always)]
+    pub(super) fn pair_name(&self, g: usize, s: usize, flank: Flank, number: i64) -> PairName {
+        let wrapped = self.wrapped(g, s);
+        let tooth = if flank == Flank::Drive {
+            number.wrapping_sub(wrapped)
+        } else {
+            number.wrapping_add(wrapped).wrapping_neg()
+        };
+        PairName { planet: self.teeth.plan.group(g).planet, side: s, flank, tooth }
+    }
+
+    /// States of both meshes of group `g`.
+    #[inline(always)]
+    pub(super) fn mesh_states(&self, at: &Point<N>, g: usize) -> [MeshState; 2] {
+        [0, 1].map(|s| self.mesh_state(at, g, s))
+    }
+
+    #[inline(always)]
+    fn meshes<'b>(&'b self, bodies: &'b SharedBodies, g: usize) -> SharedMeshes<'b> {
+        let opposite = self.teeth.additions.perfect.opposite(self.teeth.plan.group(g).planet);
+        SharedMeshes { mesh: &self.teeth.mesh, bodies, opposite, wrapped: [0, 1].map(|s| self.wrapped(g, s)) }
+    }
+
+    /// Forces of both plain meshes of group `g` on `bodies`, with derivatives and energy.
+    #[inline]
+    pub(super) fn linearised_on_bodies(&self, bodies: &SharedBodies, states: &[MeshState; 2], g: usize) -> SharedForce {
+        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).linearise(law, states), SharedForce::default())
+    }
+
+    /// Forces of both plain meshes of group `g` on `bodies`.
+    #[inline]
+    pub(super) fn forces_on_bodies(&self, bodies: &SharedBodies, at: &Point<N>, g: usize) -> [MeshForce; 2] {
+        let states = &self.mesh_states(at, g);
+        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).force(law, states), Default::default())
+    }
+
+    /// Elastic energy of both meshes of group `g`, plain or in detail [J].
+    pub(in crate::model) fn planet_energy(&self, at: &Point<N>, g: usize) -> f64 {
+        match self.bodies_of_gears() {
+            None => self.mesh_energy(at, g, 0) + self.mesh_energy(at, g, 1),
+            Some(bodies) => self.energy_on_bodies(bodies, [at, at], g),
+        }
+    }
+
+    /// The same on `bodies`, with the left mesh at one point and the right mesh at another.
+    #[inline]
+    pub(super) fn energy_on_bodies(&self, bodies: &SharedBodies, at: [&Point<N>; 2], g: usize) -> f64 {
+        if WITH_EFFECTS && self.in_detail() {
+            let states = [0, 1].map(|s| self.detailed_state(at[s], g, s));
+            return self
+                .with_shared_teeth(bodies, g, |teeth| self.teeth.additions.detailed.energy_shared(teeth, &states));
+        }
+        let states = [0, 1].map(|s| self.mesh_state(at[s], g, s));
+        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).energy(law, &states), 0.0)
+    }
+
+    /// Elastic energy that the pairs of the mesh of group `g` with side `s` bring along which come or go between two points
+    /// [J]. Those of both sides may do so at once.
+    pub(in crate::model) fn energy_brought(&self, [before, after]: [&Point<N>; 2], g: usize, s: usize) -> f64 {
+        let Some(bodies) = self.bodies_of_gears() else {
+            return self.mesh_energy(after, g, s) - self.mesh_energy(before, g, s);
+        };
+        let [from, to] = if s == 0 { [[before, before], [after, before]] } else { [[after, before], [after, after]] };
+        self.energy_on_bodies(bodies, to, g) - self.energy_on_bodies(bodies, from, g)
+    }
+
+    /// Calls `visit` with each loaded pair of the plain mesh of group `g` with side `s`, and its force.
+    pub(super) fn loaded_pairs(&self, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothPair, &Force)) {
+        match self.bodies_of_gears() {
+            None => self.teeth.mesh.loaded(&self.mesh_state(at, g, s), visit),
+            Some(bodies) => {
+                let states = self.mesh_states(at, g);
+                with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).loaded(law, &states, s, &mut visit), ());
+            }
+        }
+    }
+
+    /// By how much pairs of group `g` are moved by others.
+    pub(super) fn moved_pairs(&self, bodies: &SharedBodies, at: &Point<N>, g: usize) -> Moved {
+        if self.in_detail() {
+            return self.with_shared_teeth(bodies, g, |teeth| {
+                self.teeth.additions.detailed.moved(teeth, &self.detailed_states(at, g))
+            });
+        }
+        let states = self.mesh_states(at, g);
+        with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).moved(law, &states), Moved::default())
+    }
+
+    /// Calls `act` with the teeth of both meshes of group `g` on `bodies`.
+    pub(super) fn with_shared_teeth<R>(
+        &self,
+        bodies: &SharedBodies,
+        g: usize,
+        act: impl FnOnce(&SharedTeeth) -> R,
+    ) -> R {
+        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(name)[0];
+        act(&SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, numbers: &numbers })
+    }
+
+    /// Loads of both meshes of group `g` in detail.
+    #[inline(always)]
+    pub(super) fn planet_loads<T: Local>(&self, at: &Point<N>, g: usize) -> [DetailedLoad<T>; 2] {
+        let mesh = &self.teeth.additions.detailed;
+        match self.bodies_of_gears() {
+            Some(bodies) => {
+                self.with_shared_teeth(bodies, g, |teeth| T::load_shared(mesh, teeth, &self.detailed_states(at, g)))
+            }
+            None => [0, 1].map(|s| T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s))),
+        }
+    }
+
+    /// Adds ∂(F_α, F_ψ, F_w of side s)/∂(α, ψ, w of the other side) of all planets.
+    #[inline(always)]
+    pub(super) fn add_cross_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
+        for s in 0..2 {
+            let (other, [seat, other_seat]) = (1 - s, [s, 1 - s].map(|s| CARRIER + 1 + s));
+            for g in 0..G {
+                let (i, pin, members, by) = (Self::PLANET + g, Self::PIN + g, self.members(g), &blocks[g][s]);
+                m[s][i] += members * by[0][1];
+                m[i][other] += by[1][0];
+                m[i][i] += by[1][1];
+                if P == 0 {
+                    m[CARRIER][i] -= members * by[0][1];
+                } else {
+                    m[s][pin] -= members * by[0][0];
+                    m[seat][pin] -= members * by[2][0];
+                    m[seat][i] += members * by[2][1];
+                    m[pin][other] -= by[0][0];
+                    m[pin][pin] += by[0][0];
+                    m[pin][i] -= by[0][1];
+                    m[pin][other_seat] -= by[0][2];
+                    m[i][pin] -= by[1][0];
+                    m[i][other_seat] += by[1][2];
+                }
+            }
+            let total = |row: usize, c: usize| in_pairs(G, |g| self.members(g) * blocks[g][s][row][c]);
+            let across = total(0, 0);
+            m[s][other] += across;
+            if P == 0 {
+                m[CARRIER][other] -= across;
+            } else {
+                m[s][other_seat] += total(0, 2);
+                m[seat][other] += total(2, 0);
+                m[seat][other_seat] += total(2, 2);
+            }
+        }
+    }
+
+    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w of the planet's other mesh) of all meshes in detail.
+    pub(super) fn cross_blocks<T: Local>(&self, loads: &[[DetailedLoad<T>; 2]; G]) -> [[[[f64; 3]; 3]; 2]; G] {
+        std::array::from_fn(|g| {
+            [0, 1].map(|s| {
+                let by = loads[g][s].force.map(|force| {
+                    let slopes = force.slopes();
+                    [slopes[LOCAL], slopes[LOCAL + 1], slopes[LOCAL + 2]]
+                });
+                self.block_between(s, 1 - s, &by)
+            })
+        })
+    }
+
+    /// Adds the forces of all plain meshes on `bodies`, and their derivatives by positions and rates; sets their heat. Returns
+    /// their elastic energy [J].
+    #[inline]
+    pub(super) fn add_shared_forces(
+        &self,
+        bodies: &SharedBodies,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        [by_position, by_rate]: [&mut Matrix<N>; 2],
+        power: &mut Power,
+    ) -> f64 {
+        let mut shared = [SharedForce::default(); G];
+        for g in 0..G {
+            shared[g] = match self.twin(at, g) {
+                Some(twin) => shared[twin],
+                None => self.linearised_on_bodies(bodies, &self.mesh_states(at, g), g),
+            };
+        }
+        self.add_forces(|g, s| shared[g].force[s].force, sum);
+        self.add_shared_blocks(&shared, by_position);
+        let rates = std::array::from_fn(|g| [0, 1].map(|s| self.block(s, &shared[g].by_rate[s])));
+        self.add_blocks(&rates, by_rate);
+        power.heat[CONTACT_HEAT] =
+            in_pairs(G, |g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
+        in_pairs(G, |g| self.members(g) * shared[g].energy)
+    }
+
+    /// Adds the derivatives of the forces of both plain meshes of all groups by position.
+    pub(super) fn add_shared_blocks(&self, shared: &[SharedForce; G], m: &mut Matrix<N>) {
+        let own = std::array::from_fn(|g| [0, 1].map(|s| self.block(s, &shared[g].by_position[s][s])));
+        self.add_blocks(&own, m);
+        let cross = std::array::from_fn(|g| {
+            [0, 1].map(|s| {
+                let [[qq, qx], [xq, xx]] = shared[g].by_position[s][1 - s];
+                self.block_between(s, 1 - s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
+            })
+        });
+        self.add_cross_blocks(&cross, m);
+    }
+}

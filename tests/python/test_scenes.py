@@ -1,0 +1,164 @@
+"""Scenes reach the FMU: the parameter sets and scripts that the command `scene` writes, against its own record."""
+
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from fmpy.ssp.ssd import read_ssv
+
+ROOT = Path(__file__).parents[2]
+SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
+# what scenes of the repository do not have: tunable parameters, changes between communication points, two at one of them,
+# inputs from a file, a last step that is shorter, times with units
+EVERYTHING = """
+description = "a \\"quoted\\" \\\\ text, and µ"
+stop_time = "20.3 ms"
+step = "1 ms"
+outputs = ["left.speed", "carrier.torque", "left.shaft_torque", "efficiency", "solver.rhs_calls"]
+
+[set]
+scene.start = "rolling"
+effects.half_shaft = true
+effects.tooth_friction = true
+geometry.planet_teeth = 10
+inertia.left_end = 1.0
+right.load_torque = "0.1 N.m"
+contact.stiffness = "5.77e5 N/mm^1.5"
+
+[[at]]
+time = "3.7 ms"
+left.load_torque = 400
+contact.damping = "40 N.s/mm"
+tooth_friction.coefficient = 0.07
+
+[[at]]
+time = 0.01
+left.load_torque = 300
+
+[[at]]
+time = 0.01
+left.load_torque = 350
+
+[[table]]
+input = "right.load_torque"
+time = [0, "3 ms", 0.0051]
+value = [0.1, "700 N.m", 100.3]
+period = "7 ms"
+
+[[inputs]]
+file = "cycle.csv"
+"""
+CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n11.1,90\n"
+
+
+@pytest.fixture(scope="module")
+def scene_command():
+    """scene_command(NAME, …): runs the command `scene` of the program under test."""
+    program = os.environ.get("FMU_BUILD", "")
+    if not os.path.isfile(program):
+        pytest.fail("FMU_BUILD does not name the program; use: cargo run --release -- test-python")
+
+    def run(*arguments):
+        done = subprocess.run([program, "scene", *map(str, arguments)], capture_output=True, text=True, encoding="utf-8")
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return run
+
+
+@pytest.fixture(params=[*SCENES, "everything"])
+def scene(request, tmp_path):
+    """Name of a scene, or its file."""
+    if request.param != "everything":
+        return request.param
+    (tmp_path / "cycle.csv").write_text(CYCLE, encoding="utf-8")
+    file = tmp_path / "everything.toml"
+    file.write_text(EVERYTHING, encoding="utf-8")
+    return file
+
+
+def recorded(file):
+    """Comments, head and numbers of a record, each number as its bits read."""
+    lines = Path(file).read_text(encoding="utf-8").splitlines()
+    comments = [line for line in lines if line.startswith("#")]
+    head, *rows = csv.reader(line for line in lines if not line.startswith("#"))
+    return comments, head, [[float(cell).hex() for cell in row] for row in rows]
+
+
+def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tmp_path):
+    script, own, theirs = (tmp_path / name for name in ("script.py", "own.csv", "theirs.csv"))
+    printed = scene_command(scene, "--csv", own, "--python", script)
+    done = subprocess.run([sys.executable, script, fmu_file, "--csv", theirs], capture_output=True, text=True,
+                          encoding="utf-8")
+    assert done.returncode == 0, done.stdout + done.stderr
+    (own_comments, own_head, own_rows), (comments, head, rows) = recorded(own), recorded(theirs)
+    assert (comments, head, len(rows)) == (own_comments, own_head, len(own_rows))
+    assert len(rows) > 10
+    for number, (wanted, row) in enumerate(zip(own_rows, rows)):
+        assert row == wanted, f"row {number}"
+    # the summaries agree as far as they are printed
+    for name in head[1:]:
+        line = next(line for line in done.stdout.splitlines() if line.startswith(f"{name} "))
+        wanted = next(line for line in printed.splitlines() if line.strip().startswith(f"{name} "))
+        assert numbers(line) == pytest.approx(numbers(wanted), rel=1e-4, abs=1e-9), name
+
+
+def numbers(line):
+    """The last four words of a line: min, mean, max and end."""
+    return [float(word) for word in line.replace("|", " ").split()[-4:]]
+
+
+def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_file, tmp_path):
+    changes = ["--set", "stop_time=20.5 ms", "--set", "step=0.3ms", "--set", "left.load_torque=600 N.m",
+               "--set", "scene.start=equilibrium"]
+    script, own, theirs = (tmp_path / name for name in ("script.py", "own.csv", "theirs.csv"))
+    scene_command("one_wheel_on_ice", *changes, "--csv", own, "--python", script)
+    subprocess.run([sys.executable, script, fmu_file, "--csv", theirs], check=True, capture_output=True)
+    assert recorded(theirs) == recorded(own)
+    assert len(recorded(own)[2]) == 70 and float.fromhex(recorded(own)[2][-1][0]) == 0.0205
+
+
+def test_a_parameter_set_is_valid_and_starts_the_scene(scene_command, scene, open_fmu, tmp_path):
+    file, record = tmp_path / "set.ssv", tmp_path / "own.csv"
+    scene_command(scene, "--ssv", file, "--csv", record, "--set", "stop_time=1e-4", "--set", "step=1e-4")
+    # against the schema of SSP 1.0 that fmpy has
+    parameters = read_ssv(str(file), validate=True).parameters
+    names = [parameter.name for parameter in parameters]
+    assert len(names) == len(set(names))
+    with open_fmu() as instance:
+        variables = instance.variables
+        assert {name for name, variable in variables.items() if variable.causality == "input"} <= set(names)
+        for parameter in parameters:
+            variable = variables[parameter.name]
+            assert parameter.type == variable.type, parameter.name
+            if parameter.unit is not None:
+                assert parameter.unit == variable.unit, parameter.name
+            instance.set(parameter.name, value_of(parameter))
+        instance.initialise()
+        _, (_, *outputs), rows = recorded(record)
+        started = [value.hex() for value in instance.read(outputs)]
+        assert started == rows[0][1:]
+
+
+def value_of(parameter):
+    """As `Instance.set` takes it: enumerations by their literals."""
+    if parameter.type == "Boolean":
+        return {"true": True, "false": False}[parameter.value]
+    return {"Real": float, "Integer": int, "Enumeration": str}[parameter.type](parameter.value)
+
+
+def test_parameter_sets_hold_the_bits_that_were_set_and_define_their_units(scene_command, tmp_path):
+    file = tmp_path / "set.ssv"
+    values = {"left.load_torque": "0.30000000000000004", "right.load_torque": "-1e-300", "inertia.left_end": "1.7e-9"}
+    scene_command("one_wheel_on_ice", *(part for item in values.items() for part in ("--set", "=".join(item))),
+                  "--ssv", file)
+    parameters = {parameter.name: parameter for parameter in read_ssv(str(file)).parameters}
+    for name, value in values.items():
+        assert float(parameters[name].value).hex() == float(value).hex()
+    assert parameters["left.load_torque"].unit == "N.m" and parameters["scene.start"].value == "rolling"
+    text = file.read_text(encoding="utf-8")
+    for unit in {parameter.unit for parameter in parameters.values()} - {None}:
+        assert f'<ssc:Unit name="{unit}">' in text
