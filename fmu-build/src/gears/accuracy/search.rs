@@ -233,9 +233,13 @@ fn other_method(bench: &mut Bench, chosen: usize, within: f64) -> usize {
         if !is_within(bench, within, run) || bench.trials[run].effort.seconds > 2.0 * time {
             continue;
         }
-        let other = bench.seconds(&scene);
-        if other < FASTER * time {
-            (best, time) = (run, other);
+        // twice: a machine that is busy for a moment must not decide
+        if bench.seconds(&scene) < FASTER * time {
+            let best_scene = bench.trials[best].scene.clone();
+            let [other, again] = [&scene, &best_scene].map(|scene| bench.seconds(scene));
+            if other < FASTER * again {
+                (best, time) = (run, other);
+            }
         }
     }
     best

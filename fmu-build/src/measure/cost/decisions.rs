@@ -69,13 +69,13 @@ pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> 
         let from = if from > 0.0 { format!(" --from {from}s") } else { String::new() };
         table.push([
             (*quantity).to_owned(),
-            percent(*within),
+            format!("{} %", 100.0 * within),
             Gears::of(p).text(),
             if effects.is_empty() { "–".into() } else { effects },
             solver(p),
             error(&found, chosen.error()),
             real_time.map_or(String::new(), two),
-            format!("`--scene {name} --want {want} --within {}{from}`", percent(*within).replace(' ', "")),
+            format!("`--scene {name} --want {want} --within {}%{from}`", 100.0 * within),
         ]);
     }
     let table = table.all_left();
