@@ -13,6 +13,7 @@ use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::Mesh;
+use crate::geometry::solid::mass::GearMass;
 use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::effect::BUILT;
 use crate::model::effect_kinds::teeth::ToothEffects;
@@ -48,6 +49,8 @@ pub struct Model {
     pub parameters: Parameters,
     /// Geometry of the pair.
     pub pair: Pair,
+    /// Masses of the solids of planet and side gear.
+    pub masses: [GearMass; 2],
     /// Ideal differential of the same scene.
     pub ideal: Ideal,
     /// How the gears are represented.
@@ -114,6 +117,7 @@ impl Model {
         };
         Ok(Self {
             parameters: *parameters,
+            masses,
             ideal,
             gears,
             together,

@@ -172,6 +172,11 @@ impl Simulation {
         &self.model.pair
     }
 
+    /// Masses of planet and side gear, always those of their solids [kg].
+    pub fn masses(&self) -> [f64; 2] {
+        self.model.masses.map(|gear| gear.mass)
+    }
+
     /// Inertias in use.
     pub fn inertias(&self) -> &Inertias {
         &self.model.ideal.inertia

@@ -18,7 +18,7 @@ const PART_OF_THE_QUESTION: [&str; 4] =
 
 /// Effects that change no motion and only give outputs, with the beginnings of the names of those. Zero is an answer of
 /// theirs, such as a damage of 0, and differs from not asking.
-const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 1] = [("effects.strength", &["stress.", "damage."])];
+const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 1] = [("effects.strength", &["stress.", "damage.", "safety."])];
 
 /// How a scene stands to an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
