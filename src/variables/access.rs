@@ -14,9 +14,9 @@ pub enum OutputSource {
     Forces(fn(&Forces) -> f64),
     /// From the ledger and the solver's statistics.
     Ledger(fn(&LedgerReadings) -> f64),
-    /// A reading of an effect that changes at any instant, by its place.
+    /// A reading of an effect that changes at any instant, by its place among these.
     Reading(usize),
-    /// A reading of an effect that changes with accepted steps, by its place.
+    /// A reading of an effect that changes with accepted steps, by its place among these.
     LedgerReading(usize),
     /// Heat, by its place in the ledger.
     Heat(usize),

@@ -14,6 +14,17 @@ const ADDED: &[&str] = &[
     "geometry.wheel_lash",
     "safety.root_min",
     "safety.flank_min",
+    "effects.mesh_history",
+    "left.speed_peak_to_peak",
+    "right.speed_peak_to_peak",
+    "planet[1].left_transmission_error_peak_to_peak",
+    "planet[1].right_transmission_error_peak_to_peak",
+    "planet[2].left_transmission_error_peak_to_peak",
+    "planet[2].right_transmission_error_peak_to_peak",
+    "planet[3].left_transmission_error_peak_to_peak",
+    "planet[3].right_transmission_error_peak_to_peak",
+    "planet[4].left_transmission_error_peak_to_peak",
+    "planet[4].right_transmission_error_peak_to_peak",
 ];
 
 /// Takes the later additions out of `rows`, and returns them in their order.

@@ -10,8 +10,6 @@ use crate::problem::Problem;
 use crate::strength::face_load::root_factor;
 use crate::strength::{Load, Rating, loaded_flank};
 
-/// Readings of stress, which stand before those of damage.
-const STRESSES: usize = 4;
 /// Readings of damage, which stand before those of safety.
 const DAMAGES: usize = 4;
 
@@ -78,7 +76,7 @@ impl GearStrength {
     /// Sets the readings of stress from the loads of all meshes at an instant.
     pub fn read_stresses(&self, meshes: impl Iterator<Item = MeshLoad>, readings: &mut [f64]) {
         for mesh in meshes {
-            let stresses: [f64; STRESSES] = [
+            let stresses = [
                 mesh.largest(|flank| flank.pressure),
                 mesh.largest(|flank| self.rating.contact.pressure(flank.normal, 0.0).unwrap_or(0.0)),
                 mesh.largest(|flank| self.rating.root[0].stress(flank.bending)),
@@ -92,7 +90,7 @@ impl GearStrength {
 
     /// Sets the readings of damage and safety.
     pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
-        let (damage, safety) = readings[STRESSES..].split_at_mut(DAMAGES);
+        let (damage, safety) = readings.split_at_mut(DAMAGES);
         damage.copy_from_slice(&fatigue.sums(&self.rating));
         safety.copy_from_slice(&fatigue.utilisation.safety());
     }
