@@ -62,13 +62,17 @@ fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
 
 /// A root of `of` in a span at whose ends its signs differ, by bisection to the last bit.
 fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    let is_negative = of(low) < 0.0;
+    let begin = of(low);
     loop {
         let middle = 0.5 * (low + high);
         if middle <= low || middle >= high {
             return high;
         }
-        if (of(middle) < 0.0) == is_negative { low = middle } else { high = middle }
+        let value = of(middle);
+        if value == 0.0 {
+            return middle;
+        }
+        if (value < 0.0) == (begin < 0.0) { low = middle } else { high = middle }
     }
 }
 
