@@ -200,10 +200,10 @@ fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
             assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
             assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
             // reading leaves no trace
-            let read = (*within.state(), *within.fatigue());
+            let read = (*within.state(), *within.watched());
             within.ledger();
             within.forces();
-            assert_eq!((*within.state(), *within.fatigue()), read);
+            assert_eq!((*within.state(), *within.watched()), read);
         }
     }
 }
@@ -268,13 +268,13 @@ fn a_copy_within_a_step_goes_on_to_the_same_bits() {
         let mut simulation = scene.start();
         simulation.advance(0.0104).unwrap();
         assert!(simulation.state().ahead.is_some(), "{}", scene.name);
-        let state = (*simulation.state(), *simulation.fatigue());
+        let state = (*simulation.state(), *simulation.watched());
         let copy = Simulation::resume_with(&scene.parameters, &scene.inputs, state, &Given::default()).unwrap();
         for mut other in [simulation.clone(), copy] {
             other.advance(0.02).unwrap();
             let mut same = simulation.clone();
             same.advance(0.02).unwrap();
-            assert_eq!((same.state(), same.fatigue()), (other.state(), other.fatigue()), "{}", scene.name);
+            assert_eq!((same.state(), same.watched()), (other.state(), other.watched()), "{}", scene.name);
         }
     }
 }

@@ -14,7 +14,7 @@ fn outcome(p: &Parameters, kept: Option<&Kept>) -> String {
     let warnings = format!("{:?}", simulation.warnings());
     let stepped = simulation.advance(1e-4);
     let forces = *simulation.forces();
-    format!("{warnings} {stepped:?} {forces:?} {:?}", (simulation.state(), simulation.fatigue()))
+    format!("{warnings} {stepped:?} {forces:?} {:?}", (simulation.state(), simulation.watched()))
 }
 
 /// Scenes between which all that can be kept is made.

@@ -7,6 +7,7 @@ use super::units::{DisplayUnit, Unit};
 #[allow(missing_docs)]
 pub enum Causality {
     Parameter,
+    CalculatedParameter,
     Input,
     Output,
     Local,

@@ -5,7 +5,10 @@ use super::row::{Causality, EnumType, Range, Row, Variability};
 use super::units::{self, DisplayUnit, Unit};
 
 fn row<A>(name: &'static str, causality: Causality, access: A, description: &'static str) -> Row<A> {
-    let variability = if causality == Causality::Parameter { Variability::Fixed } else { Variability::Continuous };
+    let variability = match causality {
+        Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
+        Causality::Input | Causality::Output | Causality::Local => Variability::Continuous,
+    };
     Row {
         name,
         description,
@@ -86,6 +89,17 @@ pub fn input<A>(
 /// A command between 0 and 1.
 pub fn command<A>(name: &'static str, at: A, description: &'static str) -> Row<A> {
     Row { range: Some(Range { min: 0.0, max: 1.0 }), ..input(name, units::ONE, None, 1.0, at, description) }
+}
+
+/// A parameter that follows from others.
+pub fn calculated<A>(
+    name: &'static str,
+    unit: Unit,
+    display: Option<DisplayUnit>,
+    of: A,
+    description: &'static str,
+) -> Row<A> {
+    Row { unit: Some(unit), display, ..row(name, Causality::CalculatedParameter, of, description) }
 }
 
 /// An output.

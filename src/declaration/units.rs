@@ -91,6 +91,8 @@ units! {
     RAD_PER_S2 = "rad/s2", base(0, 0, -2, 1), [];
     /// Pressure, modulus.
     PASCAL = "Pa", base(1, -1, -2, 0), [MPA];
+    /// Mass.
+    KILOGRAM = "kg", base(1, 0, 0, 0), [];
     /// Density.
     KG_PER_M3 = "kg/m3", base(1, -3, 0, 0), [];
     /// Moment of inertia.

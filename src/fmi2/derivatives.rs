@@ -228,6 +228,7 @@ impl<'a> Slopes<'a> {
                 let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
                 along.slope(|forces| forces.readings[place])
             }
+            OutputSource::Constant(_) => 0.0,
             // the ledger changes with time alone
             OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
             OutputSource::State(k) => simulation.states_of(|i| direction.q[i], &direction.v)[k],

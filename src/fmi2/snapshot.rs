@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 
 use super::calls::Phase;
 use super::types::Kind;
-use crate::model::{Accepted, Fatigue, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State};
+use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 9;
+const VERSION: u32 = 10;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
@@ -71,7 +71,7 @@ struct Payload {
     start_time: f64,
     stop_time: Option<f64>,
     tolerance_chosen: bool,
-    state: Option<(State, Fatigue)>,
+    state: Option<(State, Watched)>,
     accepted: Option<Accepted>,
 }
 
@@ -85,10 +85,13 @@ impl Snapshot {
         Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(kept))
     }
 
-    /// Parameters for the simulation: in model exchange every planet has its own states.
+    /// Parameters for the simulation: in model exchange every planet has its own states, and the motion between completed steps
+    /// is the host's, so that there is no history of it.
     fn effective(&self) -> Parameters {
         let mut parameters = self.parameters;
-        parameters.solver.merge_planets &= self.kind == Kind::CoSimulation;
+        let own_steps = self.kind == Kind::CoSimulation;
+        parameters.solver.merge_planets &= own_steps;
+        parameters.effects.mesh_history &= own_steps;
         parameters
     }
 
@@ -104,7 +107,7 @@ impl Snapshot {
             start_time: self.start_time,
             stop_time: self.stop_time,
             tolerance_chosen: self.tolerance_chosen,
-            state: self.simulation.as_ref().map(|s| (*s.state(), *s.fatigue())),
+            state: self.simulation.as_ref().map(|s| (*s.state(), *s.watched())),
             accepted: self.simulation.as_ref().and_then(|s| s.accepted().copied()),
         })
         .map_err(|e| format!("the state cannot be serialised: {e}"))?;
@@ -167,7 +170,9 @@ impl Payload {
         if needs_state && self.state.is_none() {
             return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
-        if !self.start_time.is_finite() || self.state.as_ref().is_some_and(|(state, _)| !state.is_valid()) {
+        if !self.start_time.is_finite()
+            || self.state.as_ref().is_some_and(|(state, watched)| !state.is_valid() || !watched.is_valid())
+        {
             return Err("the state has values that are not finite".into());
         }
         if self.accepted.as_ref().is_some_and(|a| !a.is_valid())

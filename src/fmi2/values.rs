@@ -77,6 +77,7 @@ impl Instance {
                         .simulation()
                         .map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })?;
                     match source {
+                        OutputSource::Constant(of) => of(simulation),
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
                         OutputSource::Reading(place) => simulation.forces().readings[place],
@@ -201,6 +202,9 @@ impl Instance {
 
     fn check_settable(&self, row: &Variable) -> CallResult {
         match (row.access, row.variability) {
+            (Access::Output(_), Variability::Fixed) => {
+                Err(CallError::error(format!("{} is calculated from other parameters and cannot be set", row.name)))
+            }
             (Access::Output(_), _) => Err(CallError::error(format!("{} is an output and cannot be set", row.name))),
             (_, Variability::Tunable) if self.now.phase == Phase::ContinuousTime => Err(CallError::error(format!(
                 "{} is a parameter: it cannot be set between events, enter event mode first",

@@ -129,6 +129,12 @@ impl Pair {
         self.outer_cone * tan(self.limit_tip_angle(i) - self.gears[i].pitch)
     }
 
+    /// Angle through which a side gear turns freely while the other one and the carrier are held [rad]: the backlash of
+    /// both meshes of a planet in series.
+    pub fn wheel_lash(&self) -> f64 {
+        2.0 * self.normal_backlash / sin(self.gears[1].base)
+    }
+
     /// sinδ_b of planet and side gear: moment arms of the normal force per unit of cone distance.
     pub fn sin_base(&self) -> [f64; 2] {
         self.gears.map(|g| sin(g.base))

@@ -110,16 +110,16 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
     time: &mut f64,
     until: f64,
     context: SolverContext,
-    observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let mut course = Course::new(*point, *time, until);
-    let outcome = proceed(method, system, &mut course, until, context, observe);
+    let outcome = proceed(method, system, &mut course, until, context, |step, _| observe(step));
     (*point, *time) = (course.point, course.time);
     outcome
 }
 
 /// Integrates until the pending step of `course` contains `until` [s] or the equations end there, calling `observe` after
-/// each completed step, which may end the integration early.
+/// each completed step with what it was while pending; it may end the integration early.
 ///
 /// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
 /// completed, and thus leaves no trace.
@@ -130,7 +130,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
     course: &mut Course<N, S::Power>,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Power>, &Pending<N, S::Power>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let SolverContext { tolerance, control, statistics, budget } = context;
     let resolution = course.resolution;
@@ -182,9 +182,10 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
             statistics.accepted += 1;
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
-            course.pending = None;
             let step = Step { h, time: reached, start: &start, end: &end, power };
-            let flow = observe(step).map_err(Failure::Refused)?;
+            let flow = observe(step, pending);
+            course.pending = None;
+            let flow = flow.map_err(Failure::Refused)?;
             if done || flow == AfterStep::Stop {
                 return Ok(());
             }

@@ -6,6 +6,7 @@
 mod block;
 mod complex;
 mod course;
+mod curve;
 mod dormand_prince;
 mod driver;
 mod dyn_system;
@@ -20,6 +21,7 @@ mod statistics;
 mod system;
 
 pub use course::{Attempt, Course, Extension, Pending, bent};
+pub use curve::Curve;
 pub use dormand_prince::DormandPrince;
 pub use driver::{AfterStep, Control, Failure, SolverContext, Step, advance, proceed};
 pub use dyn_system::{DynSecondOrder, DynSystem};

@@ -24,6 +24,7 @@ pub use assembly::kept::{Kept, Share};
 pub use assembly::model::Given;
 pub use dynamics::accepted::Accepted;
 pub use dynamics::state::State;
+pub use dynamics::watched::Watched;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::strength::Fatigue;
 pub use effects::{EFFECTS, EffectParameters, Effects};

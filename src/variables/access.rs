@@ -6,15 +6,17 @@ use crate::model::{Forces, InputField, LedgerReadings, Motion, Parameters, Simul
 /// Where the value of an output is read.
 #[derive(Clone, Copy)]
 pub enum OutputSource {
+    /// From the constants of a simulation, which do not change from the end of initialisation on.
+    Constant(fn(&Simulation) -> f64),
     /// From angles and speeds.
     Motion(fn(&Motion) -> f64),
     /// From forces, which take one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
     /// From the ledger and the solver's statistics.
     Ledger(fn(&LedgerReadings) -> f64),
-    /// A reading of an effect that changes at any instant, by its place.
+    /// A reading of an effect that changes at any instant, by its place among these.
     Reading(usize),
-    /// A reading of an effect that changes with accepted steps, by its place.
+    /// A reading of an effect that changes with accepted steps, by its place among these.
     LedgerReading(usize),
     /// Heat, by its place in the ledger.
     Heat(usize),
@@ -28,6 +30,7 @@ impl OutputSource {
     /// Value of the output.
     pub fn read(self, simulation: &mut Simulation) -> f64 {
         match self {
+            Self::Constant(of) => of(simulation),
             Self::Motion(of) => of(&simulation.motion()),
             Self::Forces(of) => of(simulation.forces()),
             Self::Reading(place) => simulation.forces().readings[place],
@@ -53,7 +56,7 @@ pub enum Access {
     Enumeration(&'static EnumType, GetChoice<Parameters>, SetChoice<Parameters>),
     /// A real input.
     Input(InputField),
-    /// A real output, or a local variable.
+    /// A real output, a local variable, or a calculated parameter.
     Output(OutputSource),
 }
 

@@ -2,6 +2,8 @@
 //! The model description, value references and the C ABI all come from it.
 
 mod access;
+mod added;
+mod calculated;
 mod inputs;
 mod outputs;
 mod parameters;

@@ -206,10 +206,11 @@ pub fn rows() -> Vec<Output> {
         let source = OutputSource::Heat(CONTACT_HEAT + 1 + place);
         rows.push(output(heat.output, units::JOULE, None, source, heat.description));
     }
-    for (place, reading) in readings().enumerate() {
+    let (mut at_instants, mut by_steps) = (0.., 0..);
+    for reading in readings() {
         let source = match reading.changes {
-            Changes::Always => OutputSource::Reading(place),
-            Changes::ByStep => OutputSource::LedgerReading(place),
+            Changes::Always => OutputSource::Reading(at_instants.next().unwrap_or(0)),
+            Changes::ByStep => OutputSource::LedgerReading(by_steps.next().unwrap_or(0)),
         };
         rows.push(output(reading.name, reading.unit, reading.display, source, reading.description));
     }

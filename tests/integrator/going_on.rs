@@ -1,7 +1,7 @@
 //! Steps go on beyond the times that are asked for, and do not depend on them.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, Course, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
+    AfterStep, Control, Course, Pending, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
 };
 
 use super::methods::{Known, with_every_method, with_methods};
@@ -39,7 +39,7 @@ fn run_of<M: Known, S: SecondOrder<2>>(system: &S, start: Point<2>, times: &[f64
         let mut budget = 10_000;
         let context =
             SolverContext { tolerance: TOLERANCE, control: &mut control, statistics: counts, budget: &mut budget };
-        let observe = |step: Step<2, S::Power>| {
+        let observe = |step: Step<2, S::Power>, _: &Pending<2, S::Power>| {
             assert!(step.time < time, "nothing beyond {time} is completed");
             steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
             Ok::<_, ()>(AfterStep::Continue)
@@ -100,7 +100,7 @@ fn a_step_is_completed_up_to_where_the_equations_end<M: Known>() {
             let mut budget = 10_000;
             let (control, statistics) = (&mut control, &mut counts);
             let context = SolverContext { tolerance: TOLERANCE, control, statistics, budget: &mut budget };
-            proceed(&M::METHOD, &Logarithmic, course, time, context, |step| {
+            proceed(&M::METHOD, &Logarithmic, course, time, context, |step, _| {
                 completed += step.h;
                 Ok::<_, ()>(AfterStep::Continue)
             })

@@ -21,6 +21,8 @@ use teeth::View;
 /// Random scenes that are reversed, and that are looked at otherwise.
 const REVERSED: usize = 100;
 const OTHERWISE: usize = 20;
+/// Scenes among the reversed ones whose planets roll over some teeth.
+const ROLLING: usize = 10;
 /// Least part of all values that twins let compare, and of the values of any one output.
 const SHARE: f64 = 0.7;
 const SHARE_OF_ONE: f64 = 0.2;
@@ -43,12 +45,17 @@ fn compared(scene: &Scene, view: View) -> Option<Findings> {
 
 /// Compares `count` random scenes, from number `first` on, with their images.
 fn survey(view: View, first: u64, count: usize) -> Findings {
+    survey_of(random::scene, view, first, count)
+}
+
+/// The same of the scenes that `draw` gives.
+fn survey_of(draw: fn(u64) -> Option<Scene>, view: View, first: u64, count: usize) -> Findings {
     let mut all = Findings::new();
     for index in first.. {
         if all.scenes >= count {
             break;
         }
-        let Some(scene) = random::scene(index).and_then(|scene| fitting(scene, view)) else { continue };
+        let Some(scene) = draw(index).and_then(|scene| fitting(scene, view)) else { continue };
         let Some(mut found) = compared(&scene, view) else { continue };
         found.wrong = found.wrong.iter().map(|wrong| format!("scene {index}: {wrong}")).collect();
         all.add(found);
@@ -86,8 +93,10 @@ fn a_reversed_differential_does_the_same_in_reverse() {
     let half = REVERSED / 2;
     let mut found = std::thread::scope(|scope| {
         let other = scope.spawn(|| survey(View::Reversed, 1000, half));
+        let rolling = scope.spawn(|| survey_of(random::rolling, View::Reversed, 5000, ROLLING));
         let mut found = survey(View::Reversed, 0, half);
         found.add(other.join().expect("a survey that ends"));
+        found.add(rolling.join().expect("a survey that ends"));
         found
     });
     // every output takes part, and is something else than 0 at times

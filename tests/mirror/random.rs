@@ -15,6 +15,10 @@ const STEPS: usize = 14;
 /// Module to which loads and sizes are given; others are similar [m].
 const MODULE: f64 = 4.5e-3;
 
+/// Tells generators of one scene apart.
+const LATER: u64 = 1 << 40;
+const ROLLING: u64 = 1 << 41;
+
 /// SplitMix64.
 pub struct Draw(u64);
 
@@ -65,6 +69,7 @@ pub fn scene(index: u64) -> Option<Scene> {
     drives(d, &mut p);
     effects(d, &mut p);
     bodies(&mut Draw::new(!index), &mut p);
+    later(&mut Draw::new(index ^ LATER), &mut p);
     solver(d, &mut p);
     let inputs = inputs(d, &p);
     let duration = d.between(3e-3, 8e-3);
@@ -198,6 +203,33 @@ fn bodies(d: &mut Draw, p: &mut Parameters) {
         p.scene.gear_contact == GearContact::Tooth && p.contact.law != ContactLaw::Impact && d.chance(0.5);
     p.geometry.planet_bore = if d.chance(0.5) { m * d.between(0.5, 3.0) } else { 0.0 };
     p.geometry.side_bore = if d.chance(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
+}
+
+/// Effects that were added later, drawn by a generator of their own, which leaves the scenes what they were.
+fn later(d: &mut Draw, p: &mut Parameters) {
+    p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.chance(0.5);
+}
+
+/// Scene number `index` with planets that roll over some teeth.
+pub fn rolling(index: u64) -> Option<Scene> {
+    let d = &mut Draw::new(index ^ ROLLING);
+    let Scene { parameters: mut p, mut inputs, mut steps, .. } = scene(index)?;
+    if p.scene.gear_contact == GearContact::Ideal {
+        return None;
+    }
+    p.effects.mesh_history = true;
+    p.scene.carrier_drive = CarrierDrive::Speed;
+    (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Torque, SideDrive::Torque);
+    p.scene.planet_spin = PlanetSpin::Imposed;
+    let spin = d.between(200.0, 300.0) * if d.chance(0.5) { 1.0 } else { -1.0 };
+    inputs.planet_spin = spin;
+    for step in &mut steps {
+        step.inputs.planet_spin = spin;
+        if let Some(derivatives) = &mut step.derivatives {
+            derivatives.rates.iter_mut().for_each(|rates| rates.planet_spin = 0.0);
+        }
+    }
+    Scene::new(p, inputs, steps).ok()
 }
 
 fn solver(d: &mut Draw, p: &mut Parameters) {

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use bevel_differential::contact::errors::{GearTeeth, ToothErrors};
 use bevel_differential::geometry::Pair;
 use bevel_differential::model::{
-    BODIES, Body, Fatigue, GearContact, Given, InputDerivatives, Inputs, Layout, Parameters, Simulation, State,
+    BODIES, Body, GearContact, Given, InputDerivatives, Inputs, Layout, Parameters, Simulation, State, Watched,
 };
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable, table};
@@ -81,7 +81,7 @@ impl Scene {
         let (p, i) = (&self.parameters, &self.inputs);
         let given = Given { teeth: self.teeth.as_deref(), ..Given::default() };
         let mut simulation = match self.from {
-            Some(state) => Simulation::resume_with(p, i, (state, Fatigue::default()), &given)?,
+            Some(state) => Simulation::resume_with(p, i, (state, Watched::default()), &given)?,
             None => Simulation::start_with(p, i, 0.0, &given)?,
         };
         let read = |simulation: &mut Simulation| -> Vec<f64> {

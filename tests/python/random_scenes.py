@@ -12,8 +12,9 @@ from sampling import latin, spread
 KINDS = ("wild", "bold", "plausible")
 # of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make steps expensive
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
-# switches that came after the seeds were chosen: drawn by a generator of their own, so that the other draws stay as they were
-LATER = {"effects.body_compliance"}
+# switches that came after the seeds were chosen, in that order: each is drawn by a generator of its own, so that the other draws
+# stay as they were
+LATER = ["effects.body_compliance", "effects.mesh_history"]
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 
@@ -49,8 +50,8 @@ def scenes(description, kind, count, seed, first=0, last=None):
     cube = latin(count, len(variables), np.random.default_rng([seed, KINDS.index(kind)]))
     for index in range(first, count if last is None else last):
         random = np.random.default_rng([seed, KINDS.index(kind), index])
-        later = np.random.default_rng([seed, KINDS.index(kind), index, len(LATER)])
-        shares = dict(zip((v.name for v in variables), cube[index].tolist())) | {name: later.random() for name in LATER}
+        later = {name: np.random.default_rng([seed, KINDS.index(kind), index, k]).random() for k, name in enumerate(LATER, 1)}
+        shares = dict(zip((v.name for v in variables), cube[index].tolist())) | later
         if kind == "wild":
             start = {v.name: wild_value(v, shares[v.name]) for v in everything}
             draw = wild_value

@@ -219,7 +219,7 @@ def test_every_output_and_input_has_an_entry_of_its_own(description):
     image = Image(description, {"start": {}, "steps": []}, "reversed")
     for name, variable in image.variables.items():
         assert image.parity(name) in ("+", "-", "lash", "wave", "teeth")
-        assert variable.causality == "parameter" or not image.entry(name).endswith("*"), name
+        assert variable.causality in ("parameter", "calculatedParameter") or not image.entry(name).endswith("*"), name
 
 
 def test_a_bias_by_friction_is_above_one_and_the_same_in_reverse_at_every_instant(open_fmu, description):

@@ -13,7 +13,8 @@ EFFECTS = {effect.name: effect for effect in effects(os.environ["FMU"])}
 OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque", "left.thrust_force", "right.speed",
            "carrier.torque", "carrier.acceleration", "planet[1].spin_angle", "planet[1].left_normal_force",
            "planet[2].right_normal_force", "planet[1].left_transmission_error", "heat.contact", "solver.steps",
-           "solver.energy_residual", "locking_value", "stress.contact_max", "damage.planet"]
+           "solver.energy_residual", "locking_value", "stress.contact_max", "damage.planet",
+           "safety.root_min", "left.speed_peak_to_peak"]
 
 
 def other_value(variable):

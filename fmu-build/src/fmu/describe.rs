@@ -190,6 +190,7 @@ fn enumeration(kind: &EnumType) -> Element {
 fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
     let causality = match row.causality {
         Causality::Parameter => "parameter",
+        Causality::CalculatedParameter => "calculatedParameter",
         Causality::Input => "input",
         Causality::Output => "output",
         Causality::Local => "local",
@@ -202,7 +203,7 @@ fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Elemen
     let initial = match row.causality {
         Causality::Parameter => Some("exact"),
         Causality::Input => None,
-        Causality::Output | Causality::Local => Some("calculated"),
+        Causality::CalculatedParameter | Causality::Output | Causality::Local => Some("calculated"),
     };
     Element::new("ScalarVariable")
         .with("name", row.name)
@@ -278,8 +279,9 @@ fn structure(table: &Table) -> Element {
         Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
     });
     // at the start everything may depend on everything, which is what no list means
-    let mut initial: Vec<usize> =
-        table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied().collect();
+    let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
+    let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
+    let mut initial: Vec<usize> = calculated.chain(others).collect();
     initial.sort_unstable();
     initial.dedup();
     let initial = initial.into_iter().map(|index| Element::new("Unknown").with("index", index + 1));

@@ -97,7 +97,12 @@ pub fn page(libraries: &[Library], linked: &[LinkedPart]) -> Result<String> {
     for (name, rows) in parameter_groups() {
         body = body.child(Element::new("h3").text(name)).child(variables(Causality::Parameter, rows));
     }
-    for (causality, name) in [(Causality::Input, "Inputs"), (Causality::Output, "Outputs")] {
+    let others = [
+        (Causality::CalculatedParameter, "Calculated parameters"),
+        (Causality::Input, "Inputs"),
+        (Causality::Output, "Outputs"),
+    ];
+    for (causality, name) in others {
         body = body.child(title(name)).child(variables(causality, of(causality).collect()));
     }
     body = body
@@ -168,9 +173,14 @@ fn licences(linked: &LinkedPart) -> Element {
         .child(Element::new("td").children(links))
 }
 
+/// Whether variables of a causality have start values and ranges.
+fn has_start(causality: Causality) -> bool {
+    matches!(causality, Causality::Parameter | Causality::Input)
+}
+
 fn head(causality: Causality) -> Element {
     let mut titles = vec!["Name", "Unit"];
-    if causality != Causality::Output {
+    if has_start(causality) {
         titles.extend(["Start", "Allowed"]);
     }
     titles.push("Meaning");
@@ -179,7 +189,7 @@ fn head(causality: Causality) -> Element {
 
 fn row(row: &Variable) -> Element {
     let mut cells = vec![row.name.to_owned(), unit(row)];
-    if row.causality != Causality::Output {
+    if has_start(row.causality) {
         cells.extend([start(row), allowed(row)]);
     }
     let mut meaning = row.description.to_owned();

@@ -12,3 +12,4 @@ pub mod rigid;
 mod shelf;
 mod solid;
 pub mod teeth;
+pub mod watch;

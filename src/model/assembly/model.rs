@@ -9,10 +9,12 @@ use super::laws::Laws;
 use super::rigid::Rigid;
 use super::solid;
 use super::teeth::Teeth;
+use super::watch::Watch;
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::Mesh;
+use crate::geometry::solid::mass::GearMass;
 use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::effect::BUILT;
 use crate::model::effect_kinds::teeth::ToothEffects;
@@ -48,14 +50,16 @@ pub struct Model {
     pub parameters: Parameters,
     /// Geometry of the pair.
     pub pair: Pair,
+    /// Masses of the solids of planet and side gear.
+    pub masses: [GearMass; 2],
     /// Ideal differential of the same scene.
     pub ideal: Ideal,
     /// How the gears are represented.
     pub gears: Gears,
     /// The teeth with planets that move as one until a tooth of one breaks.
     pub together: Option<Box<Teeth>>,
-    /// Stress and fatigue, where the scene asks for them.
-    pub strength: Option<Box<GearStrength>>,
+    /// What steps are watched for beside the ledger, where the scene asks for anything.
+    pub watch: Option<Box<Watch>>,
     /// Where each degree of freedom stands.
     pub layout: Layout,
     /// Periods of the positions: a tooth pitch, for the carrier a turn [rad].
@@ -108,21 +112,29 @@ impl Model {
             _ => None,
         };
         let strength = if BUILT && parameters.effects.strength {
-            Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
+            Some(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?)
         } else {
             None
         };
+        let mesh_history = BUILT && parameters.effects.mesh_history;
+        let watch = (strength.is_some() || mesh_history).then(|| Box::new(Watch { strength, mesh_history }));
         Ok(Self {
             parameters: *parameters,
+            masses,
             ideal,
             gears,
             together,
-            strength,
+            watch,
             layout: plan.layout(),
             periods: plan.periods(&pair),
             warnings,
             pair,
         })
+    }
+
+    /// Stress and fatigue, where the scene asks for them.
+    pub fn strength(&self) -> Option<&GearStrength> {
+        self.watch.as_ref()?.strength.as_ref()
     }
 
     /// Takes over tunable parameters from `parameters`, which must differ in those alone.
@@ -170,7 +182,7 @@ fn teeth(
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
-    bodies.always |= in_detail || laws.bodies.is_some() || p.effects.strength;
+    bodies.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
     let engagement = kept.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));

@@ -21,4 +21,5 @@ pub mod rigid_equations;
 mod rigid_friction;
 pub mod sizes;
 pub mod state;
+pub mod watched;
 mod with_effects;

@@ -8,6 +8,7 @@ mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
 mod lock;
+pub mod mesh_history;
 mod pin_compliance;
 pub mod strength;
 mod thrust_friction;
@@ -169,6 +170,7 @@ effects! {
         strength: strength::StrengthSpec,
         wheel_brake: wheel_brake::WheelBrakeSpec,
         body_compliance: body_compliance::BodyComplianceSpec,
+        mesh_history: mesh_history::MeshHistorySpec,
     }
     commanded {
         lock: lock::LockSpec,

@@ -3,7 +3,7 @@
 use super::mesh_forces::MeshForces;
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::scene::layout::MAX_PLANETS;
-use crate::model::setup::effect_outputs::READINGS;
+use crate::model::setup::effect_outputs::INSTANT_READINGS;
 
 /// Forces, torques and accelerations: one evaluation of the tooth forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,8 +41,8 @@ pub struct Forces {
     pub torque_bias_ratio: f64,
     /// Locking value |ΔT|/|T_L + T_R|, over the last whole mesh cycle where shafts twist; 0 at zero torque.
     pub locking_value: f64,
-    /// Readings of the effects.
-    pub readings: [f64; READINGS],
+    /// Readings of the effects that change at any instant.
+    pub readings: [f64; INSTANT_READINGS],
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds.

@@ -1,6 +1,6 @@
 //! The ledger as it is read.
 
-use crate::model::setup::effect_outputs::{HEATS, READINGS};
+use crate::model::setup::effect_outputs::{HEATS, STEP_READINGS};
 
 /// Ledger and solver statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -8,7 +8,7 @@ pub struct LedgerReadings {
     /// Heat since the start by cause [J].
     pub heat: [f64; HEATS],
     /// Readings of the effects that change with accepted steps.
-    pub readings: [f64; READINGS],
+    pub readings: [f64; STEP_READINGS],
     /// Side gears, groups of planets, and wheels that dry friction holds: their numbers.
     pub held: [f64; 3],
     /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.

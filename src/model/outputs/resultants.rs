@@ -13,7 +13,7 @@ use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body_effect::Bodies;
-use crate::model::effect_kinds::effect::Instant;
+use crate::model::effect_kinds::effect::{Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
@@ -107,7 +107,7 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_E
             mesh.transmission_error =
                 teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             equations.tooth_loads(pair, point, g, s, |load| mesh.add(load));
-            if let Some(strength) = &model.strength {
+            if let Some(strength) = model.strength() {
                 equations.pair_loads(pair, point, g, s, |load| {
                     strength.add_load(&mut stress[g][s], load);
                     strength.add_pressure(&mut stress[g][s], load);
@@ -115,9 +115,9 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_E
             }
         }
     }
-    if let Some(strength) = &model.strength {
+    if let Some(strength) = model.strength() {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        strength.read_stresses(meshes, &mut out.readings[places_of("strength")]);
+        strength.read_stresses(meshes, &mut out.readings[places_of("strength", Changes::Always)]);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];

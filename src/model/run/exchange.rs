@@ -158,7 +158,7 @@ impl Simulation {
 
     /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
-        complete(&self.model, (&mut self.state, &mut self.fatigue));
+        complete(&self.model, (&mut self.state, &mut self.watched));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
@@ -180,7 +180,7 @@ impl Simulation {
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
-        let (inputs, state, fatigue) = (&self.inputs, &mut self.state, &mut self.fatigue);
+        let (inputs, state, watched) = (&self.inputs, &mut self.state, &mut self.watched);
         let mut is_due = false;
         let h = state.time - from.time;
         if h > 0.0 {
@@ -200,7 +200,11 @@ impl Simulation {
                 let State { work, heat, bias, .. } = state;
                 let outcome = equations.admit(&end);
                 if outcome.is_ok() {
-                    equations.record(model, &step, &mut Records { begin: from.time, work, heat, bias, fatigue });
+                    equations.record(
+                        model,
+                        (&step, None),
+                        &mut Records { begin: from.time, work, heat, bias, watched },
+                    );
                 }
                 let mut anchors = equations.friction_state().map(|state| state.anchor);
                 equations.drag(&end, &last, &mut anchors);

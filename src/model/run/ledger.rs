@@ -1,16 +1,16 @@
 //! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
 use super::excessive_deflection::ExcessiveDeflection;
-use super::load_history::count_fatigue;
-use crate::integrate::{Point, SecondOrder, Step};
+use super::watching::watch_step;
+use crate::integrate::{Pending, Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
 use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::dynamics::watched::Watched;
 use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::effects::strength::Fatigue;
 use crate::model::scene::layout::{FRICTION_BODIES, LEFT};
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
@@ -24,9 +24,12 @@ pub struct Records<'a> {
     pub heat: &'a mut [f64; HEATS],
     /// Shaft torques by mesh cycles.
     pub bias: &'a mut Bias,
-    /// Damage of the teeth.
-    pub fatigue: &'a mut Fatigue,
+    /// What steps are watched for.
+    pub watched: &'a mut Watched,
 }
+
+/// A completed step, and the same while it was pending.
+pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, Power>, Option<&'a Pending<N, Power>>);
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
@@ -42,8 +45,8 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
     /// Returns the tooth that is bent too far, if one is.
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
-    /// Records a completed step.
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records);
+    /// Records a completed step, with what it was while pending; steps of fixed size and of a host's solver never were.
+    fn record(&self, model: &Model, step: CompletedStep<N>, records: &mut Records);
 }
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Recorded<N>
@@ -83,7 +86,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
     }
 
     #[inline(always)]
-    fn record(&self, model: &Model, step: &Step<N, Power>, records: &mut Records) {
+    fn record(&self, model: &Model, (step, pending): CompletedStep<N>, records: &mut Records) {
         add_to_ledger(step, records.work, records.heat, WITH_EFFECTS);
         if !self.teeth.mesh.engagement.corner_contact() {
             records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
@@ -93,8 +96,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             Cycle { pitch: model.periods[LEFT] }.add(records.bias, turned, step.h, torque);
         }
-        if let (true, Some(strength)) = (WITH_EFFECTS, &model.strength) {
-            count_fatigue(self, (model, strength), step, (records.begin, records.fatigue));
+        if let (true, Some(watch)) = (WITH_EFFECTS, &model.watch) {
+            watch_step(self, (model, watch), (step, pending), (records.begin, records.watched));
         }
     }
 }
@@ -124,7 +127,7 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         Ok(())
     }
 
-    fn record(&self, _: &Model, step: &Step<N, Power>, records: &mut Records) {
+    fn record(&self, _: &Model, (step, _): CompletedStep<N>, records: &mut Records) {
         add_to_ledger(step, records.work, records.heat, true);
     }
 }

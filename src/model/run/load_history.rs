@@ -8,9 +8,6 @@ use crate::model::dynamics::power::Power;
 use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RolledStep};
 
 /// Adds a step to the damage of the teeth; times of steps count from `begin` [s].
-///
-/// Not compiled into the loop of steps, which is the same whether a scene asks for strength or not.
-#[inline(never)]
 pub fn count_fatigue<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     (model, strength): (&Model, &GearStrength),

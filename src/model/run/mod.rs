@@ -10,6 +10,7 @@ mod hints;
 mod imposed;
 mod ledger;
 mod load_history;
+mod mesh_cycles;
 mod progress;
 mod readings;
 mod reports;
@@ -17,6 +18,7 @@ mod sensitivity;
 mod simulation;
 mod start;
 mod stretch;
+mod watching;
 
 pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};

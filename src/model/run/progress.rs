@@ -13,15 +13,15 @@ use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::state::State;
-use crate::model::effects::strength::Fatigue;
+use crate::model::dynamics::watched::Watched;
 use crate::model::scene::{Inputs, Method};
 
 /// By how much longer than before inputs are expected to hold: hosts add up steps, with all the rounding that brings.
 const ROUNDING: f64 = 1e-6;
 
 /// Begins anew at the present: inputs have changed, or something else has.
-pub fn begin_anew(model: &Model, inputs: &Inputs, (state, fatigue): (&mut State, &mut Fatigue)) {
-    complete(model, (state, fatigue));
+pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
+    complete(model, (state, watched));
     imposed::jump(model, inputs, state);
     update_friction(model, inputs, state);
     state.held = state.begun.map_or(f64::INFINITY, |begun| state.time - begun);
@@ -30,7 +30,7 @@ pub fn begin_anew(model: &Model, inputs: &Inputs, (state, fatigue): (&mut State,
 
 /// Completes the step ahead up to the present, under the inputs that acted in it. Switches of friction that are due at the
 /// present take place.
-pub fn complete(model: &Model, (state, fatigue): (&mut State, &mut Fatigue)) {
+pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     let Some(ahead) = &state.ahead else { return };
     let (inputs, mut clock) = (ahead.inputs, ahead.clock);
     clock.end = clock.now;
@@ -38,7 +38,7 @@ pub fn complete(model: &Model, (state, fatigue): (&mut State, &mut Fatigue)) {
     state.input_derivatives = None;
     let mut budget = stretch::budget(model);
     let begin = state.time - clock.now;
-    let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs, fatigue };
+    let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
     let outcome = with_equations!(model, state, &inputs, |equations| {
         let mut equations = equations;
         stretch::integrate::<N, _>(&mut equations, model, state, stretch, &mut budget)
@@ -54,7 +54,7 @@ pub fn complete(model: &Model, (state, fatigue): (&mut State, &mut Fatigue)) {
 /// Integrates to `until` [s].
 pub fn integrate(
     model: &Model,
-    (inputs, state, fatigue): (&mut Inputs, &mut State, &mut Fatigue),
+    (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     until: f64,
 ) -> Result<(), StepFailure> {
     let mut budget = stretch::budget(model);
@@ -63,9 +63,9 @@ pub fn integrate(
         let mut end = if until - begin > 1.5 * STRETCH { begin + STRETCH } else { until };
         end = end.min(breaks);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
-            to_end(model, inputs, (state, fatigue), end, &mut budget)
+            to_end(model, inputs, (state, watched), end, &mut budget)
         } else {
-            go_on(model, inputs, (state, fatigue), (end, breaks), &mut budget)
+            go_on(model, inputs, (state, watched), (end, breaks), &mut budget)
         };
         advance_inputs(inputs, state, if outcome.is_ok() { end } else { state.time } - begin);
         outcome?;
@@ -80,7 +80,7 @@ pub fn integrate(
 fn to_end(
     model: &Model,
     inputs: &Inputs,
-    (state, fatigue): (&mut State, &mut Fatigue),
+    (state, watched): (&mut State, &mut Watched),
     end: f64,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
@@ -88,7 +88,7 @@ fn to_end(
     let mut clock = Clock { now: end - begin, ..Clock::new(end - begin, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = one_stretch(model, inputs, (state, fatigue), (&mut clock, begin), budget);
+        outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
     }
     state.time = begin + clock.time;
     keep_together(model, state);
@@ -99,7 +99,7 @@ fn to_end(
 fn go_on(
     model: &Model,
     inputs: &Inputs,
-    (state, fatigue): (&mut State, &mut Fatigue),
+    (state, watched): (&mut State, &mut Watched),
     (until, breaks): (f64, f64),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
@@ -113,7 +113,7 @@ fn go_on(
     let mut begin = state.time - clock.now;
     clock.now = if until == breaks { clock.end } else { clock.now + (until - state.time) };
     loop {
-        let outcome = one_stretch(model, inputs, (state, fatigue), (&mut clock, begin), budget);
+        let outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
         if let Some(ahead) = &state.ahead {
             ahead.motion(model.layout.count(), [&mut state.q, &mut state.v]);
         }
@@ -130,11 +130,11 @@ fn go_on(
 fn one_stretch(
     model: &Model,
     inputs: &Inputs,
-    (state, fatigue): (&mut State, &mut Fatigue),
+    (state, watched): (&mut State, &mut Watched),
     (clock, begin): (&mut Clock, f64),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let stretch = Stretch { clock, begin, is_shown: false, inputs, fatigue };
+    let stretch = Stretch { clock, begin, is_shown: false, inputs, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.is_together(teeth, &model.layout)) {
         let mut equations = Equations::<4, 1, 0, false>::new(teeth, inputs, state);
         let outcome = stretch::integrate::<4, _>(&mut equations, model, state, stretch, budget);

@@ -11,8 +11,9 @@ use crate::model::assembly::inertias::Inertias;
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::{by_rigid_size, by_size};
 use crate::model::dynamics::state::State;
+use crate::model::dynamics::watched::Watched;
+use crate::model::effect_kinds::effect::Changes;
 use crate::model::effect_kinds::friction_state::Mode;
-use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
 use crate::model::outputs::motion::Motion;
@@ -20,7 +21,7 @@ use crate::model::outputs::resultants;
 use crate::model::scene::Plan;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS};
 use crate::model::setup::Parameters;
-use crate::model::setup::effect_outputs::{READINGS, places_of};
+use crate::model::setup::effect_outputs::{STEP_READINGS, places_of};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 
@@ -120,11 +121,11 @@ impl Simulation {
         });
     }
 
-    /// State and damage with the step ahead completed up to the present.
-    fn completed(&self) -> (State, Fatigue) {
-        let (mut state, mut fatigue) = (self.state, self.fatigue);
-        complete(&self.model, (&mut state, &mut fatigue));
-        (state, fatigue)
+    /// State and what is watched with the step ahead completed up to the present.
+    fn completed(&self) -> (State, Watched) {
+        let (mut state, mut watched) = (self.state, self.watched);
+        complete(&self.model, (&mut state, &mut watched));
+        (state, watched)
     }
 
     /// Kinetic and stored energy, at the end of the last step that the ledger knows of [J].
@@ -136,10 +137,14 @@ impl Simulation {
     /// Ledger and solver statistics.
     pub fn ledger(&self) -> LedgerReadings {
         let s = &self.state.statistics;
-        let (state, fatigue) = &self.completed();
-        let mut readings = [0.0; READINGS];
-        if let Some(strength) = &self.model.strength {
-            strength.read_damage(fatigue, &mut readings[places_of("strength")]);
+        let (state, watched) = &self.completed();
+        let mut readings = [0.0; STEP_READINGS];
+        let places = |effect: &str| places_of(effect, Changes::ByStep);
+        if let Some(strength) = self.model.strength() {
+            strength.read_damage(&watched.fatigue, &mut readings[places("strength")]);
+        }
+        if self.model.watch.as_ref().is_some_and(|watch| watch.mesh_history) {
+            watched.mesh_history.read(&self.model.ideal.plan, &mut readings[places("mesh_history")]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = state.friction[range].iter();
@@ -170,6 +175,11 @@ impl Simulation {
     /// Geometry of the pair.
     pub fn pair(&self) -> &Pair {
         &self.model.pair
+    }
+
+    /// Masses of planet and side gear, always those of their solids [kg].
+    pub fn masses(&self) -> [f64; 2] {
+        self.model.masses.map(|gear| gear.mass)
     }
 
     /// Inertias in use.

@@ -24,9 +24,9 @@ impl Simulation {
             reported.friction_law = true;
             found.push(problem);
         }
-        if self.model.strength.is_some() {
+        if self.model.strength().is_some() {
             for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
-                if let Some(overload) = self.fatigue.overloads.of(what) {
+                if let Some(overload) = self.watched.fatigue.overloads.of(what) {
                     *reported = true;
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }

@@ -10,7 +10,7 @@ use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
-use crate::model::effects::strength::Fatigue;
+use crate::model::dynamics::watched::Watched;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
 use crate::model::setup::Parameters;
@@ -25,8 +25,8 @@ const FIRST_STEP: f64 = 1e-6;
 pub struct Simulation {
     pub(super) model: Arc<Model>,
     pub(super) state: State,
-    /// Damage of the teeth.
-    pub(super) fatigue: Fatigue,
+    /// What steps are watched for.
+    pub(super) watched: Watched,
     pub(super) inputs: Inputs,
     pub(super) forces: Option<Forces>,
     /// Where the last step ended that a solver of the host's completed.
@@ -47,7 +47,7 @@ impl Simulation {
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation =
-            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Fatigue::default()), given)?;
+            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
         if parameters.scene.start == Start::Equilibrium {
@@ -68,20 +68,20 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet.
+    /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet and no history.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        Self::resume_with(parameters, inputs, (state, Fatigue::default()), &Given::default())
+        Self::resume_with(parameters, inputs, (state, Watched::default()), &Given::default())
     }
 
-    /// A simulation of `parameters` that continues from a state and damaged teeth, with what is `given` besides.
+    /// A simulation of `parameters` that continues from a state and what was watched, with what is `given` besides.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
-        (state, fatigue): (State, Fatigue),
+        (state, watched): (State, Watched),
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
-        Ok(Self { model, state, fatigue, inputs: *inputs, forces: None, accepted: None })
+        Ok(Self { model, state, watched, inputs: *inputs, forces: None, accepted: None })
     }
 
     /// Sets the inputs that act from now on.
@@ -112,7 +112,7 @@ impl Simulation {
 
     /// Takes over tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
-        progress::complete(&self.model, (&mut self.state, &mut self.fatigue));
+        progress::complete(&self.model, (&mut self.state, &mut self.watched));
         Arc::make_mut(&mut self.model).tune(parameters);
         self.forces = None;
     }
@@ -120,7 +120,7 @@ impl Simulation {
     /// Integrates to `until` [s]; inputs change by their derivatives. On failure the state is that of the last good time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.forces = None;
-        let Self { model, state, fatigue, inputs, .. } = self;
+        let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
         let holds = state.ahead.as_ref().is_some_and(|ahead| ahead.inputs == *inputs);
         if holds && state.input_derivatives.is_none() {
@@ -129,7 +129,7 @@ impl Simulation {
                 return Ok(());
             }
         } else {
-            begin_anew(model, inputs, (state, fatigue));
+            begin_anew(model, inputs, (state, watched));
         }
         if let Gears::Rigid(rigid) = &model.gears
             && !rigid.bodies.act_in(state)
@@ -149,17 +149,17 @@ impl Simulation {
         }
         let before = (*inputs, *state);
         // what nothing counts need not be kept
-        let damage = model.strength.as_ref().map(|_| *fatigue);
-        let mut outcome = progress::integrate(model, (inputs, state, fatigue), until);
+        let kept = model.watch.as_ref().map(|_| *watched);
+        let mut outcome = progress::integrate(model, (inputs, state, watched), until);
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            go_back((inputs, state, fatigue), &before, &damage);
-            begin_anew(model, inputs, (state, fatigue));
-            outcome = progress::integrate(model, (inputs, state, fatigue), until);
+            go_back((inputs, state, watched), &before, &kept);
+            begin_anew(model, inputs, (state, watched));
+            outcome = progress::integrate(model, (inputs, state, watched), until);
         }
         if outcome.is_ok() && !state.is_sound() {
             outcome = Err(StepFailure::not_finite(state.time));
-            go_back((inputs, state, fatigue), &before, &damage);
+            go_back((inputs, state, watched), &before, &kept);
         }
         outcome
     }
@@ -179,21 +179,21 @@ impl Simulation {
         &self.state
     }
 
-    /// Damage of the teeth, for snapshots.
-    pub fn fatigue(&self) -> &Fatigue {
-        &self.fatigue
+    /// What steps are watched for, for snapshots.
+    pub fn watched(&self) -> &Watched {
+        &self.watched
     }
 }
 
 /// Takes all that changes back to what it was `before`.
 #[cold]
 fn go_back(
-    (inputs, state, fatigue): (&mut Inputs, &mut State, &mut Fatigue),
+    (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     before: &(Inputs, State),
-    damage: &Option<Fatigue>,
+    kept: &Option<Watched>,
 ) {
     (*inputs, *state) = *before;
-    if let Some(damage) = damage {
-        *fatigue = *damage;
+    if let Some(kept) = kept {
+        *watched = *kept;
     }
 }

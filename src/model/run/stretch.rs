@@ -6,14 +6,14 @@ use super::hints;
 use super::ledger::{Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
-    self, AfterStep, Course, DormandPrince, DynSecondOrder, DynSystem, Failure, Radau, Rodas4, Rodas5P, SolverContext,
-    Step,
+    self, AfterStep, Course, DormandPrince, DynSecondOrder, DynSystem, Failure, Pending, Radau, Rodas4, Rodas5P,
+    SolverContext, Step,
 };
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
-use crate::model::effects::strength::Fatigue;
+use crate::model::dynamics::watched::Watched;
 use crate::model::scene::{Inputs, Method, SolverSpec};
 use crate::numeric::lanes::{Task, in_lanes};
 
@@ -61,8 +61,8 @@ pub struct Stretch<'a> {
     pub is_shown: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
-    /// Damage of the teeth.
-    pub fatigue: &'a mut Fatigue,
+    /// What steps are watched for.
+    pub watched: &'a mut Watched,
 }
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
@@ -106,7 +106,7 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Stretch { clock, begin, is_shown, inputs, fatigue } = stretch;
+    let Stretch { clock, begin, is_shown, inputs, watched } = stretch;
     let mut course = Course {
         longest: LONGEST,
         resolution: RESOLUTION,
@@ -125,19 +125,21 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, .. } = state;
-        let mut records = Records { begin, work, heat, bias, fatigue: &mut *fatigue };
-        let mut observe = |step: Step<N, Power>| {
+        let mut records = Records { begin, work, heat, bias, watched: &mut *watched };
+        let mut observe = |step: Step<N, Power>, pending: Option<&Pending<N, Power>>| {
             if !is_shown {
                 equations.admit(step.end)?;
             }
-            equations.record(model, &step, &mut records);
+            equations.record(model, (&step, pending), &mut records);
             equations.drag(step.end, &step.power[2], &mut anchors);
             switched = equations.is_due(step.end, step.time);
             Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         outcome = if solver.method == Method::Adaptive {
-            integrate::proceed(&Rodas5P, &*equations, &mut course, clock.now, context, observe)
+            integrate::proceed(&Rodas5P, &*equations, &mut course, clock.now, context, |step, pending| {
+                observe(step, Some(pending))
+            })
         } else {
             otherwise(solver, &*equations, &mut course, clock.now, context, &mut observe)
         };
@@ -168,18 +170,19 @@ fn otherwise<const N: usize>(
     course: &mut Course<N, Power>,
     until: f64,
     context: SolverContext,
-    observe: &mut dyn FnMut(Step<N, Power>) -> Result<AfterStep, ExcessiveDeflection>,
+    observe: &mut dyn FnMut(Step<N, Power>, Option<&Pending<N, Power>>) -> Result<AfterStep, ExcessiveDeflection>,
 ) -> Result<(), Failure<ExcessiveDeflection>> {
     let system = &DynSystem(system);
+    let extended = |step: Step<N, Power>, pending: &Pending<N, Power>| observe(step, Some(pending));
     match solver.method {
-        Method::Adaptive => integrate::proceed(&Rodas5P, system, course, until, context, observe),
-        Method::Radau => integrate::proceed(&Radau, system, course, until, context, observe),
-        Method::Rodas4 => integrate::proceed(&Rodas4, system, course, until, context, observe),
-        Method::DormandPrince => integrate::proceed(&DormandPrince, system, course, until, context, observe),
+        Method::Adaptive => integrate::proceed(&Rodas5P, system, course, until, context, extended),
+        Method::Radau => integrate::proceed(&Radau, system, course, until, context, extended),
+        Method::Rodas4 => integrate::proceed(&Rodas4, system, course, until, context, extended),
+        Method::DormandPrince => integrate::proceed(&DormandPrince, system, course, until, context, extended),
         Method::FixedStep => {
             let counts = (context.statistics, context.budget);
             let Course { point, time, end, .. } = course;
-            integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
+            integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, |step| observe(step, None))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Which heat and which readings the effects have, and their places in the ledger.
 
-use crate::model::effect_kinds::effect::{Heat, Reading};
-use crate::model::effects::EFFECTS;
+use crate::model::effect_kinds::effect::{Changes, Heat, Reading};
+use crate::model::effects::{Declared, EFFECTS};
 
 /// Heat of contact damping, which no effect brings.
 pub const CONTACT_HEAT: usize = 0;
@@ -16,15 +16,22 @@ pub const HEATS: usize = {
     count
 };
 
-/// Number of readings of all effects.
-pub const READINGS: usize = {
+/// Number of readings of all effects that change at any instant, and of those that change with accepted steps.
+pub const INSTANT_READINGS: usize = counted(false);
+pub const STEP_READINGS: usize = counted(true);
+
+const fn counted(by_step: bool) -> usize {
     let (mut count, mut i) = (0, 0);
     while i < EFFECTS.len() {
-        count += EFFECTS[i].readings.len();
+        let mut j = 0;
+        while j < EFFECTS[i].readings.len() {
+            count += (matches!(EFFECTS[i].readings[j].changes, Changes::ByStep) == by_step) as usize;
+            j += 1;
+        }
         i += 1;
     }
     count
-};
+}
 
 /// Whether effect `i` is the first that names its heat.
 const fn is_first(i: usize) -> bool {
@@ -75,9 +82,9 @@ pub fn readings() -> impl Iterator<Item = &'static Reading> {
     EFFECTS.iter().flat_map(|effect| effect.readings)
 }
 
-/// Places of the readings of the effect `name`.
-pub fn places_of(name: &str) -> std::ops::Range<usize> {
-    let before = EFFECTS.iter().take_while(|effect| effect.name != name).map(|effect| effect.readings.len()).sum();
-    let count = EFFECTS.iter().find(|effect| effect.name == name).map_or(0, |effect| effect.readings.len());
-    before..before + count
+/// Places of the readings of the effect `name` among all that change as they do.
+pub fn places_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
+    let count = |effect: &Declared| effect.readings.iter().filter(|reading| reading.changes == changes).count();
+    let before = EFFECTS.iter().take_while(|effect| effect.name != name).map(count).sum();
+    before..before + EFFECTS.iter().find(|effect| effect.name == name).map_or(0, count)
 }

@@ -2,7 +2,7 @@
 
 use super::effect_outputs::{heat_index, places_of};
 use crate::model::effect_kinds::body_effect::BodyEffect;
-use crate::model::effect_kinds::effect::{BUILT, Effect, Instant, Setting};
+use crate::model::effect_kinds::effect::{BUILT, Changes, Effect, Instant, Setting};
 use crate::model::effect_kinds::friction_source::FrictionSource;
 use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};
 use crate::model::effects::{Declared, EffectParameters, Effects, configured};
@@ -108,7 +108,7 @@ impl<'a> SceneEffects<'a> {
 pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, out: &mut [f64]) {
     for (declared, on, effect) in configured(effects, parameters) {
         if !declared.readings.is_empty() {
-            effect.read(&Instant { on, ..*at }, &mut out[places_of(declared.name)]);
+            effect.read(&Instant { on, ..*at }, &mut out[places_of(declared.name, Changes::Always)]);
         }
     }
 }

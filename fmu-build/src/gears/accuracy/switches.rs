@@ -16,9 +16,10 @@ const PREFIX: &str = "effects.";
 const PART_OF_THE_QUESTION: [&str; 4] =
     ["effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake"];
 
-/// Effects that change no motion and only give outputs, with the beginnings of the names of those. Zero is an answer of
+/// Effects that change no motion and only give outputs, with parts of the names of those. Zero is an answer of
 /// theirs, such as a damage of 0, and differs from not asking.
-const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 1] = [("effects.strength", &["stress.", "damage."])];
+const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 2] =
+    [("effects.strength", &["stress.", "damage.", "safety."]), ("effects.mesh_history", &["_peak_to_peak"])];
 
 /// How a scene stands to an effect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,7 +105,7 @@ impl Switch {
     /// Whether it only gives outputs, and `outputs` have one of them.
     pub fn is_asked_for(&self, outputs: &[&Variable]) -> bool {
         let own = ONLY_GIVE_OUTPUTS.iter().filter(|(name, _)| *name == self.row.name).flat_map(|(_, own)| own.iter());
-        own.into_iter().any(|own| outputs.iter().any(|output| output.name.starts_with(own)))
+        own.into_iter().any(|own| outputs.iter().any(|output| output.name.contains(own)))
     }
 
     /// `scene` with this effect on or off.

@@ -4,7 +4,7 @@ use anyhow::{Result, anyhow};
 use bevel_differential::geometry::{GearSpec, Pair, Tredgold, assembly, checks};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::problem::{self, Problem};
-use bevel_differential::variables::{Variable, table};
+use bevel_differential::variables::{Causality, Variable, table};
 
 use crate::gears::scene::set::{Setting, value};
 
@@ -55,7 +55,7 @@ impl Design {
 
 /// Parameters that the geometry follows from.
 pub fn parameters() -> impl Iterator<Item = &'static Variable> {
-    table().rows.iter().filter(|row| counts(row.name))
+    table().rows.iter().filter(|row| row.causality == Causality::Parameter && counts(row.name))
 }
 
 fn counts(name: &str) -> bool {

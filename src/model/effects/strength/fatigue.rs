@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::overload::Overloads;
+use super::utilisation::Utilisation;
 use crate::model::scene::layout::MAX_GROUPS;
 use crate::strength::{Rating, StandingTeeth, ToothDamage};
 
@@ -17,6 +18,8 @@ pub struct Fatigue {
     pub standing: [StandingTeeth; 2],
     /// Stresses that exceeded their strength.
     pub overloads: Overloads,
+    /// Largest stresses by their strengths.
+    pub utilisation: Utilisation,
 }
 
 impl Fatigue {

@@ -10,8 +10,8 @@ use crate::problem::Problem;
 use crate::strength::face_load::root_factor;
 use crate::strength::{Load, Rating, loaded_flank};
 
-/// Readings of stress, which stand before those of damage.
-const STRESSES: usize = 4;
+/// Readings of damage, which stand before those of safety.
+const DAMAGES: usize = 4;
 
 /// Constants of the strength of planet and side gear.
 #[derive(Clone, Copy, Debug)]
@@ -76,7 +76,7 @@ impl GearStrength {
     /// Sets the readings of stress from the loads of all meshes at an instant.
     pub fn read_stresses(&self, meshes: impl Iterator<Item = MeshLoad>, readings: &mut [f64]) {
         for mesh in meshes {
-            let stresses: [f64; STRESSES] = [
+            let stresses = [
                 mesh.largest(|flank| flank.pressure),
                 mesh.largest(|flank| self.rating.contact.pressure(flank.normal, 0.0).unwrap_or(0.0)),
                 mesh.largest(|flank| self.rating.root[0].stress(flank.bending)),
@@ -88,9 +88,11 @@ impl GearStrength {
         }
     }
 
-    /// Sets the readings of damage.
+    /// Sets the readings of damage and safety.
     pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
-        readings[STRESSES..].copy_from_slice(&fatigue.sums(&self.rating));
+        let (damage, safety) = readings.split_at_mut(DAMAGES);
+        damage.copy_from_slice(&fatigue.sums(&self.rating));
+        safety.copy_from_slice(&fatigue.utilisation.safety());
     }
 
     /// Pressure by which pitting of a flank is rated [Pa].
@@ -136,7 +138,8 @@ impl GearStrength {
         }
     }
 
-    /// Records the first stresses that exceed their strength. A planet has its idler strength while it rolls.
+    /// Records the largest stresses by their strengths, and the first that exceed them. A planet has its idler strength while it
+    /// rolls.
     fn watch(&self, fatigue: &mut Fatigue, step: &RolledStep) {
         let rating = &self.rating;
         for (g, both) in step.mesh.iter().enumerate() {
@@ -146,10 +149,17 @@ impl GearStrength {
                 let at = |stress: f64, strength: f64| Overload { time: step.time, stress, strength, group: g, side };
                 let root = |i: usize| load.largest(|flank| rating.root[i].stress(flank.bending));
                 let pressure = load.largest(|flank| self.rated_pressure(flank));
-                let overloads = &mut fatigue.overloads;
-                overloads.watch(Stressed::PlanetRoot, at(root(0), rating.bending[usize::from(!rolls)].strength));
-                overloads.watch(Stressed::SideRoot, at(root(1), rating.bending[1].strength));
-                overloads.watch(Stressed::Flanks, at(pressure, rating.pitting.strength));
+                let Fatigue { overloads, utilisation, .. } = fatigue;
+                let loads = [
+                    (Stressed::PlanetRoot, at(root(0), rating.bending[usize::from(!rolls)].strength)),
+                    (Stressed::SideRoot, at(root(1), rating.bending[1].strength)),
+                    (Stressed::Flanks, at(pressure, rating.pitting.strength)),
+                ];
+                for (what, load) in loads {
+                    overloads.watch(what, load);
+                    let largest = if what == Stressed::Flanks { &mut utilisation.flank } else { &mut utilisation.root };
+                    *largest = largest.max(load.stress / load.strength);
+                }
             }
         }
     }

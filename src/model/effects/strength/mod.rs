@@ -8,6 +8,7 @@ mod gear_strength;
 mod mesh_load;
 mod overload;
 mod spec;
+mod utilisation;
 
 pub use fatigue::Fatigue;
 pub use gear_strength::{GearStrength, RolledStep};

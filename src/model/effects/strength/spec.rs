@@ -76,6 +76,14 @@ impl Declare for StrengthSpec {
         damage("damage.side", "Miner sum of the roots of the worse side gear"),
         damage("damage.planet_flank", "Miner sum of pitting of the worst planet"),
         damage("damage.side_flank", "Miner sum of pitting of the worse side gear"),
+        safety(
+            "safety.root_min",
+            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that roll times the idler factor, over root stress; 1000 at most, and before the first step",
+        ),
+        safety(
+            "safety.flank_min",
+            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over rated contact pressure; 1000 at most, and before the first step",
+        ),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
@@ -163,5 +171,9 @@ const fn stress(name: &'static str, description: &'static str) -> Reading {
 }
 
 const fn damage(name: &'static str, description: &'static str) -> Reading {
+    Reading { name, unit: units::ONE, display: None, changes: Changes::ByStep, description }
+}
+
+const fn safety(name: &'static str, description: &'static str) -> Reading {
     Reading { name, unit: units::ONE, display: None, changes: Changes::ByStep, description }
 }

@@ -1,0 +1,134 @@
+//! A quantity over a step of the integrator, as the continuous extension has it: its extremes, and where it takes a value.
+
+use super::course::bent;
+
+/// A component of the continuous extension of a step, or what depends on several of them linearly; see [`bent`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    /// Value at the begin of the step.
+    pub start: f64,
+    /// Value at its end.
+    pub end: f64,
+    /// Bends of the way in between.
+    pub bends: [f64; 3],
+}
+
+impl Curve {
+    /// Value after a fraction of the step.
+    pub fn at(&self, fraction: f64) -> f64 {
+        if fraction == 1.0 { self.end } else { bent(self.start, self.end, self.bends, fraction) }
+    }
+
+    /// Coefficients of the derivative by the fraction, a cubic.
+    fn slope(&self) -> [f64; 4] {
+        let Self { start, end, bends: [a, b, c] } = *self;
+        [end - start + a, 2.0 * (b - a), 3.0 * (c - b), -4.0 * c]
+    }
+
+    /// Visits values at both ends of a span and wherever the curve is level in between; others of the curve may be among
+    /// them.
+    pub fn visit_extremes(&self, [from, to]: [f64; 2], mut visit: impl FnMut(f64)) {
+        visit(self.at(from));
+        visit(self.at(to));
+        let slope = self.slope();
+        let slope_at = |t: f64| slope[0] + t * (slope[1] + t * (slope[2] + t * slope[3]));
+        // between its own extremes the slope is monotonous
+        let turns = quadratic_roots([slope[1], 2.0 * slope[2], 3.0 * slope[3]]).map(|t| t.clamp(from, to));
+        let [first, second] = [turns[0].min(turns[1]), turns[0].max(turns[1])];
+        for [low, high] in [[from, first], [first, second], [second, to]] {
+            if slope_at(low) * slope_at(high) < 0.0 {
+                visit(self.at(root(slope_at, [low, high])));
+            } else if high < to {
+                visit(self.at(high));
+            }
+        }
+    }
+
+    /// A fraction within the span after which the curve takes `value`, which lies between those at its ends.
+    pub fn crossing(&self, value: f64, span: [f64; 2]) -> f64 {
+        root(|t| self.at(t) - value, span)
+    }
+}
+
+/// Real roots of a quadratic with the coefficients `c`, from the constant on; 0 in the place of one that does not exist.
+fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
+    let discriminant = c[1] * c[1] - 4.0 * c[2] * c[0];
+    if discriminant.is_nan() || discriminant <= 0.0 {
+        return [0.0; 2];
+    }
+    let q = -0.5 * (c[1] + libm::sqrt(discriminant).copysign(c[1]));
+    [q / c[2], c[0] / q].map(|root| if root.is_nan() { 0.0 } else { root })
+}
+
+/// A root of `of` in a span at whose ends its signs differ, by bisection to the last bit.
+fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
+    let begin = of(low);
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return high;
+        }
+        let value = of(middle);
+        if value == 0.0 {
+            return middle;
+        }
+        if (value < 0.0) == (begin < 0.0) { low = middle } else { high = middle }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curves() -> Vec<Curve> {
+        let mut seed = 1u64;
+        let mut draw = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        };
+        let mut all: Vec<Curve> = (0..300)
+            .map(|_| Curve { start: draw(), end: draw(), bends: [8.0 * draw(), 8.0 * draw(), 8.0 * draw()] })
+            .collect();
+        // of lower degrees too
+        all.extend((0..300).map(|i| Curve {
+            start: draw(),
+            end: draw(),
+            bends: [if i % 2 == 0 { draw() } else { 0.0 }, if i % 3 == 0 { draw() } else { 0.0 }, 0.0],
+        }));
+        all
+    }
+
+    #[test]
+    fn extremes_are_those_of_a_dense_recording() {
+        for curve in curves() {
+            for [from, to] in [[0.0, 1.0], [0.3, 0.7], [0.0, 1e-3]] {
+                let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
+                curve.visit_extremes([from, to], |x| (least, largest) = (least.min(x), largest.max(x)));
+                let dense = (0..=2000).map(|k| curve.at(from + (to - from) * f64::from(k) / 2000.0));
+                let (low, high) = dense.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+                assert!(least <= low + 1e-15 && least > low - 2e-5, "{curve:?}: {least} {low}");
+                assert!(largest >= high - 1e-15 && largest < high + 2e-5, "{curve:?}: {largest} {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_crossing_is_where_the_curve_takes_the_value() {
+        for curve in curves() {
+            let middle = 0.5 * (curve.start + curve.end);
+            let at = curve.crossing(middle, [0.0, 1.0]);
+            assert!((curve.at(at) - middle).abs() < 1e-13, "{curve:?}");
+        }
+    }
+
+    #[test]
+    fn negated_curves_have_negated_extremes_to_the_last_bit() {
+        for curve in curves() {
+            let negated = Curve { start: -curve.start, end: -curve.end, bends: curve.bends.map(|b| -b) };
+            let [mut one, mut other] = [Vec::new(), Vec::new()];
+            curve.visit_extremes([0.0, 1.0], |x| one.push(x));
+            negated.visit_extremes([0.0, 1.0], |x| other.push(-x));
+            assert_eq!(one, other);
+        }
+    }
+}

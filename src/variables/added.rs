@@ -1,0 +1,51 @@
+//! Variables that were added later. Their value references come after all others, so that those of the others stay what they
+//! were: hosts store them.
+
+use super::access::Variable;
+
+/// Their names, in the order of their value references. New ones go to the end.
+const ADDED: &[&str] = &[
+    "geometry.planet_mass",
+    "geometry.side_mass",
+    "geometry.contact_ratio",
+    "geometry.outer_cone_distance",
+    "geometry.planet_pitch_angle",
+    "geometry.side_pitch_angle",
+    "geometry.wheel_lash",
+    "safety.root_min",
+    "safety.flank_min",
+    "effects.mesh_history",
+    "left.speed_peak_to_peak",
+    "right.speed_peak_to_peak",
+    "planet[1].left_transmission_error_peak_to_peak",
+    "planet[1].right_transmission_error_peak_to_peak",
+    "planet[2].left_transmission_error_peak_to_peak",
+    "planet[2].right_transmission_error_peak_to_peak",
+    "planet[3].left_transmission_error_peak_to_peak",
+    "planet[3].right_transmission_error_peak_to_peak",
+    "planet[4].left_transmission_error_peak_to_peak",
+    "planet[4].right_transmission_error_peak_to_peak",
+];
+
+/// Takes the later additions out of `rows`, and returns them in their order.
+pub fn taken_out(rows: &mut Vec<Variable>) -> Vec<Variable> {
+    let place = |row: &Variable| ADDED.iter().position(|&name| name == row.name);
+    let mut added: Vec<(usize, Variable)> = rows.iter().filter_map(|row| Some((place(row)?, *row))).collect();
+    rows.retain(|row| place(row).is_none());
+    added.sort_by_key(|&(place, _)| place);
+    added.into_iter().map(|(_, row)| row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{fnv1a, table};
+    use super::*;
+
+    #[test]
+    fn value_references_stay_what_they_were() {
+        let names: Vec<&str> = table().rows.iter().map(|row| row.name).collect();
+        let (first, added) = names.split_at(names.len() - ADDED.len());
+        assert_eq!(added, ADDED);
+        assert_eq!((first.len(), fnv1a(first.join(" ").bytes())), (279, 0x0fe6_0d28_21ac_63fe));
+    }
+}
