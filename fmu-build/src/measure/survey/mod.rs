@@ -4,6 +4,7 @@
 
 mod case;
 mod draw;
+mod shipped;
 mod verdict;
 
 use std::fs;
@@ -16,8 +17,13 @@ use clap::Args;
 
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
-use crate::tools::{paths, script};
+use crate::tools::{paths, script, sections};
 use case::Case;
+
+/// The page with the results, and the marks around them.
+const PAGE: &str = "docs/accuracy.md";
+const RANDOM: [&str; 2] = ["<!-- survey:begin -->", "<!-- survey:end -->"];
+const SHIPPED: [&str; 2] = ["<!-- shipped:begin -->", "<!-- shipped:end -->"];
 
 /// Checks answers of `accuracy` on random scenes, in the FMU, against another method
 #[derive(Args, Clone, Debug)]
@@ -28,6 +34,12 @@ pub struct SurveyCommand {
     /// Seed of the scenes
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Answer for the shipped scenes instead, all outputs of each to 1 %, and say how long that takes
+    #[arg(long)]
+    shipped: bool,
+    /// Also renew the section in docs/accuracy.md
+    #[arg(long)]
+    write: bool,
     /// Folder for the cases and the table of all [default: target/survey]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -36,6 +48,22 @@ pub struct SurveyCommand {
 impl SurveyCommand {
     /// Answers all questions, runs the FMU, and prints the table of misses.
     pub fn run(&self) -> Result<()> {
+        if self.shipped { self.shipped() } else { self.random() }
+    }
+
+    fn shipped(&self) -> Result<()> {
+        let progress = Progress::start("answering");
+        progress.begin_bar("answering");
+        let table = shipped::table(&progress)?;
+        progress.finish();
+        print!("{}", table.terminal());
+        if self.write {
+            sections::renew(PAGE, SHIPPED, &format!("{}\n", table.markdown()))?;
+        }
+        Ok(())
+    }
+
+    fn random(&self) -> Result<()> {
         let progress = Progress::start("looking for Python");
         let environment = Environment::ready(|what| progress.stage(what))?;
         let fmu = paths::fmu();
@@ -58,7 +86,11 @@ impl SurveyCommand {
         progress.finish();
         let found = cases.iter().map(|case| case.judge(&folder)).collect::<Result<Vec<_>>>()?;
         let file = verdict::write(&found, &folder)?;
-        print!("{}", verdict::text(&found, &failed));
+        let text = verdict::text(&found, &failed);
+        print!("{text}");
+        if self.write {
+            sections::renew(PAGE, RANDOM, &format!("\n```text\n{}\n```\n\n", text.trim_end()))?;
+        }
         println!("all cases: {}", paths::shown(&file));
         Ok(())
     }
