@@ -104,11 +104,7 @@ fn run(quick: bool, write: bool) -> Result<()> {
 }
 
 /// What is work, by name.
-const WORK: [(&str, Kind); 3] = [
-    ("floating-point operations", Kind::Float),
-    ("branches and calls", Kind::Branch),
-    ("in other libraries", Kind::Library),
-];
+const WORK: [(&str, Kind); 2] = [("floating-point operations", Kind::Float), ("branches and calls", Kind::Branch)];
 
 impl CountedRun {
     fn costs_no_more_than(&self, other: &Self) -> Result<()> {
