@@ -196,7 +196,9 @@ fn the_ledger_at_a_point_is_that_of_a_run_that_ends_there() {
             // ten tolerances of the energy turned over
             let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * (1.0 + b.heat.iter().sum::<f64>());
             let heats = a.heat.iter().zip(&b.heat).all(|(&x, &y)| close(x, y));
-            let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| close(x, y));
+            // other steps look at the highest stress at other instants
+            let near = |x: f64, y: f64| close(x, y) || (x - y).abs() < 1e-4 * y.abs();
+            let damages = a.readings.iter().zip(&b.readings).all(|(&x, &y)| near(x, y));
             assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
             assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
             // reading leaves no trace

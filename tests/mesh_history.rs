@@ -107,6 +107,8 @@ fn values_are_those_of_a_recording_in_steps_of_a_microsecond() {
         (false, &[][..], &[][..]),
         (true, &[][..], &[][..]),
         (false, &[("contact.law", 2)][..], &["effects.pin_compliance"][..]),
+        // planets that differ
+        (false, &[("geometry.planet_count", 4), ("tooth_errors.accuracy_grade", 7)][..], &["effects.tooth_errors"][..]),
     ] {
         let (dense, coarse) = (turn(1.0, integers, switches), turn(1.0, integers, switches));
         let expected = recorded(&dense, varies);

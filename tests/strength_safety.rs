@@ -72,7 +72,7 @@ fn planets_that_roll_have_their_idler_strength_and_safety_only_falls() {
         let now = safety(&host);
         // the load at a point within a step of the solver counts only while the time stands there
         let grown = (now[0] / last[0] - 1.0).max(now[1] / last[1] - 1.0);
-        assert!(grown < 1e-3, "{last:?} {now:?}");
+        assert!(grown < 1e-4, "{last:?} {now:?}");
         most = most.max(grown);
         last = now;
         largest[0] = largest[0].max(host.get("stress.root_planet_max"));
@@ -81,7 +81,7 @@ fn planets_that_roll_have_their_idler_strength_and_safety_only_falls() {
     // recordings miss the highest peaks
     let recorded = 1.0 / (largest[0] / 0.7e9).max(largest[1] / 1e9);
     println!("S_F = {:.4}, recorded {recorded:.4}, grown by {most:e}", last[0]);
-    assert!(last[0] <= recorded * (1.0 + 1e-12) && last[0] > 0.97 * recorded, "{} {recorded}", last[0]);
+    assert!(last[0] < recorded * (1.0 + 1e-4) && last[0] > 0.97 * recorded, "{} {recorded}", last[0]);
 }
 
 #[test]

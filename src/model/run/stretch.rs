@@ -162,6 +162,10 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
     outcome.map_err(|failure| explain(failure, begin + clock.time, model))
 }
 
+/// What looks at completed steps, each with what it was while pending.
+type Observer<'a, const N: usize> =
+    &'a mut dyn FnMut(Step<N, Power>, Option<&Pending<N, Power>>) -> Result<AfterStep, ExcessiveDeflection>;
+
 /// Integrates by another method than the default.
 #[inline(never)]
 fn otherwise<const N: usize>(
@@ -170,7 +174,7 @@ fn otherwise<const N: usize>(
     course: &mut Course<N, Power>,
     until: f64,
     context: SolverContext,
-    observe: &mut dyn FnMut(Step<N, Power>, Option<&Pending<N, Power>>) -> Result<AfterStep, ExcessiveDeflection>,
+    observe: Observer<N>,
 ) -> Result<(), Failure<ExcessiveDeflection>> {
     let system = &DynSystem(system);
     let extended = |step: Step<N, Power>, pending: &Pending<N, Power>| observe(step, Some(pending));
