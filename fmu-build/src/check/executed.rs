@@ -133,7 +133,7 @@ fn mnemonics(program: &Path) -> Result<BTreeMap<u64, String>> {
     Ok(String::from_utf8_lossy(&output.stdout).lines().filter_map(disassembled).collect())
 }
 
-/// Address and name in a line such as `  4a10:	vaddsd %xmm0,%xmm1,%xmm2`.
+/// Address and name in a line such as `4a10: vaddsd %xmm0,%xmm1,%xmm2`.
 fn disassembled(line: &str) -> Option<(u64, String)> {
     let (address, rest) = line.split_once(':')?;
     let address = u64::from_str_radix(address.trim(), 16).ok()?;
