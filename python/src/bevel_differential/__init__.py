@@ -1,0 +1,18 @@
+"""The dynamics of a bevel gear differential, from Python.
+
+>>> import numpy as np
+>>> from bevel_differential import Differential
+>>> turn = Differential({"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s",
+...                      "carrier.speed_command": (954, "deg/s")})
+>>> speeds = turn.run(outputs=["left.speed", "right.speed"], stop=0.5)
+>>> speeds.dtype.names
+('time', 'left.speed', 'right.speed')
+>>> print(f"{np.degrees(speeds['left.speed'][-360:].mean()):.2f} deg/s")
+1079.00 deg/s
+"""
+
+from .differential import Differential
+from .fmu import Fmu
+from .values import DifferentialError
+
+__all__ = ["Differential", "DifferentialError", "Fmu"]

@@ -1,0 +1,61 @@
+"""The FMU: extracted and loaded once per process."""
+
+import atexit
+import importlib.resources
+import os
+import shutil
+import threading
+from pathlib import Path
+
+from fmpy import extract, read_model_description
+
+from .values import DifferentialError, Variable, suggestion
+
+_loaded = {}
+_lock = threading.Lock()
+
+
+class Fmu:
+    """An extracted FMU and its variables.
+
+    `Fmu.of(path)` gives the one of this process; without a path it is the FMU that came with the package, or the one that the
+    environment variable BEVEL_DIFFERENTIAL_FMU names."""
+
+    def __init__(self, file):
+        self.file = Path(file)
+        self.folder = extract(str(file))
+        self.description = read_model_description(self.folder)
+        units = {unit.name: unit for unit in self.description.unitDefinitions}
+        self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
+
+    @classmethod
+    def of(cls, file=None):
+        """The FMU of `file`, extracted when it is asked for first."""
+        file = Path(file or os.environ.get("BEVEL_DIFFERENTIAL_FMU") or shipped()).resolve()
+        key = (os.getpid(), file)
+        with _lock:
+            if key not in _loaded:
+                if not file.is_file():
+                    raise DifferentialError(f"{file}: there is no such FMU")
+                _loaded[key] = cls(file)
+            return _loaded[key]
+
+    def variable(self, name):
+        """The variable `name`."""
+        try:
+            return self.variables[name]
+        except KeyError:
+            raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
+
+
+def shipped():
+    """The FMU in this package."""
+    return Path(str(importlib.resources.files(__package__) / "BevelDifferential.fmu"))
+
+
+@atexit.register
+def _remove_folders():
+    for (process, _), fmu in _loaded.items():
+        # a child that was forked has the entries of its parent
+        if process == os.getpid():
+            shutil.rmtree(fmu.folder, ignore_errors=True)

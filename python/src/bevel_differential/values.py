@@ -1,0 +1,106 @@
+"""Values as a user writes them, and as the FMU takes them."""
+
+import difflib
+import math
+import re
+
+_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
+
+
+class DifferentialError(ValueError):
+    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do."""
+
+
+class Variable:
+    """A variable of the FMU, with its units and literals.
+
+    Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
+    `unit` (SI) and `description`."""
+
+    def __init__(self, described, units):
+        self.name = described.name
+        self.kind = described.type
+        self.causality = described.causality
+        self.variability = described.variability
+        self.reference = described.valueReference
+        self.description = described.description
+        declared = described.declaredType
+        self.unit = described.unit or (declared.unit if declared is not None else None)
+        self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
+        shown = units.get(self.unit)
+        # a value in SI is (value in the shown unit - offset) / factor
+        self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
+        for unit in shown.displayUnits if shown is not None else []:
+            self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
+
+    def number(self, value):
+        """`value` as the FMU takes it: SI, number of a literal, bool.
+
+        `value` may be a number, a pair (number, unit), text such as "4.5 mm", or a literal's name."""
+        if self.kind == "Boolean":
+            return self._boolean(value)
+        if self.kind == "Enumeration":
+            return self._literal(value)
+        if isinstance(value, tuple) and len(value) == 2:
+            return self._whole(self._si(value[0], value[1], value))
+        if isinstance(value, str):
+            return self._whole(self._parsed(value))
+        return self._whole(self._float(value, value))
+
+    def _boolean(self, value):
+        words = {"true": True, "false": False}
+        if isinstance(value, str) and value.lower() in words:
+            return words[value.lower()]
+        if isinstance(value, (bool, int)) or type(value).__name__ == "bool_":
+            if value in (0, 1):
+                return bool(value)
+        raise DifferentialError(f"{self.name} = {value!r}: it is true or false")
+
+    def _literal(self, value):
+        if isinstance(value, str) and value in self.literals:
+            return self.literals[value]
+        if not isinstance(value, (str, bool)) and value in self.literals.values():
+            return int(value)
+        words = ", ".join(f"{name} ({number})" for name, number in self.literals.items())
+        raise DifferentialError(f"{self.name} = {value!r}: it is one of {words}{suggestion(str(value), self.literals)}")
+
+    def _parsed(self, text):
+        match = _NUMBER_AND_UNIT.match(text)
+        if not match:
+            raise DifferentialError(f"{self.name} = {text!r}: write a number, or a number and a unit, such as \"4.5 mm\"")
+        return self._si(match[1], match[2], text)
+
+    def _si(self, number, unit, written):
+        number = self._float(number, written)
+        if unit is None or unit == self.unit:
+            return number
+        if unit not in self.units:
+            known = ", ".join(self.units) or "no unit"
+            raise DifferentialError(f"{self.name} = {written!r}: unit {unit!r} is not one of {known}")
+        factor, offset = self.units[unit]
+        return (number - offset) / factor
+
+    def _float(self, value, written):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            raise DifferentialError(f"{self.name} = {written!r}: it is a number{self._in_unit()}") from None
+        if not math.isfinite(number):
+            raise DifferentialError(f"{self.name} = {written!r}: it is a finite number{self._in_unit()}")
+        return number
+
+    def _whole(self, number):
+        if self.kind != "Integer":
+            return number
+        if number != int(number):
+            raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
+        return int(number)
+
+    def _in_unit(self):
+        return f" in {self.unit}" if self.unit else ""
+
+
+def suggestion(word, known):
+    """" (did you mean …?)", or nothing."""
+    near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
+    return f" (did you mean {' or '.join(near)}?)" if near else ""

@@ -1,0 +1,134 @@
+"""The Python package: the same bits as through fmpy, kept instances, values as a user writes them, errors that help."""
+
+import doctest
+import os
+import pickle
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fmpy import simulate_fmu
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python" / "src"))
+import bevel_differential  # noqa: E402
+from bevel_differential import Differential, DifferentialError  # noqa: E402
+
+TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
+TURN_FMPY = {"scene.planet_spin": 2, "planet.spin_command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}
+OUTPUTS = ["left.speed", "right.speed", "planet[1].left_pairs", "left.normal_force", "held.sides", "solver.steps"]
+
+
+@pytest.fixture
+def turn(fmu_file):
+    with Differential(TURN, fmu=fmu_file) as differential:
+        yield differential
+
+
+def through_fmpy(fmu_file, start_values, outputs, stop=0.1, step=0.001, signals=None):
+    return simulate_fmu(fmu_file, start_values=start_values, output=outputs, stop_time=stop, output_interval=step,
+                        input=signals, logger=lambda *_: None)
+
+
+def same(here, there):
+    return all(np.array_equal(here[name], there[name]) for name in here.dtype.names)
+
+
+def test_a_run_has_the_bits_that_fmpy_gives(turn, fmu_file):
+    here = turn.run(outputs=OUTPUTS, stop="100 ms", step="1 ms")
+    assert same(here, through_fmpy(fmu_file, TURN_FMPY, OUTPUTS))
+
+
+def test_an_instance_that_is_kept_gives_the_same_bits_again(turn):
+    first = turn.run(outputs=OUTPUTS, stop=0.05)
+    turn.set(left__load_torque=100.0).run(outputs=OUTPUTS, stop=0.02)
+    again = turn.set(left__load_torque=(835.0, "N.m")).run(outputs=OUTPUTS, stop=0.05)
+    assert same(first, again)
+
+
+def test_one_long_step_gives_the_values_at_the_end(turn, fmu_file):
+    last = through_fmpy(fmu_file, TURN_FMPY, OUTPUTS, stop=0.5, step=0.5)[-1]
+    assert turn.final(OUTPUTS, stop=0.5) == {name: last[name] for name in OUTPUTS}
+
+
+def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
+    times, loads = np.array([0.0, 0.02, 0.02, 0.05]), np.array([100.0, 200.0, 400.0, 300.0])
+    signals = np.array(list(zip(times, loads)), [("time", float), ("left.load_torque", float)])
+    with Differential(fmu=fmu_file) as straight:
+        by_arrays = straight.run({"left.load_torque": (times, loads)}, ["left.speed", "left.shaft_torque"], 0.05)
+        by_record = straight.run(signals, ["left.speed", "left.shaft_torque"], 0.05)
+    there = through_fmpy(fmu_file, {}, ["left.speed", "left.shaft_torque"], 0.05, signals=signals)
+    assert same(by_arrays, by_record)
+    assert len(by_arrays) == len(there) and np.array_equal(by_arrays["time"], there["time"])
+    # fmpy rounds a value between two points differently
+    for name in ("left.speed", "left.shaft_torque"):
+        assert np.allclose(by_arrays[name], there[name], rtol=1e-6, atol=1e-6)
+
+
+def test_a_jump_between_points_is_a_point(fmu_file):
+    with Differential(fmu=fmu_file) as straight:
+        found = straight.run({"left.load_torque": ([0.0, 0.0035, 0.0035], [835.0, 835.0, 0.0])}, stop=0.005)
+    assert found["time"].tolist() == [0.0, 0.001, 0.002, 0.003, 0.0035, 0.004, 0.005]
+
+
+@pytest.mark.parametrize("written", ["4.5 mm", (4.5, "mm"), "4500 um", "0.0045", 0.0045, (0.0045, "m"), np.float64(0.0045)])
+def test_a_length_may_be_written_in_many_ways(fmu_file, written):
+    differential = Differential({"geometry.module": written}, fmu=fmu_file)
+    assert differential.values["geometry.module"] == pytest.approx(0.0045, rel=1e-15)
+
+
+def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
+    expected = turn.run(outputs=OUTPUTS, stop=0.02)
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: turn.run(outputs=OUTPUTS, stop=0.02), range(8)))
+    assert all(same(expected, one) for one in found)
+    with pickle.loads(pickle.dumps(turn)) as copy:
+        assert same(expected, copy.run(outputs=OUTPUTS, stop=0.02))
+
+
+@pytest.mark.parametrize("use, parts", [
+    (lambda d: d.set({"geometry.modul": 1.0}), ["geometry.modul", "did you mean geometry.module"]),
+    (lambda d: d.set({"geometry.module": "4 ft"}), ["geometry.module", "'ft'", "mm"]),
+    (lambda d: d.set({"geometry.module": "wide"}), ["geometry.module", "wide", "4.5 mm"]),
+    (lambda d: d.set({"geometry.module": float("nan")}), ["geometry.module", "finite"]),
+    (lambda d: d.set({"geometry.planet_teeth": 10.5}), ["geometry.planet_teeth", "whole"]),
+    (lambda d: d.set(contact__law="lin"), ["contact.law", "line (2)", "did you mean line"]),
+    (lambda d: d.set({"effects.strength": 2}), ["effects.strength", "true or false"]),
+    (lambda d: d.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
+    (lambda d: d.run(outputs=["left.sped"]), ["left.sped", "did you mean left.speed"]),
+    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "no input"]),
+    (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), ["left.load_torque", "2 times for 1"]),
+    (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), ["left.load_torque", "must not fall"]),
+    (lambda d: d.run(stop=0.0), ["stop"]),
+    (lambda d: d.run(step="1 fortnight"), ["step", "fortnight"]),
+    (lambda d: d.run(step=-1e-3), ["step"]),
+])
+def test_what_cannot_be_is_said_at_once(turn, use, parts):
+    with pytest.raises(DifferentialError) as error:
+        use(turn)
+    assert all(part in str(error.value) for part in parts), error.value
+
+
+def test_the_fmu_s_own_message_reaches_the_user_and_the_instance_goes_on(turn):
+    expected = turn.run(outputs=OUTPUTS, stop=0.01)
+    with pytest.raises(DifferentialError, match=r"geometry.module: -0.0045 m is outside \["):
+        Differential({**TURN, "geometry.module": "-4.5 mm"}, fmu=turn.fmu.file).run()
+    turn.set({"geometry.module": "-4.5 mm"})
+    with pytest.raises(DifferentialError):
+        turn.run(stop=0.01)
+    assert same(expected, turn.set({"geometry.module": "4.5 mm"}).run(outputs=OUTPUTS, stop=0.01))
+
+
+def test_the_package_finds_the_fmu_by_the_environment(fmu_file, monkeypatch):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    assert Differential().fmu.file == Path(os.path.realpath(fmu_file))
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", "/nowhere.fmu")
+    with pytest.raises(DifferentialError, match="no such FMU"):
+        Differential()
+
+
+def test_the_example_of_the_package_holds(fmu_file, monkeypatch):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    found = doctest.testmod(bevel_differential)
+    assert found.attempted > 3 and found.failed == 0
