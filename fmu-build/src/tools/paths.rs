@@ -4,7 +4,7 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 
 /// Root of the workspace, known at compile time: this program belongs to its workspace.
 pub fn workspace() -> PathBuf {
@@ -26,6 +26,17 @@ pub fn target() -> PathBuf {
 /// Makes `folder` and its parents unless they exist.
 pub fn create_folder(folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", shown(folder)))
+}
+
+/// Says before long work that `file` could not be written after it, as its folder is not there.
+pub fn ensure_parent(file: &Path) -> Result<()> {
+    let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
+    ensure!(
+        parent.is_none_or(Path::is_dir),
+        "{} cannot be written: its folder is not there; make the folder or choose another",
+        shown(file)
+    );
+    Ok(())
 }
 
 /// The packaged FMU.

@@ -18,3 +18,8 @@ impl std::error::Error for UsageError {}
 pub fn error(what: impl Into<String>) -> anyhow::Error {
     anyhow::Error::new(UsageError(what.into().replace('\n', "; ")))
 }
+
+/// `problem` with all its causes, as an error of use.
+pub fn of(problem: anyhow::Error) -> anyhow::Error {
+    anyhow::Error::new(UsageError(format!("{problem:#}")))
+}

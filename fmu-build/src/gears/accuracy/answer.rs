@@ -11,6 +11,7 @@ use super::search::{Found, is_within, search};
 use super::switches::{Standing, Switch, effects, put};
 use super::want::{self, Want};
 use crate::gears::scene::Scene;
+use crate::gears::scene::run::SceneRun;
 use crate::tools::usage;
 
 /// Instructions of all runs, in those of a reference run; and of a reference that is not certain, as little can be told.
@@ -68,6 +69,8 @@ pub enum Role {
         typical: Vec<(&'static Variable, f64)>,
         /// Largest change by them, if they were tried.
         by: Option<f64>,
+        /// Change by the values that the scene has.
+        now: f64,
     },
     /// The plainer level that is chosen does not know it, and is accurate enough all the same.
     NotKnown,
@@ -77,6 +80,8 @@ pub enum Role {
     SetOff,
     /// Gives outputs alone, and none of them is wanted.
     NotAsked,
+    /// Runs without it do not come to their end, and why.
+    Kept(String),
     /// Does not go with the scene, and why.
     Refused(String),
 }
@@ -103,6 +108,7 @@ pub fn answer(scene: &Scene, question: &Question, say: &mut dyn FnMut(f64, &str)
             question.from, scene.name, scene.stop_time, scene.step
         )));
     }
+    SceneRun::start(&scene, scene.step).map_err(usage::of)?;
     let richest = reference::richest(&scene)?;
     let (reference, spent) = reference::run(&richest.scene, &wants, question, say)?;
     let uncertain = 3.0 * reference.stray() > question.within;
@@ -160,7 +166,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
                 Some(base) => acting(bench, &switch, [*run, base], chosen.is_some_and(|p| switch.is_on(&p)), within),
                 None => continue,
             },
-            (Some(Err(why)), _) => Role::Refused(format!("fails without: {why}")),
+            (Some(Err(why)), _) => Role::Kept(why.clone()),
             (None, Standing::NotAsked) => Role::NotAsked,
             (None, _) if in_rich => Role::NotKnown,
             (None, Standing::SetOff) => Role::SetOff,
@@ -173,7 +179,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
         let role = match (role, found.rich) {
             (Role::NotKnown, Some(rich)) => {
                 let typical = switch.typical(&bench.trials[rich].scene);
-                if typical.is_empty() { Role::NotKnown } else { neutral(bench, &switch, rich, typical) }
+                if typical.is_empty() { Role::NotKnown } else { neutral(bench, &switch, rich, typical, 0.0) }
             }
             (role, _) => role,
         };
@@ -186,8 +192,8 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
 fn acting(bench: &mut Bench, switch: &Switch, [without, with]: [usize; 2], chosen: bool, within: f64) -> Role {
     let by = change(bench, without, with);
     let typical = switch.typical(&bench.trials[with].scene);
-    if by <= NOTHING * within && !chosen && !typical.is_empty() {
-        neutral(bench, switch, with, typical)
+    if by <= within && !chosen && !typical.is_empty() {
+        neutral(bench, switch, with, typical, if by <= NOTHING * within { 0.0 } else { by })
     } else {
         Role::Acts { by, chosen }
     }
@@ -199,10 +205,10 @@ fn change(bench: &Bench, run: usize, other: usize) -> f64 {
     pairs.fold(0.0, |most, ((&a, &b), &scale)| f64::max(most, Want::error(a, b, scale)))
 }
 
-/// An effect that changes nothing, with what typical values would do.
-fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'static Variable, f64)>) -> Role {
+/// An effect that changes nothing, or too little by `now`, with what typical values would do.
+fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'static Variable, f64)>, now: f64) -> Role {
     if !bench.has_room(bench.trials[rich].cost) {
-        return Role::Neutral { typical, by: None };
+        return Role::Neutral { typical, by: None, now };
     }
     let mut scene = bench.trials[rich].scene.clone();
     for &(row, value) in &typical {
@@ -210,5 +216,5 @@ fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'stat
     }
     let run = bench.run(&scene, &format!("typical values of {}", switch.name()));
     let by = run.ok().map(|run| change(bench, run, rich));
-    Role::Neutral { typical, by }
+    Role::Neutral { typical, by, now }
 }

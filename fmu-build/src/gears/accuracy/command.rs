@@ -24,10 +24,10 @@ pub struct AccuracyCommand {
     #[arg(long, value_name = "OUTPUT[:STATISTIC]")]
     want: Vec<String>,
     /// The accuracy that it needs, such as 1%
-    #[arg(long, value_name = "PERCENT")]
+    #[arg(long, value_name = "PERCENT", allow_hyphen_values = true)]
     within: String,
     /// Judge outputs from this time on, such as 10ms
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     from: Option<String>,
     /// Change the scene, such as left.load_torque=500N.m; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
@@ -58,12 +58,16 @@ impl AccuracyCommand {
         let file = self.write.as_ref().map(|file| file.clone().unwrap_or_else(|| chosen::default_file(&scene)));
         // before the work, not after it
         file.as_deref().map(chosen::ensure_new).transpose()?;
+        let folder = self.out.clone().unwrap_or_else(|| front::folder(&scene.name));
+        paths::create_folder(&folder)?;
+        for target in [&self.ssv, &self.python].into_iter().flatten() {
+            paths::ensure_parent(target)?;
+        }
         let begun = Instant::now();
         let progress = Progress::start("running the reference");
         progress.begin_bar("running the reference");
         let found = answer(&scene, &question, &mut |done, what| progress.advance(done, what))?;
         let took = begun.elapsed().as_secs_f64();
-        let folder = self.out.clone().unwrap_or_else(|| front::folder(&scene.name));
         let runs = front::write(&found, &folder)?;
         let picture = if self.no_picture { None } else { Some(front::draw(&found, &folder, &progress)?) };
         progress.finish();
@@ -115,10 +119,14 @@ pub fn fraction(text: &str) -> Result<f64> {
         return Err(wrong("is no number"));
     }
     if value < FINEST {
-        return Err(wrong("must be 1e-6 or more: no model of gears is as accurate as that"));
+        return Err(wrong(if value > 0.0 {
+            "must be 1e-6 or more: no model of gears is as accurate as that"
+        } else {
+            "must be above 0"
+        }));
     }
     if value >= 1.0 {
-        let meant = if per == 1.0 && value < 100.0 { format!(", did you mean {number}%?") } else { String::new() };
+        let meant = if per == 1.0 && value < 100.0 { format!(" (did you mean {number}%?)") } else { String::new() };
         return Err(wrong(&format!("must be below 100 %{meant}")));
     }
     Ok(value)

@@ -1,5 +1,7 @@
 //! The answer in words.
 
+use bevel_differential::model::GearContact;
+
 use super::answer::{Answer, Role};
 use super::bench::Trial;
 use super::gears::Gears;
@@ -11,6 +13,10 @@ use crate::tools::table::labelled;
 
 /// Width of the first column.
 const INDENT: usize = 11;
+/// A start that takes this part of the run is named.
+const LONG_START: f64 = 0.2;
+/// A setting that is so many times nearer than its own gears with all effects owes that to errors that cancel.
+const CANCELLED: f64 = 2.0;
 /// So many wanted quantities are listed by name.
 const LISTED: usize = 6;
 
@@ -31,6 +37,15 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
             lines.push(("Use", format!("{}.", setting(&chosen.scene.parameters))));
             let certain = if answer.is_uncertain() { " NOT CERTAIN, see the reference." } else { "" };
             lines.push(("", format!("{}.{certain}", told(answer, chosen, 0))));
+            if let (Some(seconds), true) = (answer.seconds[0], chosen.effort.start > LONG_START * chosen.effort.seconds)
+            {
+                let all = two((seconds + chosen.effort.start) * 1e3);
+                let start = two(chosen.effort.start * 1e3);
+                lines.push(("", format!("The start takes {start} of the {all} ms of a run, once for the same gears.")));
+            }
+            if let Some(by) = cancelled(answer, chosen) {
+                lines.push(("", by));
+            }
         }
         None => lines.push(("Use", "nothing that was tried comes to its end; see the reference.".into())),
     }
@@ -42,6 +57,13 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
     }
     lines.push(("Reference", reference(answer)));
     lines.push(("Gears", gears(answer)));
+    if answer.scene.parameters.scene.gear_contact == GearContact::Solid {
+        lines.push((
+            "",
+            "Solid teeth, which the scene asks for, are not judged: faceted flanks are a worse model than these."
+                .into(),
+        ));
+    }
     lines.extend(effects(answer));
     for bound in knowledge::bounds(&answer.scene.outputs, &answer.wants) {
         lines.push(("Not known", format!("{bound}.")));
@@ -113,6 +135,20 @@ fn reference(answer: &Answer) -> String {
     text
 }
 
+/// A warning where the chosen setting is nearer to the reference than the same gears with all effects: what it leaves out makes up
+/// for what its gears lack, in this scene.
+fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
+    let own = Gears::of(&chosen.scene.parameters);
+    let (_, full) = answer.gears.iter().find(|(gears, _)| *gears == own)?;
+    let full = answer.trials[*full.as_ref().ok()?].error();
+    (full > answer.within / CANCELLED && full > CANCELLED * chosen.error()).then(|| {
+        format!(
+            "Errors cancel: with all effects the same gears are off by {}. At other loads and speeds ask again.",
+            percent(full)
+        )
+    })
+}
+
 /// Error of each plainer level and law.
 fn gears(answer: &Answer) -> String {
     let errors = answer.gears.iter().map(|(gears, run)| match run {
@@ -124,7 +160,7 @@ fn gears(answer: &Answer) -> String {
         let own = Gears::of(&answer.reference.scene.parameters).text();
         return format!("{own} is set by the scene and part of the question.");
     }
-    format!("{}.", errors.join(", "))
+    format!("with all effects that go with them: {}.", errors.join(", "))
 }
 
 /// Why effects are in or out, those of one reason together.
@@ -160,7 +196,7 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     );
     push("Out", join("acts below the accuracy: ", names(&acts(false, false))));
     for (switch, role) in &answer.effects {
-        if let Role::Neutral { typical, by } = role {
+        if let Role::Neutral { typical, by, now } = role {
             let values: Vec<String> =
                 typical.iter().map(|(row, value)| format!("{} = {}", row.name, units::text(row, *value))).collect();
             let effect = match by {
@@ -170,10 +206,11 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
                 Some(by) => format!("would change a wanted quantity by {}", percent(*by)),
                 None => "were not tried".into(),
             };
+            let acts = if *now > 0.0 { format!("acts by {} only", percent(*now)) } else { "acts on nothing".into() };
             push(
                 "Neutral",
                 format!(
-                    "{} acts on nothing, as the scene leaves its values at zero; typical ones, {}, {effect}",
+                    "{} {acts}, as the scene leaves values at zero; typical ones, {}, {effect}",
                     switch.name(),
                     values.join(", ")
                 ),
@@ -181,19 +218,23 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
         }
     }
     push(
-        "Not there",
-        join(
-            "part of the question, judged only where the scene has it: ",
-            names(&|s, role| matches!(role, Role::NotThere).then(|| s.name().into())),
-        ),
+        "Not in it",
+        join("so not judged: ", names(&|s, role| matches!(role, Role::NotThere).then(|| s.name().into()))),
     );
     push("Set off", join("by the scene: ", names(&|s, role| matches!(role, Role::SetOff).then(|| s.name().into()))));
     push(
         "Not asked",
         join(
-            "gives outputs alone, and none of them is wanted: ",
+            "only add outputs, and none of them is wanted: ",
             names(&|s, role| matches!(role, Role::NotAsked).then(|| s.name().into())),
         ),
+    );
+    push(
+        "Kept",
+        names(&|s, role| match role {
+            Role::Kept(why) => Some(format!("{}, as the run without it fails: {why}", s.name())),
+            _ => None,
+        }),
     );
     push(
         "Refused",

@@ -154,7 +154,11 @@ fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> 
     let sense = (last - first).signum();
     let periods = ((last - first).abs() / TAU * (1.0 + 1e-12)).floor();
     if periods < 1.0 {
-        return Err(format!("{} does not come through one period in the time that counts", rotation()));
+        return Err(format!(
+            "{} turns by less than one period in the time that is judged; ask for another statistic, let the scene run longer \
+             (--set stop_time=…), or let it turn",
+            rotation()
+        ));
     }
     if phase.windows(2).any(|pair| (pair[1] - pair[0]) * sense < -1e-9) {
         return Err(format!("{} turns to and fro", rotation()));

@@ -4,12 +4,12 @@ use std::fs::{self, File};
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use super::run::SceneRun;
 use super::{find, find_with, list, loads, plan, run, script, ssv, units};
-use crate::tools::paths;
+use crate::tools::{paths, usage};
 
 /// Describes a scene, or lists all scenes; simulates it, or writes it for other hosts of the FMU
 #[derive(Args, Clone, Debug)]
@@ -58,7 +58,7 @@ impl SceneCommand {
             print!("{}", list()?);
             return Ok(());
         };
-        let scene = find_with(name, &self.set)?;
+        let scene = find_with(name, &self.set).map_err(usage::of)?;
         print!("{}", plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation));
         if let Some(path) = &self.ssv {
             write(path, &ssv::text(&scene)?)?;
@@ -85,10 +85,10 @@ impl SceneCommand {
 impl LoadsCommand {
     /// Simulates the scene and writes the file.
     pub fn run(&self) -> Result<()> {
-        let scene = find(&self.scene)?;
+        let scene = find(&self.scene).map_err(usage::of)?;
         let path = self.out.as_path();
         let every = self.every.as_deref().map(units::seconds).transpose();
-        let every = every.map_err(|problem| anyhow!("--every: {problem}"))?;
+        let every = every.map_err(|problem| usage::error(format!("--every: {problem}")))?;
         let mut file = create(path)?;
         let lines = loads::write(&scene, every, &mut file)?;
         file.flush().with_context(|| format!("{} cannot be written", path.display()))?;

@@ -29,7 +29,7 @@ const SHIPPED: [&str; 2] = ["<!-- shipped:begin -->", "<!-- shipped:end -->"];
 #[derive(Args, Clone, Debug)]
 pub struct SurveyCommand {
     /// Number of scenes
-    #[arg(long, default_value_t = 60)]
+    #[arg(long, default_value_t = 60, value_parser = clap::value_parser!(u64).range(1..))]
     scenes: u64,
     /// Seed of the scenes
     #[arg(long, default_value_t = 1)]
