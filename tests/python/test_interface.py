@@ -132,3 +132,11 @@ def test_the_example_of_the_package_holds(fmu_file, monkeypatch):
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     found = doctest.testmod(bevel_differential)
     assert found.attempted > 3 and found.failed == 0
+
+
+def test_warnings_of_a_run_can_be_read(fmu_file):
+    with Differential({"geometry.module": "5 mm"}, fmu=fmu_file) as own_gears:
+        own_gears.run(stop=0.001)
+        assert any("line_weber" in warning for warning in own_gears.warnings), own_gears.warnings
+        own_gears.set(contact__law="line_weber", geometry__face_width="15 mm").run(stop=0.001)
+        assert own_gears.warnings == []

@@ -10,6 +10,8 @@ from .values import DifferentialError
 # what the functions for each kind of variable are called, and what they take
 CALLS = {"Real": ("Real", np.float64), "Integer": ("Integer", np.int32), "Enumeration": ("Integer", np.int32),
          "Boolean": ("Boolean", np.int32)}
+# what the log is to have
+LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 
@@ -28,6 +30,7 @@ class Instance:
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
         self._callbacks.freeMemory = defaultCallbacks.freeMemory
         self._slave.instantiate(callbacks=self._callbacks, loggingOn=False)
+        self._slave.setDebugLogging(True, LOGGED)
         self._component = ctypes.c_void_p(self._slave.component)
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
