@@ -8,7 +8,7 @@ use bevel_differential::contact::detailed::{Detailed, Face, KnownSlice, Opening}
 use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothErrors};
 use bevel_differential::contact::pairs::Flank;
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Simulation, readings};
+use bevel_differential::model::{Changes, GearContact, Inputs, Parameters, PlanetSpin, Simulation, readings};
 use bevel_differential::numeric::Jet;
 use bevel_differential::strength::RootStress;
 use bevel_differential::strength::face_load::{exponent, exponent_of, root_factor};
@@ -155,6 +155,7 @@ fn laws_of_one_resultant_and_solids_on_their_apex_carry_evenly_by_definition() {
 
 #[test]
 fn an_application_factor_multiplies_the_load() {
+    let by_step = || readings().filter(|reading| reading.changes == Changes::ByStep);
     let rated = |factor: f64| {
         let mut p = Parameters::default();
         p.effects.strength = true;
@@ -167,7 +168,7 @@ fn an_application_factor_multiplies_the_load() {
         let stresses = names.map(|name| reading(&mut simulation, name));
         let ledger = simulation.ledger().readings;
         let damage = ["damage.planet", "damage.planet_flank"]
-            .map(|name| ledger[readings().position(|r| r.name == name).unwrap()]);
+            .map(|name| ledger[by_step().position(|r| r.name == name).unwrap()]);
         (stresses, damage)
     };
     let ((one, harm), (more, harms)) = (rated(1.0), rated(1.3));

@@ -102,7 +102,7 @@ fn transmission_errors_call_for_a_law_from_geometry_and_name_the_grade_that_is_z
     let gears = Gears::of(&found.choice().expect("a setting").scene.parameters);
     assert!(gears.level == GearContact::Tooth && gears.law != ContactLaw::Impact, "{}", gears.text());
     assert_eq!(Gears::of(&found.reference.scene.parameters).text(), "tooth line_weber + gear bodies");
-    let Role::Neutral { typical, by: Some(by) } = role(&found, "tooth_errors") else { panic!("not neutral") };
+    let Role::Neutral { typical, by: Some(by), now: _ } = role(&found, "tooth_errors") else { panic!("not neutral") };
     assert!(typical.iter().any(|(row, value)| row.name == "tooth_errors.accuracy_grade" && *value == 7.0));
     assert!(*by > 0.0);
     let text = report::text(&found);
@@ -156,9 +156,13 @@ fn questions_that_make_no_sense_get_one_line_and_exit_status_2() {
         (&["--want", "left.speed:meen", "--within", "1%"], &["meen", "did you mean mean?"]),
         (&["--want", "left.load_torque:mean", "--within", "1%"], &["not an output"]),
         (&["--want", "left.speed:mesh_order_1", "--within", "1%"], &["mesh_order_1", "period"]),
-        (&["--want", "left.speed:mean", "--within", "0"], &["or more"]),
+        (&["--want", "left.speed:mean", "--within", "0"], &["above 0"]),
         (&["--want", "left.speed:mean", "--within", "200%"], &["below 100 %"]),
         (&["--want", "left.speed:mean", "--within", "1%", "--from", "2s"], &["--from", "0.5 s"]),
+        (
+            &["--within", "1%", "--set", "scene.gear_contact=lumped", "--set", "effects.tooth_friction=true"],
+            &["effects.tooth_friction"],
+        ),
     ] {
         // straight ahead no teeth mesh
         let output = Command::new(env!("CARGO_BIN_EXE_fmu-build"))

@@ -192,7 +192,9 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
 fn acting(bench: &mut Bench, switch: &Switch, [without, with]: [usize; 2], chosen: bool, within: f64) -> Role {
     let by = change(bench, without, with);
     let typical = switch.typical(&bench.trials[with].scene);
-    if by <= within && !chosen && !typical.is_empty() {
+    // with all values at zero, what is left is that of other steps
+    let nothing = if switch.is_at_zero(&bench.trials[with].scene) { within } else { NOTHING * within };
+    if by <= nothing && !chosen && !typical.is_empty() {
         neutral(bench, switch, with, typical, if by <= NOTHING * within { 0.0 } else { by })
     } else {
         Role::Acts { by, chosen }

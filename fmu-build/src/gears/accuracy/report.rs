@@ -206,11 +206,15 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
                 Some(by) => format!("would change a wanted quantity by {}", percent(*by)),
                 None => "were not tried".into(),
             };
-            let acts = if *now > 0.0 { format!("acts by {} only", percent(*now)) } else { "acts on nothing".into() };
+            let acts = if *now > 0.0 {
+                format!("seems to act by {}, which is that of other steps", percent(*now))
+            } else {
+                "acts on nothing".into()
+            };
             push(
                 "Neutral",
                 format!(
-                    "{} {acts}, as the scene leaves values at zero; typical ones, {}, {effect}",
+                    "{} {acts}, as the scene leaves its values at zero; typical ones, {}, {effect}",
                     switch.name(),
                     values.join(", ")
                 ),

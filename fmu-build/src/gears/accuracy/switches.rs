@@ -117,6 +117,18 @@ impl Switch {
 
     /// Values by which the effect would show, with their variables: those that the scene leaves or sets at zero.
     pub fn typical(&self, scene: &Scene) -> Vec<(&'static Variable, f64)> {
+        let is_shown = |&(row, value): &(&Variable, f64)| is_zero(row, scene) && value != 0.0;
+        self.showing(scene).into_iter().filter(is_shown).collect()
+    }
+
+    /// Whether all values by which the effect would show are zero in the scene.
+    pub fn is_at_zero(&self, scene: &Scene) -> bool {
+        let showing = self.showing(scene);
+        !showing.is_empty() && showing.iter().all(|(row, _)| is_zero(row, scene))
+    }
+
+    /// Values by which the effect would show, with their variables.
+    fn showing(&self, scene: &Scene) -> Vec<(&'static Variable, f64)> {
         // bodies give way without bores, too
         if self.is_bodies() {
             return Vec::new();
@@ -128,9 +140,13 @@ impl Switch {
         // an own parameter that the scene sets to zero has its start value for a typical one
         let own = scene.settings.iter().map(|setting| setting.row).filter(|row| group(row.name) == self.name());
         let starts = own.filter_map(|row| Some((row, number(row, &Parameters::default(), &Inputs::default())?)));
-        let is_zero = |row: &Variable| number(row, &scene.parameters, &scene.inputs) == Some(0.0);
-        examples.chain(starts).filter(|&(row, value)| is_zero(row) && value != 0.0).collect()
+        examples.chain(starts).collect()
     }
+}
+
+/// Whether a scene leaves or sets a value at zero.
+fn is_zero(row: &Variable, scene: &Scene) -> bool {
+    number(row, &scene.parameters, &scene.inputs) == Some(0.0)
 }
 
 /// The part of a name before its first dot.
