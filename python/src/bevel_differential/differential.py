@@ -6,7 +6,7 @@ import numpy as np
 
 from .fmu import Fmu
 from .inputs import Signals
-from .instance import DISCARD, Batches, Instance
+from .instance import Batches, Instance
 from .values import DifferentialError
 
 # what `run` records if nothing is said
@@ -57,10 +57,7 @@ class Differential:
         instance.start(list(start.values()), stop)
         batches = Batches(variables)
         record = batches.record(len(points))
-        if tables:
-            _drive(instance, batches, record, points, Batches(tables), signals)
-        else:
-            _advance(instance, batches, record, points)
+        _advance(instance, batches, record, points, signals)
         return _structured(points, variables, batches, record)
 
     def final(self, outputs, inputs=None, stop=0.5):
@@ -104,29 +101,16 @@ class Differential:
         self.__init__(state["values"], fmu=state["file"])
 
 
-def _advance(instance, batches, record, points):
-    """Steps through all points and records; inputs stay."""
+def _advance(instance, batches, record, points, signals):
+    """Steps through all points and records; sets inputs that change before each step."""
     readers = batches.readers(instance, record)
-    times = points.tolist()
-    step, component = instance._do_step, instance._component
-    for row, time in enumerate(times):
-        if row:
-            begin = times[row - 1]
-            status = step(component, begin, time - begin, 1)
-            if status >= DISCARD:
-                instance.check(status, f"the step from {begin:g} s")
-        for get, component, references, count, address, width in readers:
-            get(component, references, count, address + row * width)
-
-
-def _drive(instance, batches, record, points, driven, signals):
-    """The same with inputs that change."""
-    readers = batches.readers(instance, record)
+    driven = Batches([variable for variable, *_ in signals.tables])
     times = points.tolist()
     for row, time in enumerate(times):
         if row:
             begin = times[row - 1]
-            driven.set(instance, signals.at(begin))
+            if signals.tables:
+                driven.set(instance, signals.at(begin))
             instance.do_step(begin, time - begin)
         for get, component, references, count, address, width in readers:
             get(component, references, count, address + row * width)
