@@ -5,10 +5,7 @@ use super::row::{Causality, EnumType, Range, Row, Variability};
 use super::units::{self, DisplayUnit, Unit};
 
 fn row<A>(name: &'static str, causality: Causality, access: A, description: &'static str) -> Row<A> {
-    let variability = match causality {
-        Causality::Parameter | Causality::CalculatedParameter => Variability::Fixed,
-        Causality::Input | Causality::Output | Causality::Local => Variability::Continuous,
-    };
+    let variability = if causality == Causality::Parameter { Variability::Fixed } else { Variability::Continuous };
     Row {
         name,
         description,
@@ -99,7 +96,11 @@ pub fn calculated<A>(
     of: A,
     description: &'static str,
 ) -> Row<A> {
-    Row { unit: Some(unit), display, ..row(name, Causality::CalculatedParameter, of, description) }
+    Row {
+        causality: Causality::CalculatedParameter,
+        variability: Variability::Fixed,
+        ..output(name, unit, display, of, description)
+    }
 }
 
 /// An output.
