@@ -1,5 +1,6 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts or other platforms; one that counts what effects cost together; and one that looks for changes that no test notices.
+//! time, other hosts, other platforms or a machine without Rust; one that counts what effects cost together; and one that looks for
+//! changes that no test notices.
 
 pub mod executed;
 pub mod fuzz;
@@ -11,6 +12,7 @@ pub mod prices;
 pub mod python_tests;
 pub mod real_time;
 pub mod stepping;
+pub mod wheel;
 pub mod zero_cost;
 
 use anyhow::Result;
@@ -21,6 +23,7 @@ use clap::Subcommand;
 #[allow(missing_docs)] // each command describes itself
 pub enum CheckCommand {
     TestPython(python_tests::TestPythonCommand),
+    TestWheel(wheel::TestWheelCommand),
     #[command(alias = "off")]
     ZeroCost(zero_cost::ZeroCostCommand),
     Prices(prices::PricesCommand),
@@ -38,6 +41,7 @@ impl CheckCommand {
     pub fn run(self) -> Result<()> {
         match self {
             Self::TestPython(command) => command.run(),
+            Self::TestWheel(command) => command.run(),
             Self::ZeroCost(command) => command.run(),
             Self::Prices(command) => command.run(),
             Self::RealTime(command) => command.run(),

@@ -13,8 +13,11 @@ use crate::tools::python::Environment;
 /// The crate that is the FMU.
 pub const CRATE: &str = "bevel-differential";
 
+/// Whether the tool chains for other machines run here.
+pub(super) const CROSS: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
+
 /// FMI's name of this machine's platform and the ending of its libraries.
-const HOST: (&str, &str) = if cfg!(target_os = "windows") {
+pub(super) const HOST: (&str, &str) = if cfg!(target_os = "windows") {
     ("win64", "dll")
 } else if cfg!(target_os = "macos") {
     ("darwin64", "dylib")
@@ -60,28 +63,38 @@ pub struct Libraries {
 /// Builds the FMU's library with every tool chain that is installed.
 pub fn build() -> Result<Libraries> {
     let (mut built, mut left_out) = (Vec::new(), Vec::new());
-    let cross = cfg!(all(target_os = "linux", target_arch = "x86_64"));
-    match Environment::old_linux().filter(|_| cross) {
-        Some(tools) => built.push(for_old_linux(&tools)?),
+    match old_linux()? {
+        Some(library) => built.push(library),
         None => {
             built.push(for_this_machine()?);
-            if cross {
+            if CROSS {
                 left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
             }
         }
     }
-    match WindowsToolchain::found() {
-        Some(tools) => built.push(for_windows(&tools)?),
-        None if cross => match rustup_for_windows()? {
-            Some(library) => built.push(library),
-            None => left_out.push("win64 is left out".to_owned()),
-        },
+    match windows()? {
+        Some(library) => built.push(library),
+        None if CROSS => left_out.push("win64 is left out".to_owned()),
         None => left_out.push(format!("the FMU holds {} alone", HOST.0)),
     }
-    if cross && let Some(last) = left_out.last_mut() {
+    if CROSS && let Some(last) = left_out.last_mut() {
         last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
     }
     Ok(Libraries { built, left_out })
+}
+
+/// The library for old Linux systems, if its tool chain is installed.
+pub(super) fn old_linux() -> Result<Option<Library>> {
+    Environment::old_linux().filter(|_| CROSS).map(|tools| for_old_linux(&tools)).transpose()
+}
+
+/// The library for Windows, if a tool chain for it is installed.
+pub(super) fn windows() -> Result<Option<Library>> {
+    match WindowsToolchain::found() {
+        Some(tools) if CROSS => for_windows(&tools).map(Some),
+        None if CROSS && rustup_has_windows() => for_windows_by_rustup().map(Some),
+        _ => Ok(None),
+    }
 }
 
 /// The library as this machine's tools build it.
@@ -145,17 +158,18 @@ fn for_windows(tools: &WindowsToolchain) -> Result<Library> {
     windows_library(command, &tools.root())
 }
 
-/// The library for Windows by rustup's own target and the system's MinGW, if both are installed.
-fn rustup_for_windows() -> Result<Option<Library>> {
+/// Whether rustup's own target for Windows and the system's MinGW are installed.
+pub(super) fn rustup_has_windows() -> bool {
     let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WINDOWS_TARGET]).output();
     let has_target = output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir());
-    let has_linker = Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok();
-    if !has_target || !has_linker {
-        return Ok(None);
-    }
+    has_target && Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok()
+}
+
+/// The library for Windows by both.
+fn for_windows_by_rustup() -> Result<Library> {
     let mut command = Command::new(cargo());
     command.args(["build", "--target", WINDOWS_TARGET]);
-    windows_library(command, Path::new("/")).map(Some)
+    windows_library(command, Path::new("/"))
 }
 
 /// The library that `command` builds with the MinGW under `root`.

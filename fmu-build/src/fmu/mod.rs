@@ -1,5 +1,5 @@
 //! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
-//! and the archive. Commands: `package`, `describe`, `toolchains`.
+//! the archive, and the Python package around it. Commands: `package`, `wheel`, `describe`, `toolchains`.
 
 pub mod dependencies;
 pub mod describe;
@@ -9,7 +9,9 @@ pub mod libraries;
 pub mod licences;
 pub mod package;
 pub mod plain_types;
+pub mod platforms;
 pub mod toolchains;
+pub mod wheel;
 pub mod xml;
 
 use anyhow::Result;
@@ -20,6 +22,7 @@ use clap::Subcommand;
 #[allow(missing_docs)] // each command describes itself
 pub enum BuildCommand {
     Package(package::PackageCommand),
+    Wheel(wheel::WheelCommand),
     Describe(describe::DescribeCommand),
     Toolchains(toolchains::ToolchainsCommand),
 }
@@ -29,6 +32,7 @@ impl BuildCommand {
     pub fn run(self) -> Result<()> {
         match self {
             Self::Package(command) => command.run(),
+            Self::Wheel(command) => command.run(),
             Self::Describe(command) => command.run(),
             Self::Toolchains(command) => command.run(),
         }

@@ -44,6 +44,11 @@ pub fn fmu() -> PathBuf {
     target().join("fmu").join(format!("{}.fmu", bevel_differential::variables::MODEL_NAME))
 }
 
+/// The Python package as a wheel, and the proof that it works.
+pub fn wheel() -> PathBuf {
+    target().join("wheel")
+}
+
 /// The tool chains for machines other than this one.
 pub fn toolchains() -> PathBuf {
     target().join("toolchains")

@@ -122,12 +122,12 @@ impl Environment {
     fn make(&self, report: impl Fn(&str)) -> Result<()> {
         let python = find_python()?;
         report("making the Python environment");
-        run(
+        finish(
             python.command().args(["-m", "venv", "--clear"]).arg(&self.folder),
             "the Python environment cannot be created",
         )?;
         report(&format!("installing {}", self.holds));
-        run(
+        finish(
             self.command()
                 .args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"])
                 .arg(&self.requirements),
@@ -192,6 +192,11 @@ fn version_of(python: &Python) -> Option<(u32, u32)> {
     Some((major.parse().ok()?, minor.parse().ok()?))
 }
 
+/// A command that runs the Python that makes environments.
+pub fn system() -> Result<Command> {
+    Ok(find_python()?.command())
+}
+
 /// A Python that is new enough and can make environments.
 fn find_python() -> Result<Python> {
     let numbered = (OLDEST.1..=NEWEST).rev().map(|minor| format!("python3.{minor}"));
@@ -223,7 +228,7 @@ fn find_python() -> Result<Python> {
 }
 
 /// Runs a command to its end; `problem` and the end of its messages are the error.
-fn run(command: &mut Command, problem: &'static str) -> Result<()> {
+pub fn finish(command: &mut Command, problem: &'static str) -> Result<()> {
     let output = command.output().context(problem)?;
     if output.status.success() {
         return Ok(());

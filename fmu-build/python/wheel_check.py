@@ -1,0 +1,97 @@
+"""Checks the installed wheel as a user without Rust has it.
+
+usage: wheel_check.py PAGE...
+
+Run it with the Python that the wheel is installed in, from an empty folder that it may write to. PAGE is a Markdown file: its
+Python examples that import the package are run as they stand. Prints a line for each check and stops at the first that fails.
+"""
+
+import importlib.util
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import bevel_differential
+import numpy as np
+import pandas as pd
+from bevel_differential import Differential
+from bevel_differential.fmu import shipped
+from fmpy import simulate_fmu
+
+# a turn and its closed form: the side gears turn at the carrier's speed plus and minus 10/16 of the planets' spin, deg/s
+CARRIER, SPIN, TEETH_RATIO = 954.0, 200.0, 10.0 / 16.0
+OUTPUTS = ["left.speed", "right.speed", "left.normal_force", "planet[1].left_pairs", "efficiency", "solver.steps"]
+# an example, and the output that the page gives for it, if any
+EXAMPLE = re.compile(r"^```python\n(.*?)^```\n(?:\nIt prints:\n\n```text\n(.*?)^```\n)?", re.MULTILINE | re.DOTALL)
+SWEEP = ["sweep", "--scene", "study_turning", "--vary", "left.load_torque=700 N.m..900 N.m", "--plan", "lhs", "--runs", "20",
+         "--want", "left.speed:mean", "--want", "efficiency:final", "--workers", "2", "--out", "sweep.parquet"]
+
+
+def no_rust_and_no_checkout():
+    found = [program for program in ("cargo", "rustc", "rustup") if shutil.which(program)]
+    assert not found, f"{found} can be called"
+    for file in (Path(bevel_differential.__file__), shipped()):
+        assert file.is_file() and file.is_relative_to(sys.prefix), f"{file} does not come from the wheel"
+    assert Differential().fmu.file.samefile(shipped())
+    return f"package and FMU of the wheel, {shipped().stat().st_size / 1e6:.1f} MB; no cargo, rustc or rustup"
+
+
+def examples(page):
+    number = 0
+    for code, printed in EXAMPLE.findall(page.read_text(encoding="utf-8")):
+        if not re.search(r"^\s*(from|import) bevel_differential", code, re.MULTILINE):
+            continue
+        number += 1
+        script = Path(f"{page.stem}_{number}.py")
+        script.write_text(code, encoding="utf-8")
+        found = called(sys.executable, "-I", "-X", "utf8", script)
+        assert not printed or found == printed, f"{page.name}, example {number}: prints\n{found}and not\n{printed}"
+    assert number, f"{page.name} has no example of the package"
+    return f"{page.name}: {number} examples run"
+
+
+def same_bits():
+    package = Differential({"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"),
+                            "carrier.speed_command": (CARRIER, "deg/s")}).run(outputs=OUTPUTS)
+    fmpy = simulate_fmu(str(shipped()), output=OUTPUTS, stop_time=0.5, output_interval=0.001, logger=lambda *_: None,
+                        start_values={"scene.planet_spin": 2, "planet.spin_command": (SPIN, "deg/s"),
+                                      "carrier.speed_command": (CARRIER, "deg/s")})
+    assert len(package) == len(fmpy) == 501
+    for name in ["time", *OUTPUTS]:
+        assert package[name].tobytes() == fmpy[name].astype(package[name].dtype).tobytes(), f"{name}: other bits than fmpy's"
+    return f"a turn: {len(package)} points of {len(OUTPUTS)} outputs have fmpy's bits"
+
+
+def sweep():
+    if importlib.util.find_spec("bevel_differential.command") is None:
+        return "bevel-differential: this version has no commands"
+    called(Path(sys.executable).with_name("bevel-differential"), *SWEEP)
+    table = pd.read_parquet("sweep.parquet")
+    assert len(table) == 20, f"{len(table)} rows"
+    # a Latin hypercube has one point in each twentieth of the range
+    places = np.sort(np.floor((table["left.load_torque"] - 700.0) / 10.0))
+    assert (places == np.arange(20)).all(), table["left.load_torque"]
+    # the drives impose the speeds, whatever the load
+    speed = np.degrees(table["left.speed:mean"])
+    assert np.abs(speed / (CARRIER + TEETH_RATIO * SPIN) - 1.0).max() < 2e-3, speed
+    assert table["efficiency:final"].between(0.0, 1.0 + 1e-9).all(), table["efficiency:final"]
+    return f"bevel-differential sweep: {len(table)} runs"
+
+
+def called(*command):
+    """What a program prints; its messages are the error if it fails."""
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8", stdin=subprocess.DEVNULL)
+    assert done.returncode == 0, f"{' '.join(map(str, command))}:\n{done.stdout}{done.stderr}"
+    return done.stdout
+
+
+def main():
+    pages = [Path(page) for page in sys.argv[1:]]
+    for check in [no_rust_and_no_checkout, *(lambda page=page: examples(page) for page in pages), same_bits, sweep]:
+        print(check())
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,113 @@
+//! The Python package as a wheel, with the FMU, the scenes and the licences in it; the same bytes every time.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use bevel_differential::variables::MODEL_NAME;
+use clap::Args;
+
+use crate::fmu::libraries::Library;
+use crate::fmu::package;
+use crate::fmu::platforms::{self, Platform};
+use crate::gears::scene;
+use crate::tools::paths;
+use crate::tools::progress::Progress;
+use crate::tools::python::{self, Environment};
+
+/// The time of all files in the wheel, in seconds of Unix: 1980-01-01, the earliest that an archive can tell.
+const TIME: &str = "315532800";
+/// The licences of the project. Those of all that the FMU links lie in the FMU.
+const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
+
+/// Builds target/wheel/bevel_differential-VERSION-py3-none-any.whl, the Python package with the FMU in it
+///
+/// The FMU holds the libraries of the platforms chosen. Their tool chains come from the command `toolchains`.
+#[derive(Args, Clone, Debug)]
+pub struct WheelCommand {
+    /// Platforms that the FMU in the wheel is for
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Platform::Linux64, Platform::Win64])]
+    platforms: Vec<Platform>,
+}
+
+impl WheelCommand {
+    /// Builds the wheel and prints where it is and what it is for.
+    pub fn run(&self) -> Result<()> {
+        let progress = Progress::start("building the library");
+        let libraries = platforms::build(&self.platforms)?;
+        progress.stage("building the wheel");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        let wheel = write(&libraries, &environment, &paths::wheel())?;
+        progress.finish();
+        println!("{}", paths::shown(&wheel));
+        for Library { platform, needs, .. } in &libraries {
+            println!("{platform}: {needs}");
+        }
+        for platform in [Platform::Linux64, Platform::Win64].map(Platform::fmi_name) {
+            if libraries.iter().all(|library| library.platform != platform) {
+                println!("{platform} is left out");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Builds the wheel around `libraries` in `folder` and returns its path.
+pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) -> Result<PathBuf> {
+    let (source, built) = (folder.join("source"), folder.join("built"));
+    for old in [&source, &built] {
+        if old.exists() {
+            fs::remove_dir_all(old).with_context(|| format!("{} cannot be removed", paths::shown(old)))?;
+        }
+    }
+    stage(libraries, &source)?;
+    let mut pip = environment.command();
+    pip.args(["-m", "pip", "wheel", "--quiet", "--no-input", "--disable-pip-version-check"])
+        // the backend is a package of the environment, which has its pinned version
+        .args(["--no-build-isolation", "--no-deps", "--no-index", "--wheel-dir"])
+        .arg(&built)
+        .arg(source.join("python"))
+        .env("SOURCE_DATE_EPOCH", TIME);
+    python::finish(&mut pip, "the wheel cannot be built")?;
+    let wheel = fs::read_dir(&built)?.next().context("pip built no wheel")??.path();
+    let target = folder.join(wheel.file_name().unwrap_or_default());
+    fs::rename(&wheel, &target).with_context(|| format!("{} cannot be written", paths::shown(&target)))?;
+    Ok(target)
+}
+
+/// Copies into `source` what the wheel is built from, so that nothing is written where the sources are.
+fn stage(libraries: &[Library], source: &Path) -> Result<()> {
+    let (from, to) = (paths::workspace(), source.join("python"));
+    let package = to.join("src").join("bevel_differential");
+    copy_folder(&from.join("python").join("src").join("bevel_differential"), &package)?;
+    copy_file(&from.join("python").join("pyproject.toml"), &to)?;
+    // with the version
+    copy_file(&from.join("Cargo.toml"), source)?;
+    for licence in LICENCES {
+        copy_file(&from.join(licence), &to)?;
+    }
+    for scene in scene::files()? {
+        copy_file(&scene, &package.join("scenes"))?;
+    }
+    package::write_archive(libraries, &package.join(format!("{MODEL_NAME}.fmu")))
+}
+
+/// Copies all files below `from`, but for what Python compiled.
+fn copy_folder(from: &Path, to: &Path) -> Result<()> {
+    for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default();
+        if path.is_file() {
+            copy_file(&path, to)?;
+        } else if name != "__pycache__" {
+            copy_folder(&path, &to.join(name))?;
+        }
+    }
+    Ok(())
+}
+
+fn copy_file(file: &Path, folder: &Path) -> Result<()> {
+    paths::create_folder(folder)?;
+    let target = folder.join(file.file_name().unwrap_or_default());
+    fs::copy(file, target).with_context(|| format!("{} cannot be copied", paths::shown(file))).map(drop)
+}

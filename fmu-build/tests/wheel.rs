@@ -1,0 +1,78 @@
+//! The Python package as a wheel: its contents, and the same bytes every time.
+
+use std::fs::{self, File};
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use fmu_build::fmu::{libraries, wheel};
+use fmu_build::gears::scene;
+use fmu_build::tools::paths;
+use fmu_build::tools::python::Environment;
+use zip::ZipArchive;
+
+/// Paths and sizes of all files below `folder`.
+fn listed(folder: &Path) -> Result<Vec<(String, u64)>> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            files.extend(listed(&path)?);
+        } else {
+            files.push((path.display().to_string(), path.metadata()?.len()));
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+#[test]
+fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
+    let environment = Environment::ready(|what| println!("{what}"))?;
+    let libraries = libraries::build()?.built;
+    let sources = paths::workspace().join("python");
+    let before = listed(&sources)?;
+    let folder = paths::target().join("same-bytes");
+    let mut wheels = Vec::new();
+    for name in ["first", "second"] {
+        wheels.push(wheel::write(&libraries, &environment, &folder.join(name))?);
+    }
+    assert!(fs::read(&wheels[0])? == fs::read(&wheels[1])?);
+    assert_eq!(listed(&sources)?, before, "the wheel is built elsewhere");
+    let version = env!("CARGO_PKG_VERSION");
+    let name = wheels[0].file_name().context("a file")?;
+    assert_eq!(name.to_string_lossy(), format!("bevel_differential-{version}-py3-none-any.whl"));
+
+    let mut archive = ZipArchive::new(File::open(&wheels[0])?)?;
+    let mut text = |path: &str| -> Result<String> {
+        let mut text = String::new();
+        archive.by_name(path).with_context(|| path.to_owned())?.read_to_string(&mut text)?;
+        Ok(text)
+    };
+    let about = format!("bevel_differential-{version}.dist-info");
+    let metadata = text(&format!("{about}/METADATA"))?;
+    for line in [format!("Version: {version}"), "License-Expression: MIT OR Apache-2.0".into()] {
+        assert!(metadata.lines().any(|found| found == line), "{line} is not in\n{metadata}");
+    }
+    for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
+        let own = fs::read_to_string(paths::workspace().join(licence))?;
+        assert_eq!(text(&format!("{about}/licenses/{licence}"))?, own);
+    }
+    let scenes = scene::files()?;
+    assert!(scenes.len() >= 10);
+    for scene in scenes {
+        let name = scene.file_name().context("a file")?.to_string_lossy();
+        assert_eq!(text(&format!("bevel_differential/scenes/{name}"))?, fs::read_to_string(&scene)?);
+    }
+    assert_eq!(text("bevel_differential/py.typed")?, "");
+    let mut bytes = Vec::new();
+    archive.by_name("bevel_differential/BevelDifferential.fmu")?.read_to_end(&mut bytes)?;
+    let mut fmu = ZipArchive::new(Cursor::new(bytes))?;
+    for library in &libraries {
+        let path = format!("binaries/{}/BevelDifferential.{}", library.platform, library.ending);
+        let mut bytes = Vec::new();
+        fmu.by_name(&path).with_context(|| path.clone())?.read_to_end(&mut bytes)?;
+        assert!(bytes == fs::read(&library.file)?, "{path}");
+    }
+    Ok(())
+}
