@@ -88,12 +88,20 @@ def recorded(file):
     return comments, head, [[float(cell).hex() for cell in row] for row in rows]
 
 
-def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tmp_path):
-    script, own, theirs = (tmp_path / name for name in ("script.py", "own.csv", "theirs.csv"))
-    printed = scene_command(scene, "--csv", own, "--python", script)
-    done = subprocess.run([sys.executable, script, fmu_file, "--csv", theirs], capture_output=True, text=True,
+def run_script(script, fmu_file):
+    """What a script prints with the package, and the record that it says it wrote."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "python" / "src"), "BEVEL_DIFFERENTIAL_FMU": os.path.abspath(fmu_file)}
+    done = subprocess.run([sys.executable, script], cwd=script.parent, env=environment, capture_output=True, text=True,
                           encoding="utf-8")
     assert done.returncode == 0, done.stdout + done.stderr
+    *shown, record = done.stdout.splitlines()
+    return "\n".join(shown), script.parent / record.removeprefix("record: ")
+
+
+def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tmp_path):
+    own = tmp_path / "own.csv"
+    printed = scene_command(scene, "--csv", own, "--python", tmp_path / "script.py")
+    shown, theirs = run_script(tmp_path / "script.py", fmu_file)
     (own_comments, own_head, own_rows), (comments, head, rows) = recorded(own), recorded(theirs)
     assert (comments, head, len(rows)) == (own_comments, own_head, len(own_rows))
     assert len(rows) > 10
@@ -101,7 +109,7 @@ def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tm
         assert row == wanted, f"row {number}"
     # the summaries agree as far as they are printed
     for name in head[1:]:
-        line = next(line for line in done.stdout.splitlines() if line.startswith(f"{name} "))
+        line = next(line for line in shown.splitlines() if line.startswith(f"{name} "))
         wanted = next(line for line in printed.splitlines() if line.strip().startswith(f"{name} "))
         assert numbers(line) == pytest.approx(numbers(wanted), rel=1e-4, abs=1e-9), name
 
@@ -114,9 +122,9 @@ def numbers(line):
 def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_file, tmp_path):
     changes = ["--set", "stop_time=20.5 ms", "--set", "step=0.3ms", "--set", "left.load_torque=600 N.m",
                "--set", "scene.start=equilibrium"]
-    script, own, theirs = (tmp_path / name for name in ("script.py", "own.csv", "theirs.csv"))
-    scene_command("one_wheel_on_ice", *changes, "--csv", own, "--python", script)
-    subprocess.run([sys.executable, script, fmu_file, "--csv", theirs], check=True, capture_output=True)
+    own = tmp_path / "own.csv"
+    scene_command("one_wheel_on_ice", *changes, "--csv", own, "--python", tmp_path / "script.py")
+    _, theirs = run_script(tmp_path / "script.py", fmu_file)
     assert recorded(theirs) == recorded(own)
     assert len(recorded(own)[2]) == 70 and float.fromhex(recorded(own)[2][-1][0]) == 0.0205
 

@@ -1,6 +1,6 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms or a machine without Rust; one that counts what effects cost together; and one that looks for
-//! changes that no test notices.
+//! time, other hosts, other platforms or a machine without Rust; one that counts what effects cost together; and one that looks
+//! for changes that no test notices.
 
 pub mod executed;
 pub mod fuzz;

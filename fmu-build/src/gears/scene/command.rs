@@ -29,7 +29,7 @@ pub struct SceneCommand {
     /// Write the start values as a parameter set of SSP 1.0, which hosts read into the FMU
     #[arg(long, value_name = "OUT.ssv")]
     ssv: Option<PathBuf>,
-    /// Write a Python script that simulates the scene with the FMU by fmpy, and records the same numbers as --csv
+    /// Write a Python script that simulates the scene by the package bevel_differential, and records the same numbers as --csv
     #[arg(long, value_name = "OUT.py")]
     python: Option<PathBuf>,
 }
