@@ -16,8 +16,9 @@ from pathlib import Path
 import bevel_differential
 import numpy as np
 import pandas as pd
-from bevel_differential import Differential
+from bevel_differential import Differential, Scene, shipped_scenes
 from bevel_differential.fmu import shipped
+from bevel_differential.scene_file import folder
 from fmpy import simulate_fmu
 
 # a turn and its closed form: the side gears turn at the carrier's speed plus and minus 10/16 of the planets' spin, deg/s
@@ -38,6 +39,14 @@ def no_rust_and_no_checkout():
     return f"package and FMU of the wheel, {shipped().stat().st_size / 1e6:.1f} MB; no cargo, rustc or rustup"
 
 
+def scenes():
+    names = shipped_scenes()
+    assert len(names) >= 10 and folder().is_relative_to(sys.prefix), f"{names} in {folder()}"
+    for name in names:
+        Scene.load(name).close()
+    return f"{len(names)} scenes in the wheel"
+
+
 def examples(page):
     number = 0
     for code, printed in EXAMPLE.findall(page.read_text(encoding="utf-8")):
@@ -49,7 +58,7 @@ def examples(page):
         found = called(sys.executable, "-I", "-X", "utf8", script)
         assert not printed or found == printed, f"{page.name}, example {number}: prints\n{found}and not\n{printed}"
     assert number, f"{page.name} has no example of the package"
-    return f"{page.name}: {number} examples run"
+    return f"{page.name}: examples run: {number}"
 
 
 def same_bits():
@@ -82,14 +91,15 @@ def sweep():
 
 def called(*command):
     """What a program prints; its messages are the error if it fails."""
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, encoding="utf-8", stdin=subprocess.DEVNULL)
-    assert done.returncode == 0, f"{' '.join(map(str, command))}:\n{done.stdout}{done.stderr}"
+    done = subprocess.run([str(word) for word in command], check=False, capture_output=True, text=True, encoding="utf-8",
+                          stdin=subprocess.DEVNULL)
+    assert done.returncode == 0, f"{command}:\n{done.stdout}{done.stderr}"
     return done.stdout
 
 
 def main():
     pages = [Path(page) for page in sys.argv[1:]]
-    for check in [no_rust_and_no_checkout, *(lambda page=page: examples(page) for page in pages), same_bits, sweep]:
+    for check in [no_rust_and_no_checkout, scenes, *(lambda page=page: examples(page) for page in pages), same_bits, sweep]:
         print(check())
 
 
