@@ -64,3 +64,14 @@ impl Platform {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_platform_chosen_twice_is_told_before_anything_is_built() {
+        let problem = build(&[Platform::ThisMachine, Platform::ThisMachine]).expect_err("twice").to_string();
+        assert!(problem.contains("twice") && problem.contains(HOST.0), "{problem}");
+    }
+}
