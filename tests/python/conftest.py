@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
+for folder in ("fmu-build/python", "python/src"):
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / folder))
 from driving import Drive  # noqa: E402
 from instance import Instance  # noqa: E402
 

@@ -13,6 +13,8 @@
 
 from .differential import Differential
 from .fmu import Fmu
+from .scene import Scene
+from .scene_file import shipped_scenes
 from .values import DifferentialError
 
-__all__ = ["Differential", "DifferentialError", "Fmu"]
+__all__ = ["Differential", "DifferentialError", "Fmu", "Scene", "shipped_scenes"]

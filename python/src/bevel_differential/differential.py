@@ -7,12 +7,11 @@ import numpy as np
 from .fmu import Fmu
 from .inputs import Signals
 from .instance import Batches, Instance
+from .points import Steps, span
 from .values import DifferentialError
 
 # what `run` records if nothing is said
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
-# a stop time within so many steps of a point is that point
-SLACK = 1e-9
 
 
 class Differential:
@@ -33,36 +32,22 @@ class Differential:
     def set(self, parameters=None, **keywords):
         """Changes parameters and start values of inputs."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
-        for name, value in {**(parameters or {}), **named}.items():
-            variable = self.fmu.variable(name)
-            if variable.causality not in ("parameter", "input"):
-                raise DifferentialError(f"{name}: it is calculated and cannot be set")
-            self._values[name] = (variable, variable.number(value))
+        self._values.update(self._read({**(parameters or {}), **named}))
         return self
 
-    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001):
+    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None):
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
 
-        Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to the
-        end and gives two points, at 0 and at `stop`. `inputs`: see `Signals`. Raises `DifferentialError` with the FMU's message."""
-        stop, step = _seconds("stop", stop), None if step is None else _seconds("step", step)
-        variables = [self.fmu.variable(name) for name in outputs]
-        signals = Signals(self.fmu, inputs)
-        points = _points(stop, step, signals.jumps)
-        instance = self._instance()
-        first = signals.at(0.0)
-        tables = [variable for variable, *_ in signals.tables]
-        start = {**self._values, **{variable.name: (variable, value) for variable, value in
-                                    [*signals.constants, *zip(tables, first)]}}
-        instance.start(list(start.values()), stop)
-        batches = Batches(variables)
-        record = batches.record(len(points))
-        _advance(instance, batches, record, points, signals)
-        return _structured(points, variables, batches, record)
+        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
+        Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
+        the end and gives two points, at 0 and at `stop`. Raises `DifferentialError` with the FMU's message."""
+        stop, step = span("stop", stop), None if step is None else span("step", step)
+        signals = Signals.of(self.fmu, inputs)
+        return self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
 
-    def final(self, outputs, inputs=None, stop=0.5):
+    def final(self, outputs, inputs=None, stop=0.5, values=None):
         """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
-        last = self.run(inputs, outputs, stop, None)[-1]
+        last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
     @property
@@ -80,6 +65,28 @@ class Differential:
         while self._all:
             self._all.pop().close()
         self._instances = threading.local()
+
+    def _read(self, given):
+        """Values by name, as the FMU takes them, with their variables."""
+        read = {}
+        for name, value in given.items():
+            variable = self.fmu.variable(name)
+            if variable.causality not in ("parameter", "input"):
+                raise DifferentialError(f"{name}: it is calculated and cannot be set")
+            read[name] = (variable, variable.number(value))
+        return read
+
+    def _simulate(self, steps, signals, outputs, values=None):
+        """Starts, steps from point to point, and records."""
+        variables = [self.fmu.variable(name) for name in outputs]
+        start = {**self._values, **(self._read(values) if values else {})}
+        start.update((variable.name, (variable, value)) for variable, value in signals.start())
+        instance = self._instance()
+        instance.start(list(start.values()), steps.points[-1])
+        batches = Batches(variables)
+        record = batches.record(len(steps.points))
+        _advance(instance, batches, record, steps, signals)
+        return _structured(steps.points, variables, batches, record)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -101,49 +108,25 @@ class Differential:
         self.__init__(state["values"], fmu=state["file"])
 
 
-def _advance(instance, batches, record, points, signals):
-    """Steps through all points and records; sets inputs that change before each step."""
+def _advance(instance, batches, record, steps, signals):
+    """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
-    driven = Batches([variable for variable, *_ in signals.tables])
-    times = points.tolist()
-    for row, time in enumerate(times):
+    driven = Batches([table.variable for table in signals.tables])
+    changes = list(signals.changes)
+    sizes = np.diff(steps.points).tolist()
+    for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):
         if row:
-            begin = times[row - 1]
+            while changes and changes[0][0] <= begin + steps.slack:
+                _set(instance, changes.pop(0)[1])
             if signals.tables:
-                driven.set(instance, signals.at(begin))
-            instance.do_step(begin, time - begin)
+                driven.set(instance, signals.at(begin + steps.slack))
+            instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
             get(component, references, count, address + row * width)
 
 
-def _points(stop, step, jumps):
-    """Communication points: multiples of the step, jumps of inputs, and the end."""
-    if not stop > 0.0:
-        raise DifferentialError(f"stop = {stop!r}: it is a time after 0, s")
-    if step is None:
-        regular = np.array([0.0])
-    elif not step > 0.0:
-        raise DifferentialError(f"step = {step!r}: it is more than 0, s")
-    else:
-        regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
-        regular = regular[regular < stop - SLACK * step]
-    regular = np.append(regular, stop)
-    inner = jumps[(jumps > 0.0) & (jumps < stop)]
-    near = np.abs(inner[:, None] - regular).min(axis=1, initial=np.inf) < SLACK * (step or stop)
-    return np.union1d(regular, inner[~near])
-
-
-def _seconds(what, time):
-    if isinstance(time, str):
-        number, _, unit = time.strip().partition(" ")
-        factors = {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
-        try:
-            return float(number) * factors[unit.strip()]
-        except (KeyError, ValueError):
-            raise DifferentialError(f"{what} = {time!r}: write seconds, or a number and one of s, ms, us, min, h") from None
-    if not np.isfinite(time):
-        raise DifferentialError(f"{what} = {time!r}: it is a finite time, s")
-    return float(time)
+def _set(instance, pairs):
+    Batches([variable for variable, _ in pairs]).set(instance, [value for _, value in pairs])
 
 
 def _structured(points, variables, batches, record):

@@ -5,28 +5,77 @@ import numpy as np
 from .values import DifferentialError
 
 
-class Signals:
-    """Inputs as functions of time: Reals straight between their points, others held; before the first point and after the last
-    one they are constant. Two points at one time are a jump."""
+class Table:
+    """A variable over time: Reals straight between their points, others held; constant before the first point and after the last,
+    or repeated after `period` (s). Two points at one time are a jump."""
 
-    def __init__(self, fmu, inputs):
-        """`inputs`: a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or a structured
-        array with a field "time", as fmpy takes it."""
-        self.constants, self.tables = [], []
+    def __init__(self, variable, times, values, period=None):
+        self.variable, self.period = variable, period
+        self.times = np.asarray(times, float)
+        self.values = np.array([variable.number(value) for value in values])
+        if len(self.times) != len(self.values) or len(self.times) == 0:
+            raise DifferentialError(f"{variable.name}: {len(self.times)} times for {len(self.values)} values")
+        if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
+            raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
+
+    def at(self, time):
+        """Value just after a time."""
+        times, values = self.times, self.values
+        if self.period is not None:
+            time = np.fmod(time, self.period)
+        after = int(np.searchsorted(times, time, side="right"))
+        if after in (0, len(times)):
+            return values[min(after, len(times) - 1)]
+        if self.variable.kind != "Real":
+            return values[after - 1]
+        share = (time - times[after - 1]) / (times[after] - times[after - 1])
+        return values[after - 1] + share * (values[after] - values[after - 1])
+
+    def jumps(self):
+        """Times at which the value jumps, s."""
+        return self.times[1:][self.times[1:] == self.times[:-1]]
+
+
+class Signals:
+    """What changes during a run, and what inputs are constant.
+
+    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time."""
+
+    def __init__(self, constants=(), tables=(), changes=()):
+        self.constants, self.tables = list(constants), list(tables)
+        self.changes = sorted(changes, key=lambda change: change[0])
+        times = [table.jumps() for table in self.tables] + [np.array([time for time, _ in self.changes])]
+        self.jumps = np.unique(np.concatenate(times))
+
+    @classmethod
+    def of(cls, fmu, inputs):
+        """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
+        structured array with a field "time", as fmpy takes it."""
+        constants, tables = [], []
         for name, given in _pairs(inputs):
-            variable = fmu.variable(name)
-            if variable.causality != "input":
-                raise DifferentialError(f"{name}: it is no input but {_article(variable.causality)}")
+            variable = input_variable(fmu, name)
             if _is_table(given):
-                self.tables.append((variable, *_table(variable, *given)))
+                tables.append(Table(variable, *given))
             else:
-                self.constants.append((variable, variable.number(given)))
-        jumps = [times[1:][times[1:] == times[:-1]] for _, times, _ in self.tables]
-        self.jumps = np.unique(np.concatenate(jumps)) if jumps else np.empty(0)
+                constants.append((variable, variable.number(given)))
+        return cls(constants, tables)
+
+    def start(self):
+        """Values at the start: [(variable, value)]."""
+        return self.constants + [(table.variable, table.at(0.0)) for table in self.tables]
 
     def at(self, time):
         """Values of all tables after a time."""
-        return [_value(variable, times, values, time) for variable, times, values in self.tables]
+        return [table.at(time) for table in self.tables]
+
+
+def input_variable(fmu, name):
+    """The input `name`."""
+    variable = fmu.variable(name)
+    if variable.causality != "input":
+        article = "an" if variable.causality[0] in "aeio" else "a"
+        raise DifferentialError(f"{name}: it is no input but {article} {variable.causality}")
+    return variable
 
 
 def _pairs(inputs):
@@ -40,27 +89,3 @@ def _pairs(inputs):
 
 def _is_table(given):
     return isinstance(given, tuple) and len(given) == 2 and np.ndim(given[0]) == 1
-
-
-def _table(variable, times, values):
-    times = np.asarray(times, float)
-    numbers = np.array([variable.number(value) for value in values])
-    if len(times) != len(numbers) or len(times) == 0:
-        raise DifferentialError(f"{variable.name}: {len(times)} times for {len(numbers)} values")
-    if not np.all(np.isfinite(times)) or np.any(np.diff(times) < 0.0):
-        raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
-    return times, numbers
-
-
-def _value(variable, times, values, time):
-    after = int(np.searchsorted(times, time, side="right"))
-    if after in (0, len(times)):
-        return values[min(after, len(times) - 1)]
-    if variable.kind != "Real":
-        return values[after - 1]
-    share = (time - times[after - 1]) / (times[after] - times[after - 1])
-    return values[after - 1] + share * (values[after] - values[after - 1])
-
-
-def _article(causality):
-    return f"{'an' if causality[0] in 'aeio' else 'a'} {causality}"

@@ -6,6 +6,9 @@ import re
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
+# other ways to write units
+_SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m"}
+
 
 class DifferentialError(ValueError):
     """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do."""
@@ -27,6 +30,7 @@ class Variable:
         declared = described.declaredType
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
+        self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
         shown = units.get(self.unit)
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
@@ -46,6 +50,12 @@ class Variable:
         if isinstance(value, str):
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
+
+    def shown(self, values):
+        """Unit in which the variable is usually shown, and SI `values` in it."""
+        factor, offset = self.units.get(self._usual, (1.0, 0.0))
+        name = self._usual or self.unit or ""
+        return ("" if name == "1" else name), values * factor + offset
 
     def _boolean(self, value):
         words = {"true": True, "false": False}
@@ -72,6 +82,8 @@ class Variable:
 
     def _si(self, number, unit, written):
         number = self._float(number, written)
+        for spelling, name in _SPELLINGS.items():
+            unit = unit and unit.replace(spelling, name)
         if unit is None or unit == self.unit:
             return number
         if unit not in self.units:

@@ -61,7 +61,8 @@ impl<'a> SceneRun<'a> {
     pub fn advance(&mut self) -> Result<()> {
         let (time, slack) = (self.time(), SAME * self.step);
         self.feed(time + slack);
-        let mut next = ((self.done + 1) as f64 * self.step).min(self.scene.stop_time);
+        let regular = (self.done + 1) as f64 * self.step;
+        let mut next = if regular > self.scene.stop_time - slack { self.scene.stop_time } else { regular };
         let whole = match self.scene.events.get(self.events) {
             Some(event) if event.time < next - slack => {
                 next = event.time;

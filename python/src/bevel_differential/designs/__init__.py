@@ -1,0 +1,6 @@
+"""Many designs of one scene: which values to try, and what each gives."""
+
+from .space import Dimension, Space
+from .task import Row, Task
+
+__all__ = ["Dimension", "Row", "Space", "Task"]

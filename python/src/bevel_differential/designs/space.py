@@ -1,0 +1,150 @@
+"""Parameters and inputs that vary, each by a distribution."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+from ..values import DifferentialError
+
+_CALL = re.compile(r"(uniform|normal|triangular|lognormal)\((.*)\)$")
+_USAGE = "write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B) or lognormal(MEDIAN, FACTOR)"
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A variable and its values.
+
+    `variable`: its name. `kind`: "list", "range" or a distribution. `numbers`: what the kind takes, in SI: the values of a list;
+    both ends of a range; the numbers of a distribution. `count`: values of a range on a grid, or None."""
+
+    variable: str
+    kind: str
+    numbers: tuple
+    count: int | None = None
+    whole: bool = False
+
+    @classmethod
+    def parse(cls, fmu, name: str, given) -> "Dimension":
+        """Of text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or of a sequence of values."""
+        variable = fmu.variable(name)
+        if variable.causality not in ("parameter", "input"):
+            raise DifferentialError(f"{name}: it is calculated and cannot be varied")
+        text = given.strip() if isinstance(given, str) else None
+        if text is None:
+            return cls._list(variable, given if isinstance(given, Iterable) else [given])
+        call = _CALL.match(text)
+        if call:
+            return cls._distribution(variable, call[1], [part.strip() for part in call[2].split(",")], text)
+        if ".." in text:
+            return cls._range(variable, text)
+        return cls._list(variable, [part.strip() for part in text.split(",")])
+
+    @classmethod
+    def _list(cls, variable, values):
+        numbers = tuple(variable.number(value) for value in values)
+        if not numbers:
+            raise DifferentialError(f"{variable.name}: no values; {_USAGE}")
+        return cls(variable.name, "list", numbers)
+
+    @classmethod
+    def _range(cls, variable, text):
+        bounds, _, count = text.partition(":")
+        low, high = (variable.number(part.strip()) for part in bounds.split("..", 1))
+        if variable.kind not in ("Real", "Integer"):
+            raise DifferentialError(f"{variable.name}: it has no ranges; list its values")
+        if not low < high:
+            raise DifferentialError(f"{variable.name} = {text}: the range ends at or before its beginning")
+        try:
+            number = int(count) if count else None
+        except ValueError:
+            number = 0
+        if number is not None and number < 2:
+            raise DifferentialError(f"{variable.name} = {text}: a range has 2 values or more")
+        return cls(variable.name, "range", (low, high), number, variable.kind == "Integer")
+
+    @classmethod
+    def _distribution(cls, variable, kind, parts, text):
+        if variable.kind != "Real":
+            raise DifferentialError(f"{variable.name}: only real variables have distributions")
+        wanted = {"uniform": 2, "normal": 2, "triangular": 3, "lognormal": 2}[kind]
+        if len(parts) != wanted:
+            raise DifferentialError(f"{variable.name} = {text}: {kind} takes {wanted} numbers; {_USAGE}")
+        # the factor of a lognormal distribution has no unit
+        plain = float(parts[1]) if kind == "lognormal" else None
+        numbers = tuple(variable.number(part) for part in (parts[:1] if kind == "lognormal" else parts))
+        numbers += (plain,) if plain is not None else ()
+        sane = {"uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0, "triangular": lambda a, c, b: a <= c <= b and a < b,
+                "lognormal": lambda m, f: m > 0.0 and f > 1.0}[kind]
+        if not sane(*numbers):
+            raise DifferentialError(f"{variable.name} = {text}: these numbers make no distribution; {_USAGE}")
+        return cls(variable.name, kind, numbers)
+
+    def at(self, share: np.ndarray) -> list:
+        """Values at shares of probability in [0, 1), shape (runs,), in SI."""
+        share, numbers = np.asarray(share, float), self.numbers
+        if self.kind == "list":
+            return [numbers[i] for i in np.minimum((share * len(numbers)).astype(int), len(numbers) - 1)]
+        if self.kind == "range" and self.whole:
+            low, high = int(numbers[0]), int(numbers[1])
+            return [low + int(i) for i in np.minimum(share * (high - low + 1), high - low)]
+        return _quantile(self.kind, numbers, share).tolist()
+
+    def levels(self) -> list:
+        """Values on a grid, in SI."""
+        if self.kind == "list":
+            return list(self.numbers)
+        if self.kind != "range":
+            raise DifferentialError(f"{self.variable}: a grid needs a list or a range, not {self.kind}")
+        low, high = self.numbers
+        if self.whole:
+            step = 1 if self.count is None else (high - low) / (self.count - 1)
+            return [int(round(value)) for value in np.arange(low, high + 0.5 * step, step)]
+        if self.count is None:
+            raise DifferentialError(f"{self.variable}: a grid needs the number of values, such as FROM..TO:11")
+        return np.linspace(low, high, self.count).tolist()
+
+    def __str__(self):
+        count = f":{self.count}" if self.count else ""
+        return f"{self.kind}({', '.join(map(repr, self.numbers))}){count}"
+
+
+def _quantile(kind, numbers, share):
+    if kind in ("range", "uniform"):
+        return numbers[0] + share * (numbers[1] - numbers[0])
+    if kind == "normal":
+        return stats.norm.ppf(share, *numbers)
+    if kind == "lognormal":
+        return stats.lognorm.ppf(share, np.log(numbers[1]), scale=numbers[0])
+    low, peak, high = numbers
+    return stats.triang.ppf(share, (peak - low) / (high - low), low, high - low)
+
+
+@dataclass(frozen=True)
+class Space:
+    """All dimensions."""
+
+    dimensions: tuple[Dimension, ...]
+
+    @classmethod
+    def parse(cls, fmu, given: Mapping) -> "Space":
+        """Of a mapping from names to what `Dimension.parse` takes."""
+        if not given:
+            raise DifferentialError("nothing varies: name a variable and its values")
+        return cls(tuple(Dimension.parse(fmu, name, values) for name, values in given.items()))
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the variables."""
+        return [dimension.variable for dimension in self.dimensions]
+
+    def at(self, shares: np.ndarray) -> list[dict]:
+        """Designs at points of the unit cube, shape (runs, dimensions)."""
+        columns = [dimension.at(column) for dimension, column in zip(self.dimensions, np.asarray(shares, float).T)]
+        return self.designs(zip(*columns))
+
+    def designs(self, rows: Iterable[Sequence]) -> list[dict]:
+        """Designs from rows of values, SI."""
+        return [dict(zip(self.names, row)) for row in rows]

@@ -1,0 +1,130 @@
+"""Scenes: what to set, what to feed in and what to record."""
+
+import csv
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from .differential import Differential
+from .fmu import Fmu
+from .inputs import Signals, Table, input_variable
+from .points import Steps, seconds, span
+from .scene_file import find, read_scene
+from .values import DifferentialError
+
+
+class Scene:
+    """A scene, with the meaning that its TOML file has for the command `scene`: the same steps and the same bits.
+
+    `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
+    `tables`: [(input, times, values, period or None)], straight from point to point. `stop` and `step` in s or with a unit.
+    Values are written as for `Differential`."""
+
+    def __init__(self, name: str = "scene", *, description: str = "", stop=0.5, step=1e-3, outputs: Sequence[str] = (),
+                 set: Mapping | None = None, changes: Sequence = (), tables: Sequence = (), fmu=None):
+        self.name, self.description = name, description
+        self.fmu = Fmu.of(fmu)
+        self.stop, self.step = span("stop_time", stop), span("step", step)
+        if self.step > self.stop:
+            raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
+        self.outputs = [self.fmu.variable(output).name for output in outputs]
+        self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
+        self.tables = [tuple(table) for table in tables]
+        self._differential = Differential(set, fmu=self.fmu.file)
+        self._signals = self._checked_signals()
+
+    @classmethod
+    def load(cls, what, fmu=None) -> "Scene":
+        """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once."""
+        file = find(what)
+        return cls(fmu=fmu, **read_scene(file, Fmu.of(fmu)))
+
+    def set(self, values=None, **keywords) -> "Scene":
+        """Changes parameters and inputs at the start."""
+        self._differential.set(values, **keywords)
+        return self
+
+    @property
+    def values(self) -> dict:
+        """What is set at the start, as the FMU takes it."""
+        return self._differential.values
+
+    def run(self, outputs: Sequence[str] | None = None, values: Mapping | None = None, stop=None) -> np.ndarray:
+        """Simulates; `values` change parameters for this run, `stop` the end.
+
+        Returns a structured array: field "time" (s), one of each output in SI; shape (points,)."""
+        stop = self.stop if stop is None else span("stop", stop)
+        steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
+        return self._differential._simulate(steps, self._signals, self._named(outputs), values)
+
+    def final(self, outputs: Sequence[str] | None = None, values: Mapping | None = None) -> dict:
+        """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
+        names = self._named(outputs)
+        step = self.step if self._signals.tables else None
+        steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
+        last = self._differential._simulate(steps, self._signals, names, values)[-1]
+        return {name: last[name].item() for name in names}
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the FMU warned of in the last run of this thread."""
+        return self._differential.warnings
+
+    def summary(self, record: np.ndarray) -> str:
+        """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown."""
+        lines = [("output", "unit", "min", "mean", "max", "end")]
+        span_of_time = record["time"][-1] - record["time"][0]
+        for name in record.dtype.names[1:]:
+            unit, values = self.fmu.variable(name).shown(record[name])
+            mean = np.trapezoid(values, record["time"]) / span_of_time
+            lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
+        widths = [max(map(len, column)) for column in zip(*lines)]
+        return "\n".join("  ".join(cell.ljust(width) if i < 2 else cell.rjust(width)
+                                   for i, (cell, width) in enumerate(zip(line, widths))) for line in lines)
+
+    def to_csv(self, record: np.ndarray, file) -> Path:
+        """Writes a record in SI, with the units in a comment; numbers read back to the same bits."""
+        units = [self.fmu.variable(name).unit or "1" for name in record.dtype.names[1:]]
+        with open(file, "w", newline="", encoding="utf-8") as out:
+            out.write(f"# scene {self.name}: {self.description}\n# units: s,{','.join(units)}\n")
+            writer = csv.writer(out, lineterminator="\n")
+            writer.writerow(record.dtype.names)
+            writer.writerows(record.tolist())
+        return Path(file)
+
+    def close(self):
+        """Frees all instances."""
+        self._differential.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __getstate__(self):
+        return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
+                "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
+                "fmu": str(self.fmu.file)}
+
+    def __setstate__(self, state):
+        self.__init__(**state)
+
+    def _named(self, outputs):
+        names = self.outputs if outputs is None else list(outputs)
+        if not names:
+            raise DifferentialError(f"scene {self.name} records nothing: name outputs")
+        return names
+
+    def _checked_signals(self):
+        tables = [Table(input_variable(self.fmu, name), times, values, period) for name, times, values, period in self.tables]
+        changes = []
+        for time, values in self.changes:
+            if not 0.0 <= time <= self.stop:
+                raise DifferentialError(f"a change at {time:g} s is outside the scene's 0 to {self.stop:g} s")
+            changes.append((time, list(self._differential._read(values).values())))
+            for variable, _ in changes[-1][1]:
+                if variable.variability == "fixed":
+                    raise DifferentialError(f"{variable.name} is fixed: only inputs and tunable parameters change during a run")
+        return Signals((), tables, changes)

@@ -1,0 +1,144 @@
+"""Scenes from TOML files."""
+
+import csv
+import importlib.resources
+import tomllib
+from pathlib import Path
+
+from .points import seconds, span
+from .values import DifferentialError, suggestion
+
+# what a file may have
+KEYS = {"description", "stop_time", "step", "outputs", "set", "at", "table", "inputs"}
+NEEDED = ("description", "stop_time", "step", "outputs")
+
+
+def folder() -> Path:
+    """The shipped scenes: in this package, or in the repository that it is used from."""
+    package = Path(str(importlib.resources.files(__package__)))
+    return package / "scenes" if (package / "scenes").is_dir() else package.parents[2] / "scenes"
+
+
+def shipped_scenes() -> list[str]:
+    """Names of the shipped scenes."""
+    return sorted(file.stem for file in folder().glob("*.toml"))
+
+
+def find(what) -> Path:
+    """The file `what`, or that of the shipped scene of this name."""
+    for file in (Path(what), folder() / f"{what}.toml"):
+        if file.is_file():
+            return file
+    names = shipped_scenes()
+    raise DifferentialError(f"there is no scene file {str(what)!r}, and no shipped scene of that name"
+                            f"{suggestion(str(what), names)}; shipped: {', '.join(names)}")
+
+
+def read_scene(file: Path, fmu) -> dict:
+    """The arguments of `Scene` that a file holds. All errors are reported at once."""
+    try:
+        found = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise DifferentialError(f"{file}: {error}") from None
+    problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in found.keys() - KEYS]
+    problems += [f"{key} is missing" for key in NEEDED if key not in found]
+    checked = _Checked(fmu, problems)
+    settings = checked.values("[set]", _flat(found.get("set", {})))
+    changes = [checked.change(entry) for entry in found.get("at", [])]
+    tables = [checked.table(entry) for entry in found.get("table", [])]
+    for entry in found.get("inputs", []):
+        tables += checked.input_file(entry, file.parent)
+    names = [name for name, *_ in tables]
+    problems += [f"{name} has two tables; remove one of them" for name in sorted({n for n in names if names.count(n) > 1})]
+    for output in found.get("outputs", []):
+        checked.attempt("outputs", fmu.variable, output)
+    for key in ("stop_time", "step"):
+        if key in found:
+            checked.attempt("", span, key, found[key])
+    if problems:
+        raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
+    return {"name": file.stem, "description": found["description"], "stop": found["stop_time"], "step": found["step"],
+            "outputs": found["outputs"], "set": settings, "changes": changes, "tables": tables}
+
+
+class _Checked:
+    """Reads entries and collects what is wrong with them."""
+
+    def __init__(self, fmu, problems):
+        self.fmu, self.problems = fmu, problems
+
+    def attempt(self, place, function, *arguments):
+        try:
+            return function(*arguments)
+        except DifferentialError as error:
+            self.problems.append(f"{place} {error}".strip())
+            return None
+
+    def values(self, place, given):
+        for name, value in given.items():
+            self.attempt(place, self.number, name, value)
+        return given
+
+    def number(self, name, value):
+        return self.fmu.variable(name).number(value)
+
+    def change(self, entry):
+        entry = dict(entry)
+        time = self.attempt("[[at]]", seconds, "time", entry.pop("time", None))
+        return time, self.values(f"[[at]] time = {time}:", _flat(entry))
+
+    def table(self, entry):
+        name = entry.get("input", "")
+        place = f"[[table]] input = {name!r}:"
+        times = [self.attempt(place, seconds, "time", time) for time in entry.get("time", [])]
+        values = [self.attempt(place, self.number, name, value) for value in entry.get("value", [])]
+        if len(times) != len(values) or not times:
+            self.problems.append(f"{place} has {len(times)} times and {len(values)} values")
+        return name, times, values, self.period(place, entry)
+
+    def period(self, place, entry):
+        return self.attempt(place, span, "period", entry["period"]) if "period" in entry else None
+
+    def input_file(self, entry, near):
+        place = f"[[inputs]] file = {entry.get('file', '')!r}:"
+        tables = self.attempt(place, read_inputs, near / entry.get("file", ""), self.fmu) or []
+        period = self.period(place, entry)
+        return [(name, times, values, period) for name, times, values in tables]
+
+
+def read_inputs(file: Path, fmu) -> list:
+    """Inputs over time from a CSV file: a column of times and one for each input, with units in brackets in the header.
+
+    Returns [(input, times in s, values in SI)]."""
+    try:
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise DifferentialError(f"{file}: {error}") from None
+    rows = [(number, [cell.strip() for cell in next(csv.reader([line]))]) for number, line in enumerate(lines, 1)
+            if line.strip() and not line.startswith("#")]
+    if len(rows) < 2:
+        raise DifferentialError(f"{file}: needs a header such as \"time [s],left.load_torque [N.m]\" and a line for each time")
+    heads = [(head.partition("[")[0].strip(), head.partition("[")[2].rstrip("]").strip()) for head in rows[0][1]]
+    if "time" not in [name for name, _ in heads]:
+        raise DifferentialError(f"{file}: has no column time")
+    columns = {name: [] for name, _ in heads}
+    for number, cells in rows[1:]:
+        if len(cells) != len(heads):
+            raise DifferentialError(f"{file}, line {number}: has {len(cells)} cells where the header has {len(heads)}")
+        for (name, unit), cell in zip(heads, cells):
+            try:
+                written = f"{cell} {unit}".strip()
+                columns[name].append(seconds(name, written) if name == "time" else fmu.variable(name).number(written))
+            except DifferentialError as error:
+                raise DifferentialError(f"{file}, line {number}, column {name}: {error}") from None
+    times = columns.pop("time")
+    return [(name, times, values) for name, values in columns.items()]
+
+
+def _flat(table, prefix=""):
+    """Values by their dotted names."""
+    flat = {}
+    for key, value in table.items():
+        name = f"{prefix}{key}"
+        flat.update(_flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
+    return flat

@@ -1,0 +1,69 @@
+"""What is wanted of a run, and what must hold."""
+
+import operator
+import re
+from dataclasses import dataclass
+
+import numpy as np
+
+from .statistic import Statistic
+from .values import DifferentialError
+
+RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
+
+
+@dataclass(frozen=True)
+class Want:
+    """An output by a statistic."""
+
+    name: str
+    statistic: Statistic
+
+    @classmethod
+    def parse(cls, fmu, text: str) -> "Want":
+        """Of "OUTPUT:STATISTIC"; without a statistic it is the final value."""
+        name, _, word = text.strip().partition(":")
+        variable = fmu.variable(name.strip())
+        if variable.causality == "input":
+            raise DifferentialError(f"{variable.name}: it is an input; wanted are outputs")
+        return cls(variable.name, Statistic.parse(word or "final"))
+
+    def __str__(self):
+        return f"{self.name}:{self.statistic.word}"
+
+    def of(self, record: np.ndarray, planet_teeth: int) -> float:
+        """The figure of a record (structured array with this output and, for orders, the angle that they are counted by)."""
+        angle = self.statistic.angle
+        # a pitch of the planet is a period of the mesh
+        teeth = planet_teeth if angle == "planet[1].spin_angle" else 1
+        return self.statistic.of(record["time"], record[self.name].astype(float), angle and record[angle] * teeth)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """A bound of a wanted figure, in SI: "safety.root_min >= 1.2", "left.speed:max < 30 rad/s"."""
+
+    want: Want
+    relation: str
+    limit: float
+
+    @classmethod
+    def parse(cls, fmu, text: str) -> "Condition":
+        """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
+        parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
+        if len(parts) != 3:
+            raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of {', '.join(RELATIONS)}")
+        want = Want.parse(fmu, parts[0])
+        return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
+
+    def __str__(self):
+        return f"{self.want} {self.relation} {self.limit:g}"
+
+    def holds(self, figure: float) -> bool:
+        """Whether it holds for a figure, SI."""
+        return bool(RELATIONS[self.relation](figure, self.limit))
+
+    def excess(self, figure: float) -> float:
+        """By how much a figure breaks it, relative to the limit; negative where it holds."""
+        scale = abs(self.limit) or 1.0
+        return (figure - self.limit) / scale * (1.0 if self.relation.startswith("<") else -1.0)

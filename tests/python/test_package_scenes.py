@@ -1,0 +1,99 @@
+"""Scenes in the Python package: the bits of the command `scene`, and errors in files."""
+
+import csv
+import os
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+from test_scenes import CYCLE, EVERYTHING, SCENES
+
+from bevel_differential import DifferentialError, Scene, shipped_scenes
+
+
+@pytest.fixture
+def everything(tmp_path):
+    (tmp_path / "cycle.csv").write_text(CYCLE, encoding="utf-8")
+    file = tmp_path / "everything.toml"
+    file.write_text(EVERYTHING, encoding="utf-8")
+    return file
+
+
+def of_command(scene, tmp_path):
+    """The record of the command `scene`, shape (points, 1 + outputs)."""
+    file = tmp_path / "record.csv"
+    subprocess.run([os.environ["FMU_BUILD"], "scene", str(scene), "--run", "--csv", str(file)], check=True, capture_output=True)
+    lines = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    return np.array([[float(cell) for cell in row] for row in list(csv.reader(lines))[1:]])
+
+
+def test_the_shipped_scenes_are_known():
+    assert shipped_scenes() == SCENES
+
+
+@pytest.mark.parametrize("name", [*SCENES, "everything"])
+def test_a_scene_has_the_bits_of_the_command(name, fmu_file, tmp_path, everything):
+    what = everything if name == "everything" else name
+    with Scene.load(what, fmu=fmu_file) as scene:
+        record = scene.run()
+        with pickle.loads(pickle.dumps(scene)) as copy:
+            assert np.array_equal(copy.run(), record)
+    assert np.array_equal(np.array(record.tolist(), float), of_command(what, tmp_path))
+
+
+def test_a_record_is_written_and_read_back_to_the_same_bits(fmu_file, tmp_path):
+    with Scene.load("study_turning", fmu=fmu_file) as scene:
+        record = scene.run(stop="20 ms")
+        file = scene.to_csv(record, tmp_path / "turn.csv")
+    found = np.genfromtxt(file, delimiter=",", names=True, deletechars="", skip_header=2)
+    assert all(np.array_equal(found[name], record[name]) for name in record.dtype.names)
+
+
+def test_the_summary_is_in_the_usual_units(fmu_file):
+    with Scene.load("study_straight", fmu=fmu_file) as scene:
+        line = next(line for line in scene.summary(scene.run()).splitlines() if line.startswith("left.speed "))
+    assert line.split()[1] == "deg/s" and float(line.split()[3]) == pytest.approx(2861.0, abs=1e-2)
+
+
+@pytest.mark.parametrize("old, new, parts", [
+    ("stop_time = \"20.3 ms\"", "stop_time = \"20.3 mm\"", ["stop_time", "ms"]),
+    ("stop_time = \"20.3 ms\"", "", ["stop_time is missing"]),
+    ("step =", "stop =", ["stop: there is no such key", "step is missing"]),
+    ("geometry.planet_teeth", "geometry.planet_tooth", ["[set]", "geometry.planet_tooth", "did you mean geometry.planet_teeth"]),
+    ("\"0.1 N.m\"", "\"0.1 kg\"", ["right.load_torque", "'kg'", "N.m"]),
+    ("time = \"3.7 ms\"", "time = \"30.7 ms\"", ["0.0307 s", "outside"]),
+    ("tooth_friction.coefficient = 0.07", "tooth_friction.static_ratio = 1.2", ["tooth_friction.static_ratio is fixed"]),
+    ("\"700 N.m\", 100.3", "\"700 N.m\"", ["[[table]]", "3 times and 2 values"]),
+    ("\"700 N.m\"", "\"heavy\"", ["[[table]]", "right.load_torque", "heavy"]),
+    ("cycle.csv", "circle.csv", ["circle.csv"]),
+    ("\"carrier.torque\"", "\"carrier.tork\"", ["outputs", "carrier.tork", "did you mean carrier.torque"]),
+    ("description =", "description ", ["everything.toml"]),
+])
+def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
+    text = everything.read_text(encoding="utf-8")
+    assert old in text
+    everything.write_text(text.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(DifferentialError) as error:
+        Scene.load(everything, fmu=fmu_file)
+    assert all(part in str(error.value) for part in parts), error.value
+
+
+@pytest.mark.parametrize("old, new, parts", [
+    ("103.3", "fast", ["cycle.csv, line 3", "carrier.speed_command", "fast"]),
+    ("[rpm]", "[kg]", ["cycle.csv", "kg", "rpm"]),
+    ("time [ms]", "clock [ms]", ["no column time"]),
+    (",90", "", ["line 4", "1 cells", "2"]),
+    ("11.1", "1.1", ["must not fall"]),
+])
+def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything, fmu_file):
+    file = everything.parent / "cycle.csv"
+    file.write_text(CYCLE.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(DifferentialError) as error:
+        Scene.load(everything, fmu=fmu_file)
+    assert all(part in str(error.value) for part in parts), error.value
+
+
+def test_an_unknown_scene_is_answered_with_the_known_ones(fmu_file):
+    with pytest.raises(DifferentialError, match="did you mean clunk.*study_straight"):
+        Scene.load("clonk", fmu=fmu_file)
