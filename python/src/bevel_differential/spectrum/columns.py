@@ -37,8 +37,11 @@ class Column:
 
     def value(self, cell):
         """The value of a cell in SI."""
-        has_unit = self.variable.kind in ("Real", "Integer")
-        return self.variable.number((cell, self.unit) if has_unit else cell)
+        if self.variable.kind in ("Real", "Integer"):
+            return self.variable.number((cell, self.unit))
+        if self.unit is not None:
+            raise DifferentialError(f"{self.head}: it has no unit; remove the brackets")
+        return self.variable.number(cell)
 
 
 class Table:
@@ -79,12 +82,13 @@ class Table:
             variable = known(name)
         except DifferentialError as failure:
             raise self.problem(line, head.strip(), _reason(failure)) from None
-        # as the header of a scene's table may have it
-        unit = unit.strip().replace("·", ".") if unit is not None else None
-        if unit is not None and unit not in variable.units:
-            allowed = f"write one of {', '.join(variable.units)}" if variable.units else "it has none; remove the brackets"
-            raise self.problem(line, head.strip(), f"{unit!r} is no unit of {name}; {allowed}")
-        return Column(head.strip(), variable, unit, place)
+        if unit is not None:
+            try:
+                # of any value, so that a wrong unit is an error of the header
+                Column(head, variable, unit.strip(), place).value("0")
+            except DifferentialError as failure:
+                raise self.problem(line, head.strip(), _reason(failure)) from None
+        return Column(head.strip(), variable, unit and unit.strip(), place)
 
     def _row(self, line, cells):
         if len(cells) != len(self.columns):

@@ -1,11 +1,10 @@
 """Damage of one event, from a short simulation by the FMU."""
 
 from dataclasses import dataclass
-from math import ceil, pi
+from math import ceil, nan, pi
 
 import numpy as np
 
-from ..differential import Differential
 from .event import Event
 
 # outputs of damage, in the order of all arrays of modes
@@ -25,7 +24,7 @@ class EventDamage:
 
     `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the same
     teeth stand in mesh, signed by the flank, shape (points,), empty if teeth roll on all the time; `side_ratio`: root stress of the
-    side gears over that of the planets; `turns`: revolutions of a planet relative to the carrier that load new teeth;
+    side gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the carrier that load new teeth;
     `root_stress` of the planets and `safety_root`, `safety_flank` of all gears: the worst; `warnings`."""
 
     event: Event
@@ -39,17 +38,15 @@ class EventDamage:
     warnings: tuple
 
 
-def evaluate(event, parameters, teeth, fmu=None):
-    """Damage of one occurrence of `event`, an `EventDamage`, under `parameters` {name: value} of the FMU in the file `fmu`, with `teeth`
-    of planet and side gear. It depends on nothing else and can be sent to other processes."""
-    # of its own, so that nothing of one event remains for the next; what follows from the gears is kept by the FMU's library
-    with Differential({**parameters, **event.values, "effects.strength": True}, fmu=fmu) as differential:
-        return _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
+def evaluate(event, differential, teeth):
+    """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
+    nothing, and it and its arguments can be sent to other processes."""
+    return _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
 
 
 def _steady(differential, event, teeth):
     """Damage in the steady state times the duration."""
-    look = differential.run(outputs=OUTPUTS, stop=LOOK, step=LOOK / POINTS)
+    look = differential.run(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
     settled = look[round(POINTS * SETTLING / LOOK):]
     span = settled["time"][-1] - settled["time"][0]
     frequency = abs(settled["planet[1].spin_angle"][-1] - settled["planet[1].spin_angle"][0]) / span * teeth[0] / (2.0 * pi)
@@ -62,7 +59,7 @@ def _steady(differential, event, teeth):
     cycles, period, steady = FEWEST_CYCLES, 1.0 / frequency, False
     while not steady and cycles <= MOST_CYCLES:
         before = max(1, ceil(SETTLING * frequency))
-        record = differential.run(outputs=OUTPUTS, stop=(before + cycles) * period, step=period)
+        record = differential.run(None, OUTPUTS, (before + cycles) * period, period, event.values)
         damage = _damage(record)[[before, before + cycles // 2, before + cycles]]
         rate = (damage[2] - damage[0]) / (cycles * period)
         halves = np.diff(damage, axis=0)
@@ -76,7 +73,7 @@ def _steady(differential, event, teeth):
 
 def _history(differential, event, teeth):
     """Damage while teeth roll; while they stand, their stress."""
-    record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration))
+    record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
     planet = record["planet[1].spin_angle"]
     sides = [record[f"{side}.angle"] - record["carrier.angle"] for side in ("left", "right")]
     pushed = _pushed(planet, 2.0 * pi / teeth[0])
@@ -110,6 +107,6 @@ def _signed_stress(record):
 def _result(event, record, meshing, standing, turns, warnings):
     planet, side = record["stress.root_planet_max"], record["stress.root_side_max"]
     worst = int(np.argmax(planet))
-    ratio = float(side[worst] / planet[worst]) if planet[worst] > 0.0 else 1.0
+    ratio = float(side[worst] / planet[worst]) if planet[worst] > 0.0 else nan
     return EventDamage(event, meshing, standing, ratio, turns, float(planet[worst]), float(record["safety.root_min"][-1]),
                        float(record["safety.flank_min"][-1]), warnings)

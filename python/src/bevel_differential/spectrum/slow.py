@@ -39,6 +39,12 @@ class SlowCycles:
         """The same cycles at `factor` times the stress: those of the mating gear."""
         return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
 
+    def pulsating(self, strength):
+        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the mean has
+        the other sign."""
+        both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
+        return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
+
     def matrix(self, bins=10):
         """The rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
         counts, spans, means = np.histogram2d(self.span, self.mean, bins, weights=self.count)

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from ..differential import Differential
-from ..fmu import Fmu
+from ..scene import Scene
 from ..values import DifferentialError
 from .cycle import read_cycle
 from .damage import evaluate
@@ -15,9 +15,8 @@ from .slow import ORDERS, count_slow_cycles
 from .sn import Strength
 from .vehicle import QUANTITIES
 
-# the name of no event: used where the FMU is only read
 TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
-PLANETS = "geometry.planets"
+PLANETS = "geometry.planet_count"
 
 
 def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, mapper=map):
@@ -29,33 +28,33 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
     `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    given = {**_of_scene(scene), **(parameters or {})}
+    given = {**_of_scene(scene, fmu), **(parameters or {})}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
-    file = str(Fmu.of(fmu).file)
-    with Differential({**values, "effects.strength": True}, fmu=file) as differential:
+    with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
         facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS], stop=1e-3)
         teeth = tuple(facts[name] for name in TEETH)
         events = read_cycle(cycle, differential.fmu, vehicle, teeth) if isinstance(cycle, (str, Path)) else list(cycle)
-    if not any(event.count > 0.0 for event in events):
-        raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
-    damages = tuple(mapper(_Evaluation(values, teeth, file), events))
-    ratio = max((damage.side_ratio for damage in damages), key=lambda ratio: abs(ratio - 1.0))
+        if not any(event.count > 0.0 for event in events):
+            raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
+        damages = tuple(mapper(_Evaluation(differential, teeth), events))
+    # both roots follow one force, so that the ratio is the same in all events under load
+    ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
     slow = count_slow_cycles([damage.standing for damage in damages], [event.count for event in events], order)
     strength = Strength.of(facts)
     by_event = np.stack([_slow_by_event(cycles, strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
-    return SpectrumResult(damages, slow, by_event, strength, facts[PLANETS], order)
+    return SpectrumResult(damages, slow, by_event, strength, teeth, facts[PLANETS], ratio, order)
 
 
 class _Evaluation:
     """`evaluate` with all but the event, to be sent to other processes."""
 
-    def __init__(self, *rest):
-        self.rest = rest
+    def __init__(self, differential, teeth):
+        self.differential, self.teeth = differential, teeth
 
     def __call__(self, event: Event):
         try:
-            return evaluate(event, *self.rest)
+            return evaluate(event, self.differential, self.teeth)
         except DifferentialError as failure:
             raise DifferentialError(f"event {event.name!r}: {failure}") from None
 
@@ -63,8 +62,7 @@ class _Evaluation:
 def _slow_by_event(cycles, strength, events):
     """Damage of slow cycles at the root of the worse flank, shape (events,): each cycle's is shared in proportion to the stresses of
     the events at its ends."""
-    damages = [cycles.count * strength.bending.damage(strength.pulsating(cycles.span, sign * cycles.mean)) for sign in (1.0, -1.0)]
-    damage = max(damages, key=np.sum)
+    damage = cycles.count * strength.bending.damage(cycles.pulsating(strength))
     found = np.zeros(events)
     share = abs(cycles.low) / (abs(cycles.low) + abs(cycles.high))
     np.add.at(found, cycles.low_event, damage * share)
@@ -72,8 +70,7 @@ def _slow_by_event(cycles, strength, events):
     return found
 
 
-def _of_scene(scene):
+def _of_scene(scene, fmu):
     if scene is None:
         return {}
-    from ..scene import Scene
-    return dict(Scene.load(scene).set)
+    return Scene.load(scene, fmu).values
