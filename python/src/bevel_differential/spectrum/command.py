@@ -14,7 +14,8 @@ def add_arguments(parser):
     parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
     parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", dest="settings",
-                        help="parameter of the FMU or quantity of the vehicle for all events, such as \"wheel_radius=334 mm\"; may be repeated")
+                        help="parameter of the FMU or quantity of the vehicle for all events, such as \"wheel_radius=334 mm\"; "
+                             "may be repeated")
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
                         help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
     parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
@@ -25,7 +26,8 @@ def add_arguments(parser):
 def run(arguments) -> int:
     """Runs the sub-command; returns the exit status: 0, or 2 with a message in one line if something is wrong."""
     try:
-        result = spectrum(arguments.cycle, _settings(arguments.settings), arguments.scene, order=arguments.order, fmu=arguments.fmu)
+        settings = _settings(arguments.settings)
+        result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
         print(result.summary())
         for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
             if file:

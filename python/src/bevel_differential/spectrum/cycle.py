@@ -4,7 +4,7 @@ from math import nan
 
 import numpy as np
 
-from ..values import DifferentialError, Variable
+from ..values import DifferentialError
 from .columns import Quantity, Table, Text, unknown
 from .event import Event
 from .vehicle import LENGTH, QUANTITIES, inputs_of, wheel_radius
@@ -13,14 +13,14 @@ TIME = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 OWN = {column.name: column for column in [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Quantity("duration", TIME), Quantity("distance", LENGTH)]}
 # they hold for the whole cycle: gears do not change from event to event
-WHOLE = ("geometry.", "strength.", "material.", "effects.strength", "scene.gear_contact", "scene.planets")
+WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
 # steps of a time history: the longest, and the shortest [s]
 LONGEST, SHORTEST = 0.01, 1e-4
 
 
 def read_cycle(file, fmu, vehicle, teeth):
-    """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number, SI};
-    `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
+    """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
+    SI; `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
     table = Table(file, lambda name: OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter")))
     if "name" not in table.columns or "count" not in table.columns:
         raise DifferentialError(f"{table.file}: the header needs the columns name and count")
@@ -34,26 +34,27 @@ def _event(table, line, row, fmu, vehicle, teeth):
     if row["count"] < 0.0:
         raise table.problem_at(line, "count", "an event occurs 0 times or more", f"{row['count']:g}")
     history = _history(table, line, row, fmu) if "history" in row else {}
-    own = {name: value for name, value in row.items() if name in QUANTITIES}
+    known = {**vehicle, **{name: value for name, value in row.items() if name in QUANTITIES}, **history}
     try:
-        known = {**vehicle, **own}
-        values = _driven(known, row, teeth)
-        signals = _driven({**known, **history}, history, teeth) if history else {}
-        if history:
-            # what does not change, and no input, as the way the planets are driven
-            values.update({name: value for name, value in signals.items() if np.ndim(value) == 0})
-            signals = {name: (history["time"], value) for name, value in signals.items() if np.ndim(value) == 1}
-        duration, distance = _length(table, line, row, known, history)
-        step = float(np.clip(np.diff(history["time"])[np.diff(history["time"]) > 0.0].min(), SHORTEST, LONGEST)) if history else LONGEST
-        missing = [name for name in table.columns if name not in row and name not in OWN and name not in QUANTITIES
-                   and name not in signals]
-        if missing:
-            raise table.problem_at(line, missing[0], "write a value", "")
-        return Event(row["name"], row["count"], duration, distance, values, signals, step)
+        driven = _driven(known, {**row, **history}, teeth)
+        duration, distance = _length(table, line, row, known)
     except DifferentialError as failure:
         if str(failure).startswith(str(table.file)):
             raise
         raise table.problem(line, text=str(failure)) from None
+    known_elsewhere = {*OWN, *QUANTITIES, *row, *driven}
+    missing = [name for name in table.columns if name not in known_elsewhere]
+    if missing:
+        raise table.problem_at(line, missing[0], "write a value", "")
+    values = {name: value for name, value in driven.items() if np.ndim(value) == 0}
+    signals = {name: (history["time"], value) for name, value in driven.items() if np.ndim(value) == 1}
+    return Event(row["name"], row["count"], duration, distance, values, signals, _step(history))
+
+
+def _step(history):
+    """Communication step [s]: that of the points of a history, within limits."""
+    gaps = np.diff(history.get("time", ()))
+    return float(np.clip(np.min(gaps[gaps > 0.0], initial=LONGEST), SHORTEST, LONGEST))
 
 
 def _driven(vehicle, given, teeth):
@@ -66,26 +67,33 @@ def _driven(vehicle, given, teeth):
     return values
 
 
-def _length(table, line, row, vehicle, history):
+def _length(table, line, row, known):
     """Duration [s] and distance [m] of one occurrence."""
-    speed = np.abs({**vehicle, **history}.get("speed", nan))
-    if history:
+    for name in ("duration", "distance"):
+        if name in row and row[name] <= 0.0:
+            raise table.problem_at(line, name, "it must be more than 0, or empty", f"{row[name]:g}")
+    speed = np.abs(_speed(known, row))
+    if "time" in known:
         if "duration" in row:
             raise table.problem_at(line, "duration", "leave it empty: the history has its own", f"{row['duration']:g}")
-        return float(history["time"][-1]), row.get("distance", float(np.trapezoid(speed * np.ones_like(history["time"]), history["time"])))
-    if "distance" in row and row["distance"] <= 0.0:
-        raise table.problem_at(line, "distance", "it must be more than 0, or empty", f"{row['distance']:g}")
+        times = known["time"]
+        return float(times[-1]), row.get("distance", float(np.trapezoid(np.broadcast_to(speed, times.shape), times)))
     if "duration" in row:
-        if row["duration"] <= 0.0:
-            raise table.problem_at(line, "duration", "it must be more than 0", f"{row['duration']:g}")
-        if np.isnan(speed) and "carrier.speed_command" in row and ("wheel_radius" in vehicle or "tyre_circumference" in vehicle):
-            speed = abs(row["carrier.speed_command"]) * wheel_radius(vehicle, "distance")
         return row["duration"], row.get("distance", float(speed * row["duration"]))
     if "distance" not in row:
         raise table.problem(line, text="an event needs a duration, or a distance and a speed; fill in one of these columns")
     if not speed > 0.0:
-        raise table.problem_at(line, "distance", "it needs a speed; fill in speed, or duration", f"{row['distance']:g}")
+        text = "it needs a speed other than 0; fill in speed, or duration"
+        raise table.problem_at(line, "distance", text, f"{row['distance']:g}")
     return float(row["distance"] / speed), row["distance"]
+
+
+def _speed(known, row):
+    """Speed of the vehicle [m/s], NaN if not known."""
+    carrier = known.get("carrier.speed_command", row.get("carrier.speed_command"))
+    if "speed" in known or carrier is None or not known.keys() & {"wheel_radius", "tyre_circumference"}:
+        return known.get("speed", nan)
+    return carrier * wheel_radius(known, "distance")
 
 
 def _history(table, line, row, fmu):
@@ -109,7 +117,7 @@ def _history(table, line, row, fmu):
     return {**columns, "time": times - times[0]}
 
 
-def _variable(name, fmu, causalities) -> Variable:
+def _variable(name, fmu, causalities):
     if name in QUANTITIES:
         return QUANTITIES[name]
     if name not in fmu.variables:

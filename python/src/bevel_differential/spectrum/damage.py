@@ -9,8 +9,9 @@ from .event import Event
 
 # outputs of damage, in the order of all arrays of modes
 MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
-OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max", "stress.contact_pitch",
-           "left.tangential_force", "right.tangential_force", "planet[1].spin_angle", "carrier.angle", "left.angle", "right.angle")
+OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max",
+           "left.tangential_force", "right.tangential_force", "planet[1].spin_angle", "carrier.angle", "left.angle",
+           "right.angle")
 # first the differential settles, and then it is looked at [s]
 SETTLING, LOOK = 0.1, 0.5
 POINTS = 50
@@ -22,10 +23,11 @@ FEWEST_CYCLES, MOST_CYCLES, STEADY = 4, 64, 0.01
 class EventDamage:
     """What one occurrence of an event does to the gears.
 
-    `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the same
-    teeth stand in mesh, signed by the flank, shape (points,), empty if teeth roll on all the time; `side_ratio`: root stress of the
-    side gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the carrier that load new teeth;
-    `root_stress` of the planets and `safety_root`, `safety_flank` of all gears: the worst; `warnings`."""
+    `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the
+    same teeth stand in mesh, signed by the flank, shape (points,), empty if teeth roll on all the time; `side_ratio`: root
+    stress of the side gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the
+    carrier that load new teeth; `root_stress` of the planets [Pa] and `safety_root`, `safety_flank` of all gears: the worst;
+    `warnings` of the FMU."""
 
     event: Event
     meshing: np.ndarray
@@ -67,7 +69,7 @@ def _steady(differential, event, teeth):
         cycles *= 2
     warnings = tuple(differential.warnings)
     if not steady:
-        warnings += (f"{event.name}: damage of two times {cycles // 4} mesh cycles differs by more than {STEADY:.0%}; their mean is taken",)
+        warnings += (f"damage of two times {cycles // 4} mesh cycles differs by more than {STEADY:.0%}; their mean is taken",)
     return _result(event, record, rate * event.duration, np.empty(0), pitches / teeth[0], warnings)
 
 

@@ -6,6 +6,7 @@ from textwrap import fill
 import numpy as np
 
 from ..values import DifferentialError
+from .load_spectrum import curves, rolling_spectrum, standing_spectrum
 
 MPA = 1e6
 ROLLING, STANDING = "tab:blue", "tab:orange"
@@ -54,9 +55,9 @@ def _draw_events(axes, result):
 def _draw_spectrum(axes, result):
     """Stress over the cycles that reach it in one life, with the S–N curves."""
     lives = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
-    of_rolling, of_standing = result.curves()
-    parts = [("of teeth that roll", ROLLING, result.rolling_spectrum(), of_rolling),
-             ("of teeth that stand in mesh", STANDING, result.standing_spectrum(), of_standing)]
+    of_rolling, of_standing = curves(result)
+    parts = [("of teeth that roll", ROLLING, rolling_spectrum(result), of_rolling),
+             ("of teeth that stand in mesh", STANDING, standing_spectrum(result), of_standing)]
     parts = [part for part in parts if len(part[2][0])]
     highest = max((part[2][0].max() for part in parts), default=1e9)
     stresses = np.linspace(0.02, 1.3, 300) * highest
@@ -64,7 +65,8 @@ def _draw_spectrum(axes, result):
         order = np.argsort(-stress)
         reached = np.cumsum(count[order]) * lives
         # down to 0, so that the last step is seen to its end
-        axes.step([0.1, *reached, reached[-1]], np.array([stress.max(), *stress[order], 0.0]) / MPA, where="pre", color=colour, label=label)
+        steps = np.array([stress.max(), *stress[order], 0.0]) / MPA
+        axes.step([0.1, *reached, reached[-1]], steps, where="pre", color=colour, label=label)
         axes.plot(curve.life(stresses), stresses / MPA, "--", color=colour, linewidth=1, label=f"S–N curve {label}")
     axes.set_xscale("log")
     axes.set_xlim(1.0, 1e13)
@@ -81,6 +83,6 @@ def _caption(result):
         return "No event does any damage."
     worst = result.table()[0]
     km = f" or {result.life_km:.3g} km" if np.isfinite(result.life_km) else ""
-    return (f"Miner sum of the {result.critical_name}: {1.0 / result.cycles_to_failure:.3g} per duty cycle, life {result.life_hours:.3g} h{km}. "
-            f"\"{worst['event']}\" does {worst['share']:.0%} of the damage. At its end of life a spectrum stays below and left of its S–N "
-            "curve; the step that comes nearest to the curve does the most damage.")
+    return (f"Miner sum of the {result.critical_name}: {1.0 / result.cycles_to_failure:.3g} per duty cycle, "
+            f"life {result.life_hours:.3g} h{km}. \"{worst['event']}\" does {worst['share']:.0%} of the damage. "
+            "The step of a spectrum that comes nearest to its S–N curve does the most.")

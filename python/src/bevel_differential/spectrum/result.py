@@ -10,7 +10,7 @@ import numpy as np
 from ..values import DifferentialError
 from .damage import MODES, EventDamage
 from .slow import SlowCycles
-from .sn import SnCurve, Strength
+from .sn import Strength
 
 HOUR, KM = 3600.0, 1000.0
 NAMES = ("planet root", "side root", "planet flank", "side flank")
@@ -20,8 +20,8 @@ NAMES = ("planet root", "side root", "planet flank", "side flank")
 class SpectrumResult:
     """Damage and life over a duty cycle.
 
-    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`: their
-    Miner sums per cycle at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
+    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`:
+    their Miner sums per cycle at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
     `teeth` of planet and side gear; `planets`: how many; `side_ratio`: root stress of the side gears over that of the planets;
     `order`: in which events follow each other."""
 
@@ -101,35 +101,11 @@ class SpectrumResult:
                 events.setdefault(warning, []).append(one.event.name)
         return [f"{names[0] if len(names) == 1 else f'{len(names)} events'}: {warning}" for warning, names in events.items()]
 
-    def curves(self) -> tuple[SnCurve, SnCurve]:
-        """S–N curves of the critical mode: of teeth that roll, and of teeth that stand in mesh."""
-        if self.is_flank:
-            return self.strength.pitting, self.strength.pitting
-        return (self.strength.bending if self.critical else self.strength.idler), self.strength.bending
-
-    def rolling_spectrum(self) -> tuple[np.ndarray, np.ndarray]:
-        """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty cycle; shapes
-        (events that roll,). Of flanks it is the rated contact pressure."""
-        rolling = [one for one in self.events if one.event.count * one.turns * one.root_stress > 0.0]
-        # a planet has one mesh at each flank, a side gear one with each planet
-        per_turn = self.planets * self.teeth[0] / self.teeth[1] if self.critical % 2 else 1.0
-        roots = [one.root_stress * (self.side_ratio if self.critical else 1.0) for one in rolling]
-        pressures = [self.strength.pitting.strength / one.safety_flank for one in rolling]
-        return (np.array(pressures if self.is_flank else roots), np.array([one.event.count * one.turns * per_turn for one in rolling]))
-
-    def standing_spectrum(self) -> tuple[np.ndarray, np.ndarray]:
-        """Pulsating root stress [Pa] of the slow cycles at the worse fillet of the critical gear, and their counts in a duty cycle; empty
-        for flanks, which they do not damage."""
-        if self.is_flank:
-            return np.empty(0), np.empty(0)
-        slow = self.slow.scaled(self.side_ratio) if self.critical else self.slow
-        return slow.pulsating(self.strength), slow.count
-
     def table(self) -> np.ndarray:
         """A row for each event, the worst first: a structured array, which pandas takes as it is.
 
-        Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names, "slow.planet" and "slow.side" that are
-        contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa), safety.root_min and
+        Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names, "slow.planet" and "slow.side" that
+        are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa), safety.root_min and
         safety.flank_min of the event."""
         damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
         rows = []
@@ -177,7 +153,8 @@ class SpectrumResult:
             lines.append(f"life by the {self.critical_name}: {self.cycles_to_failure:.4g} cycles, {self.life_hours:.4g} h{km}")
         else:
             lines.append("life: no event does any damage")
-        lines += [f"worst event: {self.worst.event.name}: S_F = {self.worst.safety_root:.3g}, S_H = {self.worst.safety_flank:.3g}", ""]
+        worst = self.worst
+        lines += [f"worst event: {worst.event.name}: S_F = {worst.safety_root:.3g}, S_H = {worst.safety_flank:.3g}", ""]
         return "\n".join(lines + self.markdown())
 
     def markdown(self) -> list[str]:
@@ -187,6 +164,6 @@ class SpectrumResult:
         for row in self.table():
             km = f"{row['km']:.3g}" if isfinite(row["km"]) else "–"
             damages = " | ".join(f"{row[mode]:.2e}" if row[mode] > 0.0 else "0" for mode in MODES)
-            lines.append(f"| {row['event']} | {row['count']:g} | {km} | {damages} | {row['share']:.1%} | {row['worst_mode'] or '–'} | "
-                         f"{row['safety.root_min']:.2f} | {row['safety.flank_min']:.2f} |")
+            lines.append(f"| {row['event']} | {row['count']:g} | {km} | {damages} | {row['share']:.1%} | "
+                         f"{row['worst_mode'] or '–'} | {row['safety.root_min']:.2f} | {row['safety.flank_min']:.2f} |")
         return lines

@@ -40,8 +40,8 @@ class SlowCycles:
         return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
 
     def pulsating(self, strength):
-        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the mean has
-        the other sign."""
+        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the mean
+        has the other sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
@@ -52,8 +52,8 @@ class SlowCycles:
 
 
 def count_slow_cycles(histories, counts, order):
-    """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur `counts`
-    times.
+    """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur
+    `counts` times.
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is
     the worst order. "written": events follow each other as listed, without unloading in between; those that occur n times
@@ -117,8 +117,8 @@ def _as_written(histories, counts):
     rows, stress, events = [], [], []
     for event, (history, count) in enumerate(zip(histories, counts)):
         if count != int(count):
-            raise DifferentialError(f"count = {count:g}: events in a written order occur a whole number of times; make it whole, or "
-                                    "take the order \"unknown\"")
+            raise DifferentialError(f"count = {count:g}: events in a written order occur a whole number of times; make it whole, "
+                                    "or take the order \"unknown\"")
         if count == 0:
             continue
         if count > 1:

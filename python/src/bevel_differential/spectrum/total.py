@@ -23,9 +23,9 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
     """Damage and life of the gears over a duty cycle, a `SpectrumResult`.
 
     `cycle`: a CSV file (docs/spectrum.md), or a sequence of `Event`. `parameters`: {name: value} for all events, of the FMU as
-    `Differential` takes them, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene whose
-    values `[set]` come before. `order`: of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: evaluates events, as
-    `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
+    `Differential` takes them, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene
+    whose `[set]` comes before. `order`: of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: evaluates events,
+    as `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     given = {**_of_scene(scene, fmu), **(parameters or {})}
@@ -60,8 +60,8 @@ class _Evaluation:
 
 
 def _slow_by_event(cycles, strength, events):
-    """Damage of slow cycles at the root of the worse flank, shape (events,): each cycle's is shared in proportion to the stresses of
-    the events at its ends."""
+    """Damage of slow cycles at the root of the worse flank, shape (events,): that of each cycle is shared in proportion to the
+    stresses of the events at its ends."""
     damage = cycles.count * strength.bending.damage(cycles.pulsating(strength))
     found = np.zeros(events)
     share = abs(cycles.low) / (abs(cycles.low) + abs(cycles.high))
