@@ -10,13 +10,14 @@ from .event import Event
 # outputs of damage, in the order of all arrays of modes
 MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
 OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max",
-           "left.tangential_force", "right.tangential_force", "planet[1].spin_angle", "carrier.angle", "left.angle",
-           "right.angle")
+           "left.tangential_force", "right.tangential_force", "planet[1].spin_angle")
 # first the differential settles, and then it is looked at [s]
 SETTLING, LOOK = 0.1, 0.5
 POINTS = 50
 # mesh cycles of the steady state: first so many, then twice as many until both halves agree to STEADY
 FEWEST_CYCLES, MOST_CYCLES, STEADY = 4, 64, 0.01
+# a time history: rows of a halt that does not end a roll, and the least roll, in pitches
+HALT, LEAST_ROLL = 5, 0.05
 
 
 @dataclass(frozen=True)
@@ -76,14 +77,15 @@ def _steady(differential, event, teeth):
 def _history(differential, event, teeth):
     """Damage while teeth roll; while they stand, their stress."""
     record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
-    planet = record["planet[1].spin_angle"]
-    sides = [record[f"{side}.angle"] - record["carrier.angle"] for side in ("left", "right")]
-    pushed = _pushed(planet, 2.0 * pi / teeth[0])
-    rolls = (pushed > 0.0) | np.any([_pushed(side, 2.0 * pi / teeth[1]) > 0.0 for side in sides], axis=0)
+    # of the planets, whose place does not change as teeth bend under a load, as that of the side gears does
+    angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
+    pushed = _pushed(angle, pitch)
+    rolls = _rolls(pushed, pitch)
     meshing = np.sum(np.diff(_damage(record), axis=0) * rolls[:, None], axis=0)
+    moves = _with_approach(np.diff(angle), rolls)
     # a tooth that rolls out of mesh loses its load
-    standing = np.where(np.append(rolls[0], rolls), 0.0, _signed_stress(record)) if not np.all(rolls) else np.empty(0)
-    return _result(event, record, meshing, standing, float(np.sum(pushed)) / (2.0 * pi), tuple(differential.warnings))
+    standing = np.where(np.append(moves[0], moves), 0.0, _signed_stress(record)) if not np.all(moves) else np.empty(0)
+    return _result(event, record, meshing, standing, float(np.sum(pushed * rolls)) / (2.0 * pi), tuple(differential.warnings))
 
 
 def _pushed(angle, pitch):
@@ -94,6 +96,25 @@ def _pushed(angle, pitch):
         place = min(max(wanted, -pitch / 2.0), pitch / 2.0)
         found.append(abs(wanted - place))
     return np.array(found)
+
+
+def _rolls(pushed, pitch):
+    """Where a gear rolls on: stretches of rows, with short halts in them, that push the window along by more than teeth that bend
+    or cross their lash do."""
+    places = np.flatnonzero(pushed > 0.0)
+    found = np.zeros(len(pushed), bool)
+    for stretch in np.split(places, np.flatnonzero(np.diff(places) > HALT) + 1):
+        if len(stretch) and np.sum(pushed[stretch]) > LEAST_ROLL * pitch:
+            found[stretch[0]:stretch[-1] + 1] = True
+    return found
+
+
+def _with_approach(steps, rolls):
+    """Where a gear rolls, and where it moved on to the edge of its window before it did: there no tooth stands."""
+    found = rolls.copy()
+    for i in range(len(steps) - 2, -1, -1):
+        found[i] |= found[i + 1] and steps[i] * steps[i + 1] > 0.0
+    return found
 
 
 def _damage(record):

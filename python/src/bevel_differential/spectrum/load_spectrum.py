@@ -14,8 +14,8 @@ def curves(result) -> tuple[SnCurve, SnCurve]:
 
 
 def rolling_spectrum(result) -> tuple[np.ndarray, np.ndarray]:
-    """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty cycle;
-    shapes (events that roll,). Of flanks it is the rated contact pressure."""
+    """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty
+    cycle; shapes (events that roll,). Of flanks it is the rated contact pressure."""
     rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
     if result.is_flank:
         stresses = [result.strength.pitting.strength / one.safety_flank for one in rolling]

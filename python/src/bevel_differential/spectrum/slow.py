@@ -40,8 +40,8 @@ class SlowCycles:
         return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
 
     def pulsating(self, strength):
-        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the mean
-        has the other sign."""
+        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the
+        mean has the other sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
@@ -51,9 +51,9 @@ class SlowCycles:
         return spans, means, counts
 
 
-def count_slow_cycles(histories, counts, order):
+def count_slow_cycles(histories, counts, order, least=0.0):
     """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur
-    `counts` times.
+    `counts` times; ranges up to `least` [Pa] are left out.
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is
     the worst order. "written": events follow each other as listed, without unloading in between; those that occur n times
@@ -64,7 +64,7 @@ def count_slow_cycles(histories, counts, order):
         rows = _as_written(histories, counts)
     else:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    rows = [row for row in rows if row[1] > row[0] and row[2] > 0.0]
+    rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
     low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
     return SlowCycles(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
                       np.array(high_event, int))

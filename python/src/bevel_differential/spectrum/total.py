@@ -17,6 +17,8 @@ from .vehicle import QUANTITIES
 
 TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
+# ranges of stress up to this part of the strength are no cycles, as in the FMU
+GATE = 0.01
 
 
 def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, mapper=map):
@@ -40,8 +42,9 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
         damages = tuple(mapper(_Evaluation(differential, teeth), events))
     # both roots follow one force, so that the ratio is the same in all events under load
     ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
-    slow = count_slow_cycles([damage.standing for damage in damages], [event.count for event in events], order)
     strength = Strength.of(facts)
+    histories, counts = [damage.standing for damage in damages], [event.count for event in events]
+    slow = count_slow_cycles(histories, counts, order, GATE * strength.bending.strength)
     by_event = np.stack([_slow_by_event(cycles, strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
     return SpectrumResult(damages, slow, by_event, strength, teeth, facts[PLANETS], ratio, order)
 
