@@ -1,0 +1,93 @@
+//! The Jacobian of the assembled equations of motion against differences of their rates, with every effect of the teeth: what
+//! adds the meshes of all planets together has no other witness, as a wrong Jacobian only makes steps shorter.
+
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
+
+/// Central differences of order 4: places and weights.
+const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+/// Steps of a difference: angles move by a thousandth of a deflection, speeds by a millionth of theirs [rad, rad/s].
+const STEP: [f64; 2] = [3e-8, 3e-5];
+/// What a difference may be off, relative to the largest derivative of its block: the fourth power of step over deflection, and
+/// the rounding of forces over the step.
+const WITHIN: f64 = 1e-6;
+
+/// A turn under unequal loads, so that no two meshes are alike, changed by `change`.
+fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
+    let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
+    (inputs.carrier_speed, inputs.planet_spin) = (954f64.to_radians(), 200f64.to_radians());
+    inputs.load_torque = [800.0, 760.0];
+    (inputs.carrier_torque, p.scene.carrier_drive) = (1560.0, CarrierDrive::Torque);
+    (p.inertia.left_end, p.inertia.right_end, p.scene.start) = (0.3, 0.4, Start::Equilibrium);
+    (p.geometry.planet_bore, p.geometry.side_bore) = (16e-3, 30e-3);
+    change(&mut p);
+    (p, inputs)
+}
+
+fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
+    let line = |p: &mut Parameters| p.contact.law = ContactLaw::Line;
+    let bodies = |p: &mut Parameters| (p.contact.law, p.effects.body_compliance) = (ContactLaw::LineWeber, true);
+    let errors = |p: &mut Parameters| {
+        p.effects.tooth_errors = true;
+        (p.specs.tooth_errors.accuracy_grade, p.specs.tooth_errors.crowning) = (7, 5e-6);
+    };
+    let friction = |p: &mut Parameters| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true);
+    let pins = |p: &mut Parameters| p.effects.pin_compliance = true;
+    vec![
+        ("plain", turn(|_| {})),
+        ("lumped", turn(|p| p.scene.gear_contact = GearContact::Lumped)),
+        ("line", turn(line)),
+        ("imposed spin", turn(|p| p.scene.planet_spin = PlanetSpin::Imposed)),
+        ("errors", turn(|p| (line(p), errors(p)).0)),
+        ("friction", turn(|p| (line(p), friction(p)).0)),
+        ("pins", turn(|p| (line(p), pins(p)).0)),
+        ("bodies", turn(bodies)),
+        ("bodies, errors", turn(|p| (bodies(p), errors(p)).0)),
+        ("bodies, friction", turn(|p| (bodies(p), friction(p)).0)),
+        ("bodies, pins", turn(|p| (bodies(p), pins(p)).0)),
+        ("bodies, errors, friction, pins", turn(|p| (bodies(p), errors(p), friction(p), pins(p)).0)),
+        ("shafts and drag", turn(|p| (p.effects.half_shaft, p.effects.bearing_drag) = (true, true))),
+    ]
+}
+
+/// Derivatives of the rates along coordinate `k` of positions and velocities, by differences.
+fn difference(simulation: &Simulation, at: &[Vec<f64>; 2], k: usize) -> Vec<f64> {
+    let n = at[0].len();
+    let (kind, place) = (k / n, k % n);
+    let mut slope = vec![0.0; 2 * n];
+    for (position, weight) in STENCIL {
+        let mut moved = at.clone();
+        moved[kind][place] += position * STEP[kind];
+        let mut rates = [vec![0.0; n], vec![0.0; n]];
+        let [dq, dv] = &mut rates;
+        simulation.rates(&moved[0], &moved[1], [dq, dv]);
+        slope.iter_mut().zip(rates.concat()).for_each(|(sum, rate)| *sum += weight * rate / STEP[kind]);
+    }
+    slope
+}
+
+#[test]
+fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
+    for (name, (parameters, inputs)) in scenes() {
+        let mut simulation = Simulation::start(&parameters, &inputs, 0.0).expect(name);
+        for stop in [1e-3, 4e-3, 9e-3] {
+            simulation.advance(stop).expect(name);
+            let (state, n) = (simulation.state(), simulation.freedoms());
+            let at = [state.q[..n].to_vec(), state.v[..n].to_vec()];
+            let mut rows = vec![0.0; 4 * n * n];
+            simulation.slopes(&at[0], &at[1], &mut rows);
+            let columns: Vec<Vec<f64>> = (0..2 * n).map(|k| difference(&simulation, &at, k)).collect();
+            for block in 0..2 {
+                let entries = || (0..2 * n).flat_map(|i| (block * n..(block + 1) * n).map(move |k| (i, k)));
+                let largest = entries().fold(0.0f64, |most, (i, k)| most.max(columns[k][i].abs()));
+                for (i, k) in entries() {
+                    let (exact, found) = (rows[2 * n * i + k], columns[k][i]);
+                    assert!(
+                        (exact - found).abs() < WITHIN * largest,
+                        "{name} at {stop} s: row {i}, column {k}: {exact:e}, by differences {found:e}, largest {largest:e}"
+                    );
+                }
+            }
+        }
+    }
+}
