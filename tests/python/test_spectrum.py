@@ -229,6 +229,20 @@ def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
     assert counts.shape == (8, 8) and counts.sum() == pytest.approx(result.slow.count.sum())
 
 
+def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
+    text = (ROOT / "docs" / "spectrum.md").read_text(encoding="utf-8")
+    written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
+    header, rows = written[:2], [[cell.strip() for cell in line.strip("|").split("|")] for line in written[2:]]
+    found = spectrum(DUTY_CYCLE, fmu=fmu_file)
+    assert header == found.markdown()[:2] and len(rows) > 10
+    table = {str(row["event"]): row for row in found.table()}
+    for name, count, _, *cells in rows:
+        numbers = [float(cell) for cell in cells[:4] + cells[6:]]
+        expected = [table[name][column] for column in [*ROOTS, *FLANKS, "safety.root_min", "safety.flank_min"]]
+        assert float(count) == table[name]["count"] and cells[5] == table[name]["worst_mode"]
+        assert numbers == pytest.approx(expected, rel=0.02), name
+
+
 def test_a_scene_gives_the_parameters_of_the_vehicle(cycle, tmp_path):
     scene = tmp_path / "vehicle.toml"
     scene.write_text('description = "d"\nstop_time = 0.1\nstep = 0.01\noutputs = ["left.speed"]\n'

@@ -6,7 +6,6 @@ load. Cycles are counted for a duty cycle that repeats, so that all of them clos
 from dataclasses import dataclass
 
 import numpy as np
-import rainflow
 
 from ..values import DifferentialError
 
@@ -72,6 +71,10 @@ def count_slow_cycles(histories, counts, order, least=0.0):
 
 def closed_cycles(stress):
     """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
+    try:
+        import rainflow
+    except ImportError:
+        raise DifferentialError("counting cycles needs the package rainflow: pip install \"bevel-differential[spectrum]\"") from None
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
     for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):
