@@ -260,7 +260,7 @@ HEAD = "name,count,duration [s],speed [km/h],turn_radius [m],torque [N.m]"
     (["name,count,duration [fortnights]", "a,1,1"], ["line 1, column duration [fortnights]", "'fortnights'", "min"]),
     (["name,count,left.load_torque [lbf.ft]", "a,1,1"], ["line 1", "'lbf.ft'", "N.m"]),
     (["name,count,count", "a,1,1"], ["line 1, column count", "twice"]),
-    (["name,duration [s]", "a,1"], ["name and count"]),
+    (["name,duration [s]", "a,1"], ["no column count"]),
     (["name,count,left.speed [rpm]", "a,1,1"], ["column left.speed [rpm]", "none of the inputs and parameters"]),
     (["name,count,geometry.module [mm]", "a,1,4"], ["geometry.module", "whole cycle"]),
     ([HEAD], ["no line below the header"]),
@@ -291,7 +291,7 @@ def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
     (["time [s],torque [N.m]", "0,1", "1,x"], ["line 3, column torque [N.m], value \"x\""]),
     (["time [s],torque [N.m]", "1,1", "0,1"], ["line 3, column time [s]", "must not fall"]),
     (["time [s],torque [N.m]", "0,1"], ["two times or more"]),
-    (["torque [N.m]", "0"], ["column time"]),
+    (["torque [N.m]", "0"], ["no column time"]),
     (["time [s],contact.damping", "0,1"], ["contact.damping", "none of the inputs"]),
     (["time [s],torque [N.m]", "0,", "1,1"], ["line 2, column torque [N.m]", "write a value"]),
 ])

@@ -4,14 +4,13 @@ from math import nan
 
 import numpy as np
 
+from ..csv_table import CsvTable, Quantity, Text, Time, unknown
 from ..values import DifferentialError
-from .columns import Quantity, Table, Text, unknown
 from .event import Event
 from .vehicle import LENGTH, QUANTITIES, inputs_of, wheel_radius
 
-TIME = {"s": 1.0, "ms": 1e-3, "min": 60.0, "h": 3600.0}
 OWN = {column.name: column for column in [
-    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Quantity("duration", TIME), Quantity("distance", LENGTH)]}
+    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]}
 # they hold for the whole cycle: gears do not change from event to event
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
 # steps of a time history: the longest, and the shortest [s]
@@ -21,9 +20,10 @@ LONGEST, SHORTEST = 0.01, 1e-4
 def read_cycle(file, fmu, vehicle, teeth):
     """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
     SI; `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
-    table = Table(file, lambda name: OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter")))
-    if "name" not in table.columns or "count" not in table.columns:
-        raise DifferentialError(f"{table.file}: the header needs the columns name and count")
+    def known(name):
+        return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
+
+    table = CsvTable(file, known, needed=["name", "count"])
     return [_event(table, line, row, fmu, vehicle, teeth) for line, row in table.rows]
 
 
@@ -98,11 +98,12 @@ def _speed(known, row):
 
 def _history(table, line, row, fmu):
     """Columns of a time history by name, SI, arrays of shape (points,); "time" begins at 0."""
-    time = Quantity("time", TIME)
     file = table.file.parent / row["history"]
-    found = Table(file, lambda name: time if name == "time" else _variable(name, fmu, causalities=("input",)))
-    if "time" not in found.columns:
-        raise DifferentialError(f"{found.file}: the header needs the column time")
+
+    def known(name):
+        return Time(name) if name == "time" else _variable(name, fmu, causalities=("input",))
+
+    found = CsvTable(file, known, needed=["time"])
     for at, values in found.rows:
         for name in found.columns:
             if name not in values:

@@ -74,7 +74,8 @@ def closed_cycles(stress):
     try:
         import rainflow
     except ImportError:
-        raise DifferentialError("counting cycles needs the package rainflow: pip install \"bevel-differential[spectrum]\"") from None
+        raise DifferentialError("counting cycles needs the package rainflow; "
+                                "install it, or bevel-differential[spectrum]") from None
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
     for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):

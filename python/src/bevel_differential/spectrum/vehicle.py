@@ -14,8 +14,8 @@ from math import pi
 
 import numpy as np
 
+from ..csv_table import Quantity
 from ..values import DifferentialError
-from .columns import Quantity
 
 LENGTH = {"m": 1.0, "mm": 1e-3, "km": 1e3}
 QUANTITIES = {quantity.name: quantity for quantity in [

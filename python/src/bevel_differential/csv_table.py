@@ -4,7 +4,8 @@ import csv
 import re
 from pathlib import Path
 
-from ..values import DifferentialError, Variable, suggestion
+from .points import PER_SECOND
+from .values import DifferentialError, Variable, suggestion
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
 
@@ -16,6 +17,14 @@ class Quantity(Variable):
         self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
         self.unit = next(iter(units))
         self.units = {unit: (1.0 / size, 0.0) for unit, size in units.items()}
+
+
+class Time(Quantity):
+    """A time."""
+
+    def __init__(self, name):
+        super().__init__(name, {"s": 1.0})
+        self.units = {unit: (number, 0.0) for unit, number in PER_SECOND.items() if unit}
 
 
 class Text:
@@ -44,16 +53,17 @@ class Column:
         return self.variable.number(cell)
 
 
-class Table:
+class CsvTable:
     """The columns of a file by name, and its rows as pairs (line, {name: value in SI}); empty cells are left out."""
 
-    def __init__(self, file, known):
-        """`known`: function from a name to its variable, or None; called with each name of the header."""
+    def __init__(self, file, known, needed=()):
+        """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing."""
         self.file = Path(file)
         lines = list(_lines(self.file))
         if not lines:
             raise DifferentialError(f"{self.file}: it is empty; its first line names the columns")
         (line, heads), *rows = lines
+        self._need(heads, needed)
         self.columns = {}
         for place, head in enumerate(heads):
             column = self._column(line, head, place, known)
@@ -72,6 +82,12 @@ class Table:
     def problem_at(self, line, name, text, cell=None):
         """The error of a cell, by the name of its column."""
         return self.problem(line, self.columns[name].head if name in self.columns else name, text, cell)
+
+    def _need(self, heads, needed):
+        names = {match["name"] for match in map(_HEAD.match, heads) if match}
+        missing = [name for name in needed if name not in names]
+        if missing:
+            raise DifferentialError(f"{self.file}: it has no column {' and no column '.join(missing)}; the first line names the columns")
 
     def _column(self, line, head, place, known):
         match = _HEAD.match(head)
