@@ -311,6 +311,7 @@ def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_pa
     assert "life by the" in capsys.readouterr().out and table.is_file() and picture.is_file()
     for wrong, part in [(["nowhere.csv"], "nowhere.csv"), ([str(DUTY_CYCLE), "--set", "track"], "NAME=VALUE"),
                         ([str(DUTY_CYCLE), "--set", "contact.law=lin"], "contact.law"),
+                        ([str(DUTY_CYCLE), "--set", "wheel_radus=0.3"], "did you mean wheel_radius"),
                         ([str(DUTY_CYCLE), "--scene", "nowhere"], "no scene file 'nowhere'"),
                         ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "needs scene.gear_contact"),
                         ([str(DUTY_CYCLE), "--picture", str(tmp_path / "p.xyz")], "p.xyz")]:

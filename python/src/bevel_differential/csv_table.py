@@ -87,7 +87,8 @@ class CsvTable:
         names = {match["name"] for match in map(_HEAD.match, heads) if match}
         missing = [name for name in needed if name not in names]
         if missing:
-            raise DifferentialError(f"{self.file}: it has no column {' and no column '.join(missing)}; the first line names the columns")
+            what = " and no column ".join(missing)
+            raise DifferentialError(f"{self.file}: it has no column {what}; the first line names the columns")
 
     def _column(self, line, head, place, known):
         match = _HEAD.match(head)

@@ -5,8 +5,9 @@ from pathlib import Path
 import numpy as np
 
 from ..differential import Differential
+from ..fmu import Fmu
 from ..scene import Scene
-from ..values import DifferentialError
+from ..values import DifferentialError, suggestion
 from .cycle import read_cycle
 from .damage import evaluate
 from .event import Event
@@ -33,6 +34,9 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
     given = {**_of_scene(scene, fmu), **(parameters or {})}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
+    variables = Fmu.of(fmu).variables
+    for name in values.keys() - variables.keys():
+        raise DifferentialError(f"{name}: there is no such variable or quantity{suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
         facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS], stop=1e-3)
         teeth = tuple(facts[name] for name in TEETH)
