@@ -47,6 +47,11 @@ def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
         assert numbers == pytest.approx(expected, rel=0.02), name
 
 
+def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle):
+    lines = [HEAD, "start,2,4,20,,1500", "corner,1,4,20,20,300"]
+    assert np.array_equal(cycle(*lines, scene="study_turning").by_event, cycle(*lines).by_event)
+
+
 @pytest.mark.parametrize("lines, parts", [
     (["name,count,duration [s],torqe [N.m]", "a,1,1,1"], ["line 1, column torqe [N.m]", "did you mean torque"]),
     (["name,count,duration [fortnights]", "a,1,1"], ["line 1, column duration [fortnights]", "'fortnights'", "min"]),

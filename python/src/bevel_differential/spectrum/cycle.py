@@ -13,6 +13,8 @@ OWN = {column.name: column for column in [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]}
 # they hold for the whole cycle: gears do not change from event to event
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
+# quantities of which one says how the vehicle turns
+TURNS = {"turn_radius", "speed_difference"}
 # steps of a time history: the longest, and the shortest [s]
 LONGEST, SHORTEST = 0.01, 1e-4
 
@@ -35,6 +37,9 @@ def _event(table, line, row, fmu, vehicle, teeth):
         raise table.problem_at(line, "count", "an event occurs 0 times or more", f"{row['count']:g}")
     history = _history(table, line, row, fmu) if "history" in row else {}
     known = {**vehicle, **{name: value for name, value in row.items() if name in QUANTITIES}, **history}
+    if TURNS & table.columns.keys() and not TURNS & known.keys() and "planet.spin_command" not in row:
+        # empty: straight ahead, whatever the scene has
+        known["speed_difference"] = 0.0
     try:
         driven = _driven(known, {**row, **history}, teeth)
         duration, distance = _length(table, line, row, known)

@@ -71,7 +71,7 @@ def _steady(differential, event, teeth):
     warnings = tuple(differential.warnings)
     if not steady:
         warnings += (f"damage of two times {cycles // 4} mesh cycles differs by more than {STEADY:.0%}; their mean is taken",)
-    return _result(event, record, rate * event.duration, np.empty(0), pitches / teeth[0], warnings)
+    return _result(event, record[before:], rate * event.duration, np.empty(0), pitches / teeth[0], warnings)
 
 
 def _history(differential, event, teeth):

@@ -80,4 +80,5 @@ def _slow_by_event(cycles, strength, events):
 def _of_scene(scene, fmu):
     if scene is None:
         return {}
-    return Scene.load(scene, fmu).values
+    # events begin in their steady state, not as the scene does
+    return {name: value for name, value in Scene.load(scene, fmu).values.items() if name != "scene.start"}
