@@ -1,10 +1,10 @@
 """Scenes from TOML files."""
 
-import csv
 import importlib.resources
 import tomllib
 from pathlib import Path
 
+from .csv_table import CsvTable, Time
 from .points import seconds, span
 from .values import DifferentialError, suggestion
 
@@ -110,27 +110,12 @@ def read_inputs(file: Path, fmu) -> list:
     """Inputs over time from a CSV file: a column of times and one for each input, with units in brackets in the header.
 
     Returns [(input, times in s, values in SI)]."""
-    try:
-        lines = file.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise DifferentialError(f"{file}: {error}") from None
-    rows = [(number, [cell.strip() for cell in next(csv.reader([line]))]) for number, line in enumerate(lines, 1)
-            if line.strip() and not line.startswith("#")]
-    if len(rows) < 2:
-        raise DifferentialError(f"{file}: needs a header such as \"time [s],left.load_torque [N.m]\" and a line for each time")
-    heads = [(head.partition("[")[0].strip(), head.partition("[")[2].rstrip("]").strip()) for head in rows[0][1]]
-    if "time" not in [name for name, _ in heads]:
-        raise DifferentialError(f"{file}: has no column time")
-    columns = {name: [] for name, _ in heads}
-    for number, cells in rows[1:]:
-        if len(cells) != len(heads):
-            raise DifferentialError(f"{file}, line {number}: has {len(cells)} cells where the header has {len(heads)}")
-        for (name, unit), cell in zip(heads, cells):
-            try:
-                written = f"{cell} {unit}".strip()
-                columns[name].append(seconds(name, written) if name == "time" else fmu.variable(name).number(written))
-            except DifferentialError as error:
-                raise DifferentialError(f"{file}, line {number}, column {name}: {error}") from None
+    table = CsvTable(file, lambda name: Time(name) if name == "time" else fmu.variable(name), needed=["time"])
+    for line, row in table.rows:
+        for name in table.columns:
+            if name not in row:
+                raise table.problem_at(line, name, "write a value", "")
+    columns = {name: [row[name] for _, row in table.rows] for name in table.columns}
     times = columns.pop("time")
     return [(name, times, values) for name, values in columns.items()]
 

@@ -1,0 +1,144 @@
+"""A CSV file with a header of names and units, whose errors name file, line, column and value."""
+
+import csv
+import re
+from pathlib import Path
+
+from .points import PER_SECOND
+from .values import DifferentialError, Variable, suggestion
+
+_HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
+
+
+class Quantity(Variable):
+    """A quantity that the FMU does not know, with its units: {unit: SI units in one}; the first one is SI."""
+
+    def __init__(self, name, units):
+        self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
+        self.unit = next(iter(units))
+        self.units = {unit: (1.0 / size, 0.0) for unit, size in units.items()}
+
+
+class Time(Quantity):
+    """A time."""
+
+    def __init__(self, name):
+        super().__init__(name, {"s": 1.0})
+        self.units = {unit: (number, 0.0) for unit, number in PER_SECOND.items() if unit}
+
+
+class Text:
+    """A column of words."""
+
+    def __init__(self, name):
+        self.name, self.kind, self.units = name, "Text", {}
+
+    def number(self, word):
+        """The word itself."""
+        return word
+
+
+class Column:
+    """A column: its `head` as written, its `variable`, and its place in a row."""
+
+    def __init__(self, head, variable, unit, place):
+        self.head, self.variable, self.unit, self.place = head, variable, unit, place
+
+    def value(self, cell):
+        """The value of a cell in SI."""
+        if self.variable.kind in ("Real", "Integer"):
+            return self.variable.number((cell, self.unit))
+        if self.unit is not None:
+            raise DifferentialError(f"{self.head}: it has no unit; remove the brackets")
+        return self.variable.number(cell)
+
+
+class CsvTable:
+    """The columns of a file by name, and its rows as pairs (line, {name: value in SI}); empty cells are left out."""
+
+    def __init__(self, file, known, needed=()):
+        """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing."""
+        self.file = Path(file)
+        lines = list(_lines(self.file))
+        if not lines:
+            raise DifferentialError(f"{self.file}: it is empty; its first line names the columns")
+        (line, heads), *rows = lines
+        self._need(heads, needed)
+        self.columns = {}
+        for place, head in enumerate(heads):
+            column = self._column(line, head, place, known)
+            if column.variable.name in self.columns:
+                raise self.problem(line, column.head, "it stands here twice; remove one of the columns")
+            self.columns[column.variable.name] = column
+        if not rows:
+            raise DifferentialError(f"{self.file}: there is no line below the header")
+        self.rows = [(line, self._row(line, cells)) for line, cells in rows]
+
+    def problem(self, line, head=None, text="", cell=None):
+        """The error of a line, or of a cell in the column `head`."""
+        place = f"{self.file}, line {line}" + (f", column {head}" if head else "")
+        return DifferentialError(f"{place}{'' if cell is None else f', value {chr(34)}{cell}{chr(34)}'}: {text}")
+
+    def problem_at(self, line, name, text, cell=None):
+        """The error of a cell, by the name of its column."""
+        return self.problem(line, self.columns[name].head if name in self.columns else name, text, cell)
+
+    def _need(self, heads, needed):
+        names = {match["name"] for match in map(_HEAD.match, heads) if match}
+        missing = [name for name in needed if name not in names]
+        if missing:
+            what = " and no column ".join(missing)
+            raise DifferentialError(f"{self.file}: it has no column {what}; the first line names the columns")
+
+    def _column(self, line, head, place, known):
+        match = _HEAD.match(head)
+        if not match:
+            raise self.problem(line, head.strip() or place + 1, "write a name, and a unit in brackets")
+        name, unit = match["name"], match["unit"]
+        try:
+            variable = known(name)
+        except DifferentialError as failure:
+            raise self.problem(line, head.strip(), _reason(failure)) from None
+        if unit is not None:
+            try:
+                # of any value, so that a wrong unit is an error of the header
+                Column(head, variable, unit.strip(), place).value("0")
+            except DifferentialError as failure:
+                raise self.problem(line, head.strip(), _reason(failure)) from None
+        return Column(head.strip(), variable, unit and unit.strip(), place)
+
+    def _row(self, line, cells):
+        if len(cells) != len(self.columns):
+            raise self.problem(line, text=f"has {len(cells)} cells where the header has {len(self.columns)}; "
+                                          "every line needs all of them")
+        values = {}
+        for name, column in self.columns.items():
+            cell = cells[column.place].strip()
+            if cell:
+                try:
+                    values[name] = column.value(cell)
+                except DifferentialError as failure:
+                    raise self.problem(line, column.head, _reason(failure), cell) from None
+        return values
+
+
+def unknown(name, names):
+    """The error of a column that nobody knows."""
+    return DifferentialError(f"{name}: there is no such column{suggestion(name, names)}")
+
+
+def _lines(file):
+    """Numbers and cells of the lines that are neither empty nor comments."""
+    try:
+        text = file.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as failure:
+        reason = getattr(failure, "strerror", None) or "it is no text in UTF-8"
+        raise DifferentialError(f"{file}: {reason}") from None
+    for number, line in enumerate(text.splitlines(), 1):
+        if line.strip() and not line.lstrip().startswith("#"):
+            yield number, next(csv.reader([line]))
+
+
+def _reason(failure):
+    """The message of a value without the name and the value, which the place has already."""
+    return str(failure).partition(": ")[2] or str(failure)

@@ -1,0 +1,11 @@
+"""Damage of the gears over a duty cycle, and their life.
+
+>>> from bevel_differential.spectrum import spectrum
+>>> print(spectrum("duty_cycle.csv").summary())  # doctest: +SKIP
+"""
+
+from .event import Event
+from .result import SpectrumResult
+from .total import spectrum
+
+__all__ = ["Event", "SpectrumResult", "spectrum"]

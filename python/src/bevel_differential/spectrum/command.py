@@ -1,0 +1,48 @@
+"""The sub-command `spectrum`."""
+
+import sys
+
+from ..values import DifferentialError
+from .slow import ORDERS
+from .total import spectrum
+
+WRONG_USE = 2
+
+
+def add_arguments(parser):
+    """Adds the options of the sub-command to an `argparse` parser."""
+    parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
+    parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", dest="settings",
+                        help="parameter of the FMU or quantity of the vehicle for all events, such as \"wheel_radius=334 mm\"; "
+                             "may be repeated")
+    parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
+                        help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
+    parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
+    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum")
+    parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or of BEVEL_DIFFERENTIAL_FMU)")
+
+
+def run(arguments) -> int:
+    """Runs the sub-command; returns the exit status: 0, or 2 with a message in one line if something is wrong."""
+    try:
+        settings = _settings(arguments.settings)
+        result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
+        print(result.summary())
+        for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
+            if file:
+                print(f"wrote {write(file)}")
+        for warning in dict.fromkeys(result.warnings):
+            print(f"warning: {warning}", file=sys.stderr)
+    except (DifferentialError, OSError) as failure:
+        print(f"bevel-differential spectrum: {' '.join(str(failure).split())}", file=sys.stderr)
+        return WRONG_USE
+    return 0
+
+
+def _settings(given):
+    """{name: value} of a list of "NAME=VALUE"."""
+    for setting in given:
+        if "=" not in setting:
+            raise DifferentialError(f"--set {setting}: write NAME=VALUE, such as \"wheel_radius=334 mm\"")
+    return {name.strip(): value.strip() for name, _, value in (setting.partition("=") for setting in given)}

@@ -1,0 +1,136 @@
+"""A duty cycle from a CSV file: a line for each event."""
+
+from math import nan
+
+import numpy as np
+
+from ..csv_table import CsvTable, Quantity, Text, Time, unknown
+from ..values import DifferentialError
+from .event import Event
+from .vehicle import LENGTH, QUANTITIES, inputs_of, wheel_radius
+
+OWN = {column.name: column for column in [
+    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]}
+# they hold for the whole cycle: gears do not change from event to event
+WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
+# quantities of which one says how the vehicle turns
+TURNS = {"turn_radius", "speed_difference"}
+# steps of a time history: the longest, and the shortest [s]
+LONGEST, SHORTEST = 0.01, 1e-4
+
+
+def read_cycle(file, fmu, vehicle, teeth):
+    """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
+    SI; `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
+    def known(name):
+        return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
+
+    table = CsvTable(file, known, needed=["name", "count"])
+    return [_event(table, line, row, fmu, vehicle, teeth) for line, row in table.rows]
+
+
+def _event(table, line, row, fmu, vehicle, teeth):
+    for name in ("name", "count"):
+        if name not in row:
+            raise table.problem_at(line, name, "write a value", "")
+    if row["count"] < 0.0:
+        raise table.problem_at(line, "count", "an event occurs 0 times or more", f"{row['count']:g}")
+    history = _history(table, line, row, fmu) if "history" in row else {}
+    known = {**vehicle, **{name: value for name, value in row.items() if name in QUANTITIES}, **history}
+    if TURNS & table.columns.keys() and not TURNS & known.keys() and "planet.spin_command" not in row:
+        # empty: straight ahead, whatever the scene has
+        known["speed_difference"] = 0.0
+    try:
+        driven = _driven(known, {**row, **history}, teeth)
+        duration, distance = _length(table, line, row, known)
+    except DifferentialError as failure:
+        if str(failure).startswith(str(table.file)):
+            raise
+        raise table.problem(line, text=str(failure)) from None
+    known_elsewhere = {*OWN, *QUANTITIES, *row, *driven}
+    missing = [name for name in table.columns if name not in known_elsewhere]
+    if missing:
+        raise table.problem_at(line, missing[0], "write a value", "")
+    values = {name: value for name, value in driven.items() if np.ndim(value) == 0}
+    signals = {name: (history["time"], value) for name, value in driven.items() if np.ndim(value) == 1}
+    return Event(row["name"], row["count"], duration, distance, values, signals, _step(history))
+
+
+def _step(history):
+    """Communication step [s]: that of the points of a history, within limits."""
+    gaps = np.diff(history.get("time", ()))
+    return float(np.clip(np.min(gaps[gaps > 0.0], initial=LONGEST), SHORTEST, LONGEST))
+
+
+def _driven(vehicle, given, teeth):
+    """Values of the FMU that are `given`, and those that follow from the quantities of the vehicle."""
+    values = {name: value for name, value in given.items() if name not in OWN and name not in QUANTITIES and name != "time"}
+    for name, value in inputs_of(vehicle, teeth).items():
+        if name in values:
+            raise DifferentialError(f"{name}: speed, torque or turn of the vehicle give it as well; remove one of both")
+        values[name] = value
+    return values
+
+
+def _length(table, line, row, known):
+    """Duration [s] and distance [m] of one occurrence."""
+    for name in ("duration", "distance"):
+        if name in row and row[name] <= 0.0:
+            raise table.problem_at(line, name, "it must be more than 0, or empty", f"{row[name]:g}")
+    speed = np.abs(_speed(known, row))
+    if "time" in known:
+        if "duration" in row:
+            raise table.problem_at(line, "duration", "leave it empty: the history has its own", f"{row['duration']:g}")
+        times = known["time"]
+        return float(times[-1]), row.get("distance", float(np.trapezoid(np.broadcast_to(speed, times.shape), times)))
+    if "duration" in row:
+        return row["duration"], row.get("distance", float(speed * row["duration"]))
+    if "distance" not in row:
+        raise table.problem(line, text="an event needs a duration, or a distance and a speed; fill in one of these columns")
+    if not speed > 0.0:
+        text = "it needs a speed other than 0; fill in speed, or duration"
+        raise table.problem_at(line, "distance", text, f"{row['distance']:g}")
+    return float(row["distance"] / speed), row["distance"]
+
+
+def _speed(known, row):
+    """Speed of the vehicle [m/s], NaN if not known."""
+    carrier = known.get("carrier.speed_command", row.get("carrier.speed_command"))
+    if "speed" in known or carrier is None or not known.keys() & {"wheel_radius", "tyre_circumference"}:
+        return known.get("speed", nan)
+    return carrier * wheel_radius(known, "distance")
+
+
+def _history(table, line, row, fmu):
+    """Columns of a time history by name, SI, arrays of shape (points,); "time" begins at 0."""
+    file = table.file.parent / row["history"]
+
+    def known(name):
+        return Time(name) if name == "time" else _variable(name, fmu, causalities=("input",))
+
+    found = CsvTable(file, known, needed=["time"])
+    for at, values in found.rows:
+        for name in found.columns:
+            if name not in values:
+                raise found.problem_at(at, name, "write a value", "")
+    times = np.array([values["time"] for _, values in found.rows])
+    falls = np.nonzero(np.diff(times) < 0.0)[0]
+    if len(falls):
+        raise found.problem_at(found.rows[falls[0] + 1][0], "time", "times must not fall", f"{times[falls[0] + 1]:g}")
+    if len(times) < 2 or times[-1] == times[0]:
+        raise DifferentialError(f"{found.file}: a time history needs two times or more")
+    columns = {name: np.array([values[name] for _, values in found.rows]) for name in found.columns}
+    return {**columns, "time": times - times[0]}
+
+
+def _variable(name, fmu, causalities):
+    if name in QUANTITIES:
+        return QUANTITIES[name]
+    if name not in fmu.variables:
+        raise unknown(name, [*OWN, *QUANTITIES, *fmu.variables])
+    variable = fmu.variables[name]
+    if variable.causality not in causalities:
+        raise DifferentialError(f"{name}: it is none of the {' and '.join(each + 's' for each in causalities)} of the FMU")
+    if name.startswith(WHOLE):
+        raise DifferentialError(f"{name}: it holds for the whole cycle; give it as a parameter, not as a column")
+    return variable

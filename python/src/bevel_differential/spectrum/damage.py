@@ -1,0 +1,135 @@
+"""Damage of one event, from a short simulation by the FMU."""
+
+from dataclasses import dataclass
+from math import ceil, nan, pi
+
+import numpy as np
+
+from .event import Event
+
+# outputs of damage, in the order of all arrays of modes
+MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
+OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max",
+           "left.tangential_force", "right.tangential_force", "planet[1].spin_angle")
+# first the differential settles, and then it is looked at [s]
+SETTLING, LOOK = 0.1, 0.5
+POINTS = 50
+# mesh cycles of the steady state: first so many, then twice as many until both halves agree to STEADY
+FEWEST_CYCLES, MOST_CYCLES, STEADY = 4, 64, 0.01
+# a time history: rows of a halt that does not end a roll, and the least roll, in pitches
+HALT, LEAST_ROLL = 5, 0.05
+
+
+@dataclass(frozen=True)
+class EventDamage:
+    """What one occurrence of an event does to the gears.
+
+    `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the
+    same teeth stand in mesh, signed by the flank, shape (points,), empty if teeth roll on all the time; `side_ratio`: root
+    stress of the side gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the
+    carrier that load new teeth; `root_stress` of the planets [Pa] and `safety_root`, `safety_flank` of all gears: the worst;
+    `warnings` of the FMU."""
+
+    event: Event
+    meshing: np.ndarray
+    standing: np.ndarray
+    side_ratio: float
+    turns: float
+    root_stress: float
+    safety_root: float
+    safety_flank: float
+    warnings: tuple
+
+
+def evaluate(event, differential, teeth):
+    """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
+    nothing, and it and its arguments can be sent to other processes."""
+    return _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
+
+
+def _steady(differential, event, teeth):
+    """Damage in the steady state times the duration."""
+    look = differential.run(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
+    settled = look[round(POINTS * SETTLING / LOOK):]
+    span = settled["time"][-1] - settled["time"][0]
+    frequency = abs(settled["planet[1].spin_angle"][-1] - settled["planet[1].spin_angle"][0]) / span * teeth[0] / (2.0 * pi)
+    pitches, warnings = frequency * event.duration, tuple(differential.warnings)
+    if pitches <= 1.0:
+        # within a pitch no new tooth comes into mesh; what a load that swings does to those in mesh the FMU counts itself
+        rate = (_damage(settled)[-1] - _damage(settled)[0]) / span
+        stress = _signed_stress(settled)
+        return _result(event, settled, rate * event.duration, stress[np.argmax(abs(stress))][None], 0.0, warnings)
+    cycles, period, steady = FEWEST_CYCLES, 1.0 / frequency, False
+    while not steady and cycles <= MOST_CYCLES:
+        before = max(1, ceil(SETTLING * frequency))
+        record = differential.run(None, OUTPUTS, (before + cycles) * period, period, event.values)
+        damage = _damage(record)[[before, before + cycles // 2, before + cycles]]
+        rate = (damage[2] - damage[0]) / (cycles * period)
+        halves = np.diff(damage, axis=0)
+        steady = np.all(abs(halves[1] - halves[0]) <= STEADY * np.max(halves, axis=0))
+        cycles *= 2
+    warnings = tuple(differential.warnings)
+    if not steady:
+        warnings += (f"damage of two times {cycles // 4} mesh cycles differs by more than {STEADY:.0%}; their mean is taken",)
+    return _result(event, record[before:], rate * event.duration, np.empty(0), pitches / teeth[0], warnings)
+
+
+def _history(differential, event, teeth):
+    """Damage while teeth roll; while they stand, their stress."""
+    record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
+    # of the planets, whose place does not change as teeth bend under a load, as that of the side gears does
+    angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
+    pushed = _pushed(angle, pitch)
+    rolls = _rolls(pushed, pitch)
+    meshing = np.sum(np.diff(_damage(record), axis=0) * rolls[:, None], axis=0)
+    moves = _with_approach(np.diff(angle), rolls)
+    # a tooth that rolls out of mesh loses its load
+    standing = np.where(np.append(moves[0], moves), 0.0, _signed_stress(record)) if not np.all(moves) else np.empty(0)
+    return _result(event, record, meshing, standing, float(np.sum(pushed * rolls)) / (2.0 * pi), tuple(differential.warnings))
+
+
+def _pushed(angle, pitch):
+    """Angles by which a gear pushes a window of one pitch along, from row to row: what the FMU counts as rolling."""
+    place, found = 0.0, []
+    for step in np.diff(angle):
+        wanted = place + step
+        place = min(max(wanted, -pitch / 2.0), pitch / 2.0)
+        found.append(abs(wanted - place))
+    return np.array(found)
+
+
+def _rolls(pushed, pitch):
+    """Where a gear rolls on: stretches of rows, with short halts in them, that push the window along by more than teeth that bend
+    or cross their lash do."""
+    places = np.flatnonzero(pushed > 0.0)
+    found = np.zeros(len(pushed), bool)
+    for stretch in np.split(places, np.flatnonzero(np.diff(places) > HALT) + 1):
+        if len(stretch) and np.sum(pushed[stretch]) > LEAST_ROLL * pitch:
+            found[stretch[0]:stretch[-1] + 1] = True
+    return found
+
+
+def _with_approach(steps, rolls):
+    """Where a gear rolls, and where it moved on to the edge of its window before it did: there no tooth stands."""
+    found = rolls.copy()
+    for i in range(len(steps) - 2, -1, -1):
+        found[i] |= found[i + 1] and steps[i] * steps[i + 1] > 0.0
+    return found
+
+
+def _damage(record):
+    return np.stack([record[name] for name in MODES], axis=1)
+
+
+def _signed_stress(record):
+    """Root stress of the planets, positive while the drive flanks of the more loaded side carry [Pa]."""
+    left, right = record["left.tangential_force"], record["right.tangential_force"]
+    return record["stress.root_planet_max"] * np.sign(np.where(abs(left) >= abs(right), left, right))
+
+
+def _result(event, record, meshing, standing, turns, warnings):
+    planet, side = record["stress.root_planet_max"], record["stress.root_side_max"]
+    worst = int(np.argmax(planet))
+    ratio = float(side[worst] / planet[worst]) if planet[worst] > 0.0 else nan
+    return EventDamage(event, meshing, standing, ratio, turns, float(planet[worst]), float(record["safety.root_min"][-1]),
+                       float(record["safety.flank_min"][-1]), warnings)

@@ -1,0 +1,169 @@
+"""What a duty cycle does to the gears."""
+
+import csv
+from dataclasses import dataclass
+from math import inf, isfinite
+from pathlib import Path
+
+import numpy as np
+
+from ..values import DifferentialError
+from .damage import MODES, EventDamage
+from .slow import SlowCycles
+from .sn import Strength
+
+HOUR, KM = 3600.0, 1000.0
+NAMES = ("planet root", "side root", "planet flank", "side flank")
+
+
+@dataclass(frozen=True)
+class SpectrumResult:
+    """Damage and life over a duty cycle.
+
+    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`:
+    their Miner sums per cycle at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
+    `teeth` of planet and side gear; `planets`: how many; `side_ratio`: root stress of the side gears over that of the planets;
+    `order`: in which events follow each other."""
+
+    events: tuple[EventDamage, ...]
+    slow: SlowCycles
+    slow_damage: np.ndarray
+    strength: Strength
+    teeth: tuple[int, int]
+    planets: int
+    side_ratio: float
+    order: str
+
+    @property
+    def by_event(self) -> np.ndarray:
+        """Miner sums per cycle, shape (events, 4): roots of planet and side gear, their flanks. Slow cycles are in it."""
+        found = np.array([one.event.count * one.meshing for one in self.events])
+        found[:, :2] += self.slow_damage
+        return found
+
+    @property
+    def damage(self) -> dict[str, float]:
+        """Miner sums per cycle by the FMU's names of damage."""
+        return dict(zip(MODES, self.by_event.sum(axis=0).tolist()))
+
+    @property
+    def critical(self) -> int:
+        """Place in `MODES` of the largest damage."""
+        return int(np.argmax(self.by_event.sum(axis=0)))
+
+    @property
+    def critical_name(self) -> str:
+        """What is damaged most, such as "planet root"."""
+        return NAMES[self.critical]
+
+    @property
+    def is_flank(self) -> bool:
+        """Whether a flank is damaged most."""
+        return self.critical >= 2
+
+    @property
+    def hours(self) -> float:
+        """Length of a cycle, h."""
+        return sum(one.event.count * one.event.duration for one in self.events) / HOUR
+
+    @property
+    def km(self) -> float:
+        """Length of a cycle, km; NaN if an event that occurs has no distance."""
+        return sum(one.event.count * one.event.distance for one in self.events if one.event.count > 0.0) / KM
+
+    @property
+    def cycles_to_failure(self) -> float:
+        """Cycles until the Miner sum of the critical mode is 1; infinite without damage."""
+        worst = max(self.damage.values())
+        return 1.0 / worst if worst > 0.0 else inf
+
+    @property
+    def life_hours(self) -> float:
+        """Life, h."""
+        return self.cycles_to_failure * self.hours
+
+    @property
+    def life_km(self) -> float:
+        """Life, km; NaN if an event that occurs has no distance."""
+        return self.cycles_to_failure * self.km
+
+    @property
+    def worst(self) -> EventDamage:
+        """The event with the largest damage of the critical mode in a cycle."""
+        return self.events[int(np.argmax(self.by_event[:, self.critical]))]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the FMU warned of, each once with the events that it is about."""
+        events = {}
+        for one in self.events:
+            for warning in one.warnings:
+                events.setdefault(warning, []).append(one.event.name)
+        return [f"{names[0] if len(names) == 1 else f'{len(names)} events'}: {warning}" for warning, names in events.items()]
+
+    def table(self) -> np.ndarray:
+        """A row for each event, the worst first: a structured array, which pandas takes as it is.
+
+        Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names, "slow.planet" and "slow.side" that
+        are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa), safety.root_min and
+        safety.flank_min of the event."""
+        damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
+        rows = []
+        for one, damage, slow in zip(self.events, damages, self.slow_damage):
+            mode = NAMES[int(np.argmax(damage))] if damage.max() > 0.0 else ""
+            event = one.event
+            rows.append((event.name, event.count, event.count * event.duration / HOUR, event.count * event.distance / KM, *damage,
+                         *slow, damage[self.critical] / total, mode, one.root_stress, one.safety_root, one.safety_flank))
+        fields = ["event", "count", "hours", "km", *MODES, "slow.planet", "slow.side", "share", "worst_mode", "root_stress",
+                  "safety.root_min", "safety.flank_min"]
+        width = max(len(one.event.name) for one in self.events)
+        texts = {"event": f"U{width}", "worst_mode": f"U{max(map(len, NAMES))}"}
+        found = np.array(rows, [(name, texts.get(name, float)) for name in fields])
+        return found[np.argsort(-found["share"], kind="stable")]
+
+    def save(self, file) -> Path:
+        """Writes the table: CSV, or Parquet by the name's end (for which pandas with pyarrow is needed)."""
+        file, table = Path(file), self.table()
+        if file.suffix == ".parquet":
+            try:
+                import pandas
+                pandas.DataFrame(table).to_parquet(file)
+            except ImportError:
+                raise DifferentialError(f"{file}: Parquet needs pandas and pyarrow; install them, or write a CSV file") from None
+        else:
+            with open(file, "w", newline="", encoding="utf-8") as out:
+                out.write("# Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa\n")
+                writer = csv.writer(out, lineterminator="\n")
+                writer.writerow(table.dtype.names)
+                writer.writerows(table.tolist())
+        return file
+
+    def plot(self, file) -> Path:
+        """Draws damage by event and the load spectrum into a picture; the file's end is its format."""
+        from .picture import draw
+        return draw(self, file)
+
+    def summary(self) -> str:
+        """Life, damage by mode and by event, and safety factors, as text."""
+        km = f", {self.km:.4g} km" if isfinite(self.km) else ""
+        lines = [f"duty cycle: {len(self.events)} events, {self.hours:.4g} h{km}; order of events: {self.order}",
+                 "damage per cycle: " + ", ".join(f"{name} {value:.3g}" for name, value in zip(NAMES, self.damage.values()))]
+        if isfinite(self.cycles_to_failure):
+            km = f", {self.life_km:.4g} km" if isfinite(self.life_km) else ""
+            lines.append(f"life by the {self.critical_name}: {self.cycles_to_failure:.4g} cycles, {self.life_hours:.4g} h{km}")
+        else:
+            lines.append("life: no event does any damage")
+        worst = self.worst
+        lines += [f"worst event: {worst.event.name}: S_F = {worst.safety_root:.3g}, S_H = {worst.safety_flank:.3g}", ""]
+        return "\n".join(lines + self.markdown())
+
+    def markdown(self) -> list[str]:
+        """The table as lines of Markdown, with the columns that tell most."""
+        lines = ["| event | count | km | planet root | side root | planet flank | side flank | share | worst mode | S_F | S_H |",
+                 "|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|"]
+        for row in self.table():
+            km = f"{row['km']:.3g}" if isfinite(row["km"]) else "–"
+            damages = " | ".join(f"{row[mode]:.2e}" if row[mode] > 0.0 else "0" for mode in MODES)
+            lines.append(f"| {row['event']} | {row['count']:g} | {km} | {damages} | {row['share']:.1%} | "
+                         f"{row['worst_mode'] or '–'} | {row['safety.root_min']:.2f} | {row['safety.flank_min']:.2f} |")
+        return lines

@@ -1,0 +1,136 @@
+"""Slow cycles: what the torque does to the roots of teeth that stand in mesh, counted by rainflow (ASTM E1049).
+
+Every occurrence of an event is a history of root stress [Pa], signed: positive on the drive flank. It begins and ends without
+load. Cycles are counted for a duty cycle that repeats, so that all of them close."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..values import DifferentialError
+
+ORDERS = ("unknown", "written")
+
+
+@dataclass(frozen=True)
+class SlowCycles:
+    """Cycles of root stress of a planet in one pass of the duty cycle; all arrays have the shape (cycles,).
+
+    `low`, `high` [Pa]: both ends; `count`: how many; `low_event`, `high_event`: numbers of the events that have the ends."""
+
+    low: np.ndarray
+    high: np.ndarray
+    count: np.ndarray
+    low_event: np.ndarray
+    high_event: np.ndarray
+
+    @property
+    def span(self):
+        """Peak minus valley [Pa]."""
+        return self.high - self.low
+
+    @property
+    def mean(self):
+        """Middle between both [Pa]."""
+        return 0.5 * (self.high + self.low)
+
+    def scaled(self, factor):
+        """The same cycles at `factor` times the stress: those of the mating gear."""
+        return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
+
+    def pulsating(self, strength):
+        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the
+        mean has the other sign."""
+        both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
+        return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
+
+    def matrix(self, bins=10):
+        """The rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
+        counts, spans, means = np.histogram2d(self.span, self.mean, bins, weights=self.count)
+        return spans, means, counts
+
+
+def count_slow_cycles(histories, counts, order, least=0.0):
+    """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur
+    `counts` times; ranges up to `least` [Pa] are left out.
+
+    `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is
+    the worst order. "written": events follow each other as listed, without unloading in between; those that occur n times
+    unload in between their occurrences."""
+    if order == "unknown":
+        rows = _in_the_worst_order(histories, counts)
+    elif order == "written":
+        rows = _as_written(histories, counts)
+    else:
+        raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
+    rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
+    low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
+    return SlowCycles(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
+                      np.array(high_event, int))
+
+
+def closed_cycles(stress):
+    """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
+    try:
+        import rainflow
+    except ImportError:
+        raise DifferentialError("counting cycles needs the package rainflow; "
+                                "install it, or bevel-differential[spectrum]") from None
+    begin = int(np.argmax(stress))
+    around = [*range(begin, len(stress)), *range(begin + 1)]
+    for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):
+        low, high = sorted((around[first], around[last]), key=lambda place: stress[place])
+        yield stress[low], stress[high], count, low, high
+
+
+def _occurrence(history):
+    return np.concatenate([[0.0], history, [0.0]])
+
+
+def _in_the_worst_order(histories, counts):
+    rows, peaks, valleys = [], [], []
+    for event, (history, count) in enumerate(zip(histories, counts)):
+        block = _occurrence(history)
+        low, high = block.min(), block.max()
+        inner = list(closed_cycles(block))
+        # the widest cycle opens: its ends meet those of other occurrences
+        widest = [row for row in inner if (row[0], row[1]) == (low, high)]
+        once = sum(row[2] for row in widest) - 1.0
+        rows += [(row[0], row[1], row[2] * count, event, event) for row in inner if (row[0], row[1]) != (low, high)]
+        rows.append((low, high, max(once, 0.0) * count, event, event))
+        peaks.append([high, count, event])
+        valleys.append([low, count, event])
+    return rows + _pairs(sorted(peaks, key=lambda peak: -peak[0]), sorted(valleys, key=lambda valley: valley[0]))
+
+
+def _pairs(peaks, valleys):
+    """Highest peaks with deepest valleys, as often as they occur."""
+    rows, place = [], 0
+    for high, count, high_event in peaks:
+        while count > 0.0 and place < len(valleys):
+            low, left, low_event = valleys[place]
+            taken = min(count, left)
+            rows.append((low, high, taken, low_event, high_event))
+            count -= taken
+            valleys[place][1] -= taken
+            place += valleys[place][1] <= 0.0
+    return rows
+
+
+def _as_written(histories, counts):
+    rows, stress, events = [], [], []
+    for event, (history, count) in enumerate(zip(histories, counts)):
+        if count != int(count):
+            raise DifferentialError(f"count = {count:g}: events in a written order occur a whole number of times; make it whole, "
+                                    "or take the order \"unknown\"")
+        if count == 0:
+            continue
+        if count > 1:
+            rows += [(low, high, n * (count - 1), event, event) for low, high, n, *_ in closed_cycles(_occurrence(history))]
+        # teeth that roll out of mesh lose their load
+        block = _occurrence(history) if count > 1 or len(history) == 0 else history
+        stress += list(block)
+        events += [event] * len(block)
+    if stress:
+        rows += [(low, high, n, events[i], events[j]) for low, high, n, i, j in closed_cycles(np.array(stress))]
+    return rows

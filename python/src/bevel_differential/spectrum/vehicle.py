@@ -1,0 +1,76 @@
+"""From what is known of a vehicle on its road to the inputs of the differential.
+
+```text
+carrier.speed_command = v/r                      v speed, r radius of the wheels
+ω_left − ω_right      = −(v/r) w/R               w track, R radius of the turn, positive to the left
+planet.spin_command   = (ω_left − ω_right)/2 · z_side/z_planet
+load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
+```
+
+The left wheel is the inner one of a turn to the left, at R − w/2; nothing slips (Ackermann). Torque is positive when the engine
+drives forward, speed when the vehicle goes forward."""
+
+from math import pi
+
+import numpy as np
+
+from ..csv_table import Quantity
+from ..values import DifferentialError
+
+LENGTH = {"m": 1.0, "mm": 1e-3, "km": 1e3}
+QUANTITIES = {quantity.name: quantity for quantity in [
+    Quantity("speed", {"m/s": 1.0, "km/h": 1.0 / 3.6}),
+    Quantity("torque", {"N.m": 1.0, "kN.m": 1e3}),
+    Quantity("turn_radius", LENGTH),
+    Quantity("speed_difference", {"rad/s": 1.0, "deg/s": pi / 180.0, "rpm": pi / 30.0}),
+    Quantity("wheel_radius", LENGTH),
+    Quantity("tyre_circumference", LENGTH),
+    Quantity("track", LENGTH),
+]}
+SPIN = "scene.planet_spin"
+
+
+def inputs_of(vehicle, teeth):
+    """Inputs and parameters of the FMU, SI, that follow from the quantities of `vehicle` ({name: number or array of shape
+    (points,)}, SI) with the numbers of `teeth` (planet, side gear). Raises `DifferentialError` for what is missing."""
+    found = {}
+    if "torque" in vehicle:
+        found["left.load_torque"] = found["right.load_torque"] = vehicle["torque"] / 2.0
+    if "speed" in vehicle:
+        found["carrier.speed_command"] = vehicle["speed"] / wheel_radius(vehicle, "speed")
+    difference = _difference(vehicle)
+    if difference is not None:
+        found["planet.spin_command"] = difference / 2.0 * teeth[1] / teeth[0]
+        found[SPIN] = "imposed"
+    return found
+
+
+def wheel_radius(vehicle, needed_by):
+    """Radius of the wheels [m], given or from the circumference of the tyres."""
+    if "wheel_radius" not in vehicle and "tyre_circumference" not in vehicle:
+        raise DifferentialError(f"{needed_by}: it needs wheel_radius or tyre_circumference; give one as a column or a parameter")
+    if "wheel_radius" in vehicle:
+        return _positive(vehicle, "wheel_radius")
+    return _positive(vehicle, "tyre_circumference") / (2.0 * pi)
+
+
+def _difference(vehicle):
+    """Speed of the left side gear minus that of the right one [rad/s], or None if nothing says."""
+    if "turn_radius" in vehicle and "speed_difference" in vehicle:
+        raise DifferentialError("turn_radius: speed_difference says the same; leave one of them empty")
+    if "speed_difference" in vehicle:
+        return vehicle["speed_difference"]
+    if "turn_radius" not in vehicle:
+        return None
+    for name in ("speed", "track"):
+        if name not in vehicle:
+            raise DifferentialError(f"turn_radius: it needs {name}; give it as a column or a parameter")
+    if not np.all(np.abs(vehicle["turn_radius"]) > _positive(vehicle, "track") / 2.0):
+        raise DifferentialError("turn_radius: it must be more than half the track, of either sign; leave it empty straight ahead")
+    return -vehicle["speed"] / wheel_radius(vehicle, "speed") * vehicle["track"] / vehicle["turn_radius"]
+
+
+def _positive(vehicle, name):
+    if not np.all(np.asarray(vehicle[name]) > 0.0):
+        raise DifferentialError(f"{name}: it must be more than 0 m")
+    return vehicle[name]

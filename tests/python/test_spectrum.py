@@ -1,0 +1,232 @@
+"""Damage over a duty cycle: counts and damage by hand, the FMU's own damage, symmetries and lives."""
+
+from concurrent.futures import ThreadPoolExecutor
+from math import log, pi
+
+import numpy as np
+import pytest
+from duty_cycles import FLANKS, HEAD, ROOTS, spectrum_of
+
+from bevel_differential import Differential, DifferentialError
+from bevel_differential.spectrum import Event, spectrum
+from bevel_differential.spectrum.load_spectrum import curves, rolling_spectrum, standing_spectrum
+from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
+
+# the FMU's start values, by the standards that docs/theory.md names
+BENDING, BENDING_CYCLES, BENDING_SLOPE = 1000e6, 3e6, log(3e6 / 1e3) / log(2.5)
+CONTACT, CONTACT_CYCLES, CONTACT_SLOPE = 1500e6, 5e7, log(5e7 / 1e5) / log(1.6)
+IDLER, SENSITIVITY = 0.7, 0.4
+LUMPED = {"scene.gear_contact": "lumped"}
+
+
+@pytest.fixture
+def cycle(fmu_file, tmp_path):
+    """cycle(lines, ...): the spectrum of a duty cycle with these lines."""
+    return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
+
+
+@pytest.fixture
+def stress(fmu_file):
+    """stress(torque): root stress of the planets and of the side gears under a torque of the ring gear [Pa]."""
+
+    def of(torque):
+        with Differential({**LUMPED, "effects.strength": True}, fmu=fmu_file) as differential:
+            loads = {"left.load_torque": torque / 2.0, "right.load_torque": torque / 2.0}
+            return list(differential.final(["stress.root_planet_max", "stress.root_side_max"], loads, 0.01).values())
+
+    return of
+
+
+def event(name="event", count=1.0, duration=10.0, speed=15.0, spin=0.0, left=400.0, right=400.0, **more):
+    values = {"carrier.speed_command": speed, "scene.planet_spin": "imposed", "planet.spin_command": spin,
+              "left.load_torque": left, "right.load_torque": right}
+    return Event(name, count, duration, values=values, **more)
+
+
+def bending(stress):
+    return (stress / BENDING) ** BENDING_SLOPE / BENDING_CYCLES
+
+
+def all_damages(result):
+    return np.array(list(result.damage.values()))
+
+
+def test_a_history_that_repeats_is_counted_as_the_example_of_the_standard():
+    # ASTM E1049-85, 5.4.5, figure 7: −2, 1, −3, 5, −1, 3, −4, 4, −2
+    cycles = {high - low: count for low, high, count, *_ in _merged(closed_cycles(np.array([-2.0, 1, -3, 5, -1, 3, -4, 4, -2])))}
+    assert cycles == {3.0: 1.0, 4.0: 1.0, 7.0: 1.0, 9.0: 1.0}
+
+
+def _merged(cycles):
+    counts = {}
+    for low, high, count, *_ in cycles:
+        counts[low, high] = counts.get((low, high), 0.0) + count
+    return [(low, high, count) for (low, high), count in counts.items()]
+
+
+def test_the_worst_order_lets_the_largest_peaks_meet_the_deepest_valleys():
+    histories = [np.array([6.0]), np.array([-3.0]), np.array([2.0, 1.0, 2.0]), np.empty(0)]
+    found = count_slow_cycles(histories, [3.0, 2.0, 0.5, 9.0], "unknown")
+    assert sorted(_merged(zip(found.low, found.high, found.count))) == [
+        (-3.0, 6.0, 2.0), (0.0, 2.0, 0.5), (0.0, 6.0, 1.0), (1.0, 2.0, 0.5)]
+
+
+def test_in_the_written_order_events_follow_each_other_without_unloading():
+    histories = [np.array([6.0]), np.array([4.0]), np.array([-3.0])]
+    found = count_slow_cycles(histories, [1.0, 1.0, 1.0], "written")
+    assert _merged(zip(found.low, found.high, found.count)) == [(-3.0, 6.0, 1.0)]
+    # twice the second: it unloads in between, and before and after
+    found = count_slow_cycles(histories, [1.0, 2.0, 1.0], "written")
+    assert sorted(_merged(zip(found.low, found.high, found.count))) == [(-3.0, 6.0, 1.0), (0.0, 4.0, 2.0)]
+    with pytest.raises(DifferentialError, match="whole number"):
+        count_slow_cycles(histories, [1.0, 0.5, 1.0], "written")
+
+
+def test_drive_and_overrun_straight_ahead_by_hand(cycle, stress):
+    head = "name,count,duration [s],speed [km/h],torque [N·m]"
+    result = cycle(head, "drive,3,10,50,1200", "overrun,2,5,50,-600", parameters=LUMPED)
+    found = []
+    for drive in stress(1200.0):
+        overrun = 0.5 * drive
+        # two cycles from −1/2 to 1: mean over amplitude 1/3; the drive flank's root is in tension
+        permissible = 1.0 / (1.0 + SENSITIVITY / 3.0)
+        alternating = (drive + overrun) / ((1.0 + SENSITIVITY) * permissible)
+        found.append(2.0 * bending(alternating) + 1.0 * bending(drive))
+    assert [result.damage[name] for name in ROOTS] == pytest.approx(found, rel=1e-6)
+    assert [result.damage[name] for name in FLANKS] == [0.0, 0.0]
+    assert result.hours == pytest.approx((3 * 10 + 2 * 5) / 3600.0)
+    assert result.km == pytest.approx(50.0 * result.hours)
+    assert result.life_hours == pytest.approx(result.hours / found[0], rel=1e-6)
+    assert result.life_km == pytest.approx(result.km / found[0], rel=1e-6)
+
+
+def test_a_turn_does_the_damage_of_its_passes_by_hand(cycle, stress):
+    result = cycle(HEAD, "turn,4,20,18,10,1200", parameters=LUMPED)
+    planet, side = stress(1200.0)
+    # the left side gear turns by v/r w/(2R) against the carrier, a planet of 10 teeth by 16/10 of it
+    passes = 4 * 20 * (18 / 3.6 / 0.334) * 1.55 / (2 * 10) / (2 * pi)
+    assert result.damage["damage.planet"] == pytest.approx(1.6 * passes * bending(planet / IDLER), rel=1e-6)
+    # two planets pass each side gear
+    assert result.damage["damage.side"] == pytest.approx(2 * passes * bending(side), rel=1e-6)
+    pressure = CONTACT / result.events[0].safety_flank
+    pitting = (pressure / CONTACT) ** CONTACT_SLOPE / CONTACT_CYCLES
+    assert [result.damage[name] for name in FLANKS] == pytest.approx([1.6 * passes * pitting, 2 * passes * pitting], rel=1e-6)
+    assert result.critical_name == "side flank"
+
+
+@pytest.mark.parametrize("weak", ["planet root", "side root", "side flank"])
+def test_the_load_spectrum_and_its_curves_give_the_damage(cycle, weak):
+    # flanks that bear anything, or planets as strong as side gears, let the roots or the side gears come first
+    strong = {} if weak == "side flank" else {"strength.contact_strength": "1e10 Pa"}
+    strong |= {"strength.idler_factor": 1.0} if weak == "side root" else {}
+    lines = ["turn,4,20,18,10,1200", "wide,9,20,50,-80,800", "start,3,4,20,,1000", "overrun,5,4,20,,-300"]
+    result = cycle(HEAD, *lines, parameters=LUMPED | strong)
+    assert result.critical_name == weak
+    of_rolling, of_standing = curves(result)
+    (rolling, passes), (standing, count) = rolling_spectrum(result), standing_spectrum(result)
+    damage = np.sum(passes * of_rolling.damage(rolling)) + np.sum(count * of_standing.damage(standing))
+    assert damage == pytest.approx(max(result.damage.values()), rel=1e-6)
+
+
+def test_the_left_wheel_is_the_slow_one_of_a_turn_to_the_left(cycle, fmu_file):
+    (left,) = cycle(HEAD, "left,1,5,18,10,500").events
+    with Differential(left.event.values, fmu=fmu_file) as differential:
+        angles = differential.final(["left.angle", "right.angle"], stop=10.0)
+    # at R ∓ w/2, in the mean: speeds ripple with the teeth
+    assert angles["left.angle"] / 10.0 == pytest.approx(18 / 3.6 / 0.334 * (1.0 - 1.55 / 20.0), rel=1e-3)
+    assert angles["right.angle"] / 10.0 == pytest.approx(18 / 3.6 / 0.334 * (1.0 + 1.55 / 20.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("low, high", [(0.0, 800.0), (-500.0, 700.0), (300.0, 800.0)])
+def test_a_history_of_one_amplitude_does_the_damage_that_the_fmu_counts(fmu_file, low, high):
+    times = np.linspace(0.0, 2.0, 201)
+    load = low + (high - low) * np.sin(pi * 2.0 * times) ** 2
+    swing = event(duration=2.0, signals={side: (times, load) for side in ("left.load_torque", "right.load_torque")}, step=2e-3)
+    ours = spectrum([swing], order="written", fmu=fmu_file).damage
+    with Differential({**swing.values, "effects.strength": True}, fmu=fmu_file) as differential:
+        theirs = differential.run(swing.signals, ROOTS, 2.0, 2e-3)[-1]
+    assert [ours[name] for name in ROOTS] == pytest.approx([theirs[name] for name in ROOTS], rel=1e-3)
+
+
+def test_a_history_of_a_steady_turn_does_the_damage_of_the_steady_turn(fmu_file):
+    turn = event(duration=80.0, spin=3.5)
+    history = event(duration=80.0, spin=3.5, signals={"left.load_torque": (np.array([0.0, 80.0]), np.array([400.0, 400.0]))})
+    steady, over_time = (all_damages(spectrum([one], fmu=fmu_file)) for one in (turn, history))
+    # the FMU leaves out half a pitch of 10 teeth at the start
+    turns = 80.0 * 3.5 / (2.0 * pi)
+    assert over_time / steady == pytest.approx(1.0 - 0.05 / turns, rel=1e-3)
+
+
+def test_a_history_that_turns_and_stands_counts_each_once(fmu_file):
+    # 10 s in a turn, 10 s straight ahead under swings, without load where one meets the other
+    times = np.array([0.0, 0.1, 9.9, 10.0, 10.5, 11.0, 11.5, 12.0, 20.0])
+    load = np.array([0.0, 400.0, 400.0, 0.0, 700.0, 0.0, 700.0, 0.0, 0.0])
+    spin = (np.array([0.0, 10.0, 10.0, 20.0]), np.array([3.5, 3.5, 0.0, 0.0]))
+    loads = {side: (times, load) for side in ("left.load_torque", "right.load_torque")}
+    mixed = spectrum([event(duration=20.0, signals={**loads, "planet.spin_command": spin})], fmu=fmu_file)
+    turn = spectrum([event(duration=9.9, spin=3.5)], fmu=fmu_file)
+    swings = spectrum([event(count=2.0, left=700.0, right=700.0)], fmu=fmu_file)
+    assert mixed.damage["damage.planet_flank"] == pytest.approx(turn.damage["damage.planet_flank"], rel=0.02)
+    assert mixed.damage["damage.planet"] == pytest.approx(sum(one.damage["damage.planet"] for one in (turn, swings)), rel=0.02)
+
+
+EVENTS = [event("cruise", 2, 100.0, 40.0), event("overrun", 5, 4.0, 30.0, left=-200.0, right=-200.0),
+          event("turn", 10, 6.0, 15.0, 3.0), event("back", 4, 6.0, -8.0, -5.0, -500.0, -500.0),
+          event("start", 7, 3.0, 5.0, left=800.0, right=800.0)]
+
+
+def changed(one, **values):
+    return Event(one.name, values.pop("count", one.count), values.pop("duration", one.duration), values={**one.values, **values})
+
+
+def test_twice_the_counts_do_twice_the_damage_and_halves_of_events_the_same(fmu_file):
+    once = spectrum(EVENTS, fmu=fmu_file)
+    twice = spectrum([changed(one, count=2 * one.count) for one in EVENTS], fmu=fmu_file)
+    assert all_damages(twice) == pytest.approx(2.0 * all_damages(once), rel=1e-12)
+    assert twice.life_hours == pytest.approx(once.life_hours, rel=1e-12)
+    half_the_count = spectrum([changed(one, count=one.count / 2) for one in EVENTS for _ in range(2)], fmu=fmu_file)
+    assert all_damages(half_the_count) == pytest.approx(all_damages(once), rel=1e-12)
+    # one after the other, events in halves are the same events
+    single = [changed(one, count=1.0) for one in EVENTS]
+    whole = spectrum(single, order="written", fmu=fmu_file)
+    halves = [changed(one, duration=one.duration / 2) for one in single for _ in range(2)]
+    in_time = spectrum(halves, order="written", fmu=fmu_file)
+    assert all_damages(in_time) == pytest.approx(all_damages(whole), rel=1e-12)
+
+
+@pytest.mark.parametrize("mirror", [
+    lambda v: {"left.load_torque": v["right.load_torque"], "right.load_torque": v["left.load_torque"],
+               "planet.spin_command": -v["planet.spin_command"]},
+    lambda v: {name: -v[name] for name in v if name != "scene.planet_spin"},
+], ids=["left and right", "all signs"])
+def test_a_mirrored_cycle_does_the_same_damage(fmu_file, mirror):
+    once = spectrum(EVENTS, fmu=fmu_file)
+    mirrored = spectrum([changed(one, **mirror(one.values)) for one in EVENTS], fmu=fmu_file)
+    # the teeth begin at the other side of the mesh; rates over whole mesh cycles agree to some 1e-4
+    assert all_damages(mirrored) == pytest.approx(all_damages(once), rel=1e-3)
+
+
+def test_straight_ahead_nothing_passes_and_only_changes_of_load_damage_the_roots(fmu_file):
+    straight = spectrum([event(count=3.0)], fmu=fmu_file)
+    assert np.array_equal(straight.events[0].meshing, np.zeros(4))
+    assert straight.damage["damage.planet"] > 0.0
+    assert np.allclose(straight.by_event[:, :2], straight.slow_damage, rtol=0.0, atol=0.0)
+    # one load that never changes
+    unchanged = spectrum([event()], order="written", fmu=fmu_file)
+    assert np.array_equal(all_damages(unchanged), np.zeros(4))
+    assert np.isinf(unchanged.life_hours) and "no event" in unchanged.summary()
+
+
+def test_a_pool_gives_the_same(fmu_file):
+    with ThreadPoolExecutor(2) as pool:
+        parallel = spectrum(EVENTS, fmu=fmu_file, mapper=pool.map)
+    assert np.array_equal(parallel.by_event, spectrum(EVENTS, fmu=fmu_file).by_event)
+
+
+def test_a_scene_gives_the_parameters_of_the_vehicle(cycle, tmp_path):
+    scene = tmp_path / "vehicle.toml"
+    scene.write_text('description = "d"\nstop_time = 0.1\nstep = 0.01\noutputs = ["left.speed"]\n'
+                     '[set]\nstrength.bending_strength = "1200 MPa"\n')
+    lines = "name,count,duration [s],speed [km/h],torque [N.m]", "start,1,4,20,1500"
+    plain, stronger = cycle(*lines), cycle(*lines, scene=scene)
+    assert plain.damage["damage.side"] / stronger.damage["damage.side"] == pytest.approx(1.2 ** BENDING_SLOPE, rel=1e-9)

@@ -1,0 +1,117 @@
+"""Duty cycles from files: the example, the command, and errors that help."""
+
+import argparse
+
+import numpy as np
+import pytest
+from duty_cycles import DUTY_CYCLE, FLANKS, HEAD, ROOT, ROOTS, spectrum_of
+
+from bevel_differential import DifferentialError
+from bevel_differential.spectrum import command, spectrum
+
+
+@pytest.fixture
+def cycle(fmu_file, tmp_path):
+    """cycle(lines, ...): the spectrum of a duty cycle with these lines."""
+    return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
+
+
+def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
+    result = spectrum(DUTY_CYCLE, fmu=fmu_file)
+    table = result.table()
+    assert len(table) == len(result.events) == 22
+    assert np.all(np.diff(table["share"]) <= 0.0)
+    assert table["share"].sum() == pytest.approx(1.0)
+    for name in result.damage:
+        assert table[name].sum() == pytest.approx(result.damage[name])
+    assert table["km"].sum() == pytest.approx(result.km) and 90.0 < result.km < 110.0
+    file = result.save(tmp_path / "table.csv")
+    back = np.genfromtxt(file, delimiter=",", names=True, skip_header=1, dtype=None, encoding="utf-8", deletechars="")
+    assert np.array_equal(back["damage.planet"], table["damage.planet"])
+    assert result.plot(tmp_path / "picture.png").stat().st_size > 10_000
+    ranges, means, counts = result.slow.matrix(8)
+    assert counts.shape == (8, 8) and counts.sum() == pytest.approx(result.slow.count.sum())
+
+
+def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
+    text = (ROOT / "docs" / "spectrum.md").read_text(encoding="utf-8")
+    written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
+    header, rows = written[:2], [[cell.strip() for cell in line.strip("|").split("|")] for line in written[2:]]
+    found = spectrum(DUTY_CYCLE, fmu=fmu_file)
+    assert header == found.markdown()[:2] and len(rows) > 10
+    table = {str(row["event"]): row for row in found.table()}
+    for name, count, _, *cells in rows:
+        numbers = [float(cell) for cell in cells[:4] + cells[6:]]
+        expected = [table[name][column] for column in [*ROOTS, *FLANKS, "safety.root_min", "safety.flank_min"]]
+        assert float(count) == table[name]["count"] and cells[5] == table[name]["worst_mode"]
+        assert numbers == pytest.approx(expected, rel=0.02), name
+
+
+def test_an_event_without_a_turn_goes_straight_ahead_in_a_scene_that_turns(cycle):
+    lines = [HEAD, "start,2,4,20,,1500", "corner,1,4,20,20,300"]
+    assert np.array_equal(cycle(*lines, scene="study_turning").by_event, cycle(*lines).by_event)
+
+
+@pytest.mark.parametrize("lines, parts", [
+    (["name,count,duration [s],torqe [N.m]", "a,1,1,1"], ["line 1, column torqe [N.m]", "did you mean torque"]),
+    (["name,count,duration [fortnights]", "a,1,1"], ["line 1, column duration [fortnights]", "'fortnights'", "min"]),
+    (["name,count,left.load_torque [lbf.ft]", "a,1,1"], ["line 1", "'lbf.ft'", "N.m"]),
+    (["name,count,count", "a,1,1"], ["line 1, column count", "twice"]),
+    (["name,duration [s]", "a,1"], ["no column count"]),
+    (["name,count,left.speed [rpm]", "a,1,1"], ["column left.speed [rpm]", "none of the inputs and parameters"]),
+    (["name,count,geometry.module [mm]", "a,1,4"], ["geometry.module", "whole cycle"]),
+    ([HEAD], ["no line below the header"]),
+    ([HEAD, "a,1,1,20,,100,7"], ["line 2", "7 cells where the header has 6"]),
+    ([HEAD, "# comment", "a,many,1,20,,100"], ["line 3, column count, value \"many\"", "number"]),
+    ([HEAD, "a,-1,1,20,,100"], ["line 2, column count, value \"-1\"", "0 times or more"]),
+    ([HEAD, "a,0,1,20,,100"], ["no event of the cycle occurs"]),
+    ([HEAD, ",1,1,20,,100"], ["line 2, column name", "write a value"]),
+    ([HEAD, "a,1,0,20,,100"], ["line 2, column duration [s], value \"0\"", "more than 0"]),
+    ([HEAD, "a,1,,20,,100"], ["line 2", "needs a duration, or a distance"]),
+    ([HEAD, "a,1,1,20,0.5,100"], ["line 2", "turn_radius", "half the track"]),
+    ([HEAD, "a,1,1,,9,100"], ["line 2", "turn_radius", "needs speed"]),
+    ([HEAD, "a,1,1,nan,,100"], ["line 2, column speed [km/h], value \"nan\"", "finite"]),
+    (["name,count,duration [s],speed [m/s],wheel_radius [m]", "a,1,1,5,-0.3"], ["line 2", "wheel_radius", "more than 0"]),
+    (["name,count,duration [s],torque [N.m],left.load_torque [N.m]", "a,1,1,1,1"], ["line 2", "left.load_torque", "remove one"]),
+    (["name,count,duration [s],left.load_torque [N.m]", "a,1,1,"], ["line 2, column left.load_torque [N.m]", "write a value"]),
+    (["name,count,distance [m],speed [m/s]", "a,1,10,0"], ["line 2, column distance [m]", "speed other than 0"]),
+    (["name,count,history", "a,1,missing.csv"], ["missing.csv", "No such file"]),
+    (["name,count,duration [s],lock.command", "a,1,1,7"], ["event 'a'", "lock.command"]),
+])
+def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
+    with pytest.raises(DifferentialError) as error:
+        cycle(*lines)
+    assert all(part in str(error.value) for part in parts), error.value
+
+
+@pytest.mark.parametrize("lines, parts", [
+    (["time [s],torque [N.m]", "0,1", "1,x"], ["line 3, column torque [N.m], value \"x\""]),
+    (["time [s],torque [N.m]", "1,1", "0,1"], ["line 3, column time [s]", "must not fall"]),
+    (["time [s],torque [N.m]", "0,1"], ["two times or more"]),
+    (["torque [N.m]", "0"], ["no column time"]),
+    (["time [s],contact.damping", "0,1"], ["contact.damping", "none of the inputs"]),
+    (["time [s],torque [N.m]", "0,", "1,1"], ["line 2, column torque [N.m]", "write a value"]),
+])
+def test_what_is_wrong_in_a_history_is_said_with_its_place(cycle, tmp_path, lines, parts):
+    (tmp_path / "history.csv").write_text("\n".join(lines))
+    with pytest.raises(DifferentialError) as error:
+        cycle("name,count,speed [km/h],history", "a,1,20,history.csv")
+    assert all(part in str(error.value) for part in ["history.csv", *parts]), error.value
+
+
+def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_path, capsys):
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    table, picture = tmp_path / "table.csv", tmp_path / "picture.png"
+    good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--table", str(table), "--picture", str(picture), "--set", "contact.law=line"]
+    assert command.run(parser.parse_args(good)) == 0
+    assert "life by the" in capsys.readouterr().out and table.is_file() and picture.is_file()
+    for wrong, part in [(["nowhere.csv"], "nowhere.csv"), ([str(DUTY_CYCLE), "--set", "track"], "NAME=VALUE"),
+                        ([str(DUTY_CYCLE), "--set", "contact.law=lin"], "contact.law"),
+                        ([str(DUTY_CYCLE), "--set", "wheel_radus=0.3"], "did you mean wheel_radius"),
+                        ([str(DUTY_CYCLE), "--scene", "nowhere"], "no scene file 'nowhere'"),
+                        ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "needs scene.gear_contact"),
+                        ([str(DUTY_CYCLE), "--picture", str(tmp_path / "p.xyz")], "p.xyz")]:
+        assert command.run(parser.parse_args([*wrong, "--fmu", fmu_file])) == 2
+        message = capsys.readouterr().err.strip().splitlines()[-1]
+        assert message.startswith("bevel-differential spectrum: ") and part in message, message
