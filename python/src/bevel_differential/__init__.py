@@ -13,6 +13,7 @@
 
 from .differential import Differential
 from .fmu import Fmu
+from .instance import Instance
 from .values import DifferentialError
 
-__all__ = ["Differential", "DifferentialError", "Fmu"]
+__all__ = ["Differential", "DifferentialError", "Fmu", "Instance"]

@@ -8,14 +8,20 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s
 
 
 class DifferentialError(ValueError):
-    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do."""
+    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
+
+    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None."""
+
+    def __init__(self, message, status=None):
+        super().__init__(message)
+        self.status = status
 
 
 class Variable:
     """A variable of the FMU, with its units and literals.
 
     Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
-    `unit` (SI) and `description`."""
+    `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by name."""
 
     def __init__(self, described, units):
         self.name = described.name
@@ -27,6 +33,8 @@ class Variable:
         declared = described.declaredType
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
+        self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
+        self.start, self.minimum, self.maximum = map(self._written, (described.start, described.min, described.max))
         shown = units.get(self.unit)
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
@@ -46,6 +54,18 @@ class Variable:
         if isinstance(value, str):
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
+
+    def shown(self, values):
+        """Unit in which the variable is usually shown, and SI `values` in it."""
+        factor, offset = self.units.get(self._usual, (1.0, 0.0))
+        name = self._usual or self.unit or ""
+        return ("" if name == "1" else name), values * factor + offset
+
+    def _written(self, text):
+        """A number of the model description."""
+        if text is None:
+            return None
+        return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
 
     def _boolean(self, value):
         words = {"true": True, "false": False}
