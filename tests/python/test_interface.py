@@ -3,7 +3,6 @@
 import doctest
 import os
 import pickle
-import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -11,9 +10,8 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python" / "src"))
-import bevel_differential  # noqa: E402
-from bevel_differential import Differential, DifferentialError  # noqa: E402
+import bevel_differential
+from bevel_differential import Differential, DifferentialError
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
 TURN_FMPY = {"scene.planet_spin": 2, "planet.spin_command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}

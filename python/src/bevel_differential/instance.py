@@ -77,6 +77,7 @@ class Instance:
     def set(self, values=None, **keywords):
         """Sets parameters and inputs, given as to `Differential.set`."""
         self._write(self.fmu.numbers(values, **keywords))
+        return self
 
     def _write(self, pairs):
         Batches([variable for variable, _ in pairs]).set(self, [number for _, number in pairs])
@@ -104,6 +105,7 @@ class Instance:
 
         After a run the instance is reset first."""
         self.start(self.fmu.numbers(values), stop)
+        return self
 
     def start(self, values, stop):
         """The same with `values` as the FMU takes them: [(variable, number)]."""
@@ -149,6 +151,7 @@ class Instance:
         finally:
             self.raw.freeFMUstate(state)
         self.time, self._is_fresh = time, False
+        return self
 
     def close(self):
         """Frees the instance. The library stays loaded: loading costs more than all else."""
