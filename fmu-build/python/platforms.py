@@ -28,7 +28,7 @@ FMU = Path(__file__).resolve().parents[2] / "target" / "fmu" / "BevelDifferentia
 # keeps a library from wider vector instructions; a platform whose name ends so is kept from them
 VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
 # what is timed, each as one step of this length [s], and how often
-TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects": 0.05}
+TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects, impact": 0.05}
 REPEATS = 3
 # communication steps of a scene
 STEPS = 100

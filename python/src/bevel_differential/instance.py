@@ -71,8 +71,9 @@ class Instance:
         """Calls a method of `raw`; its error becomes that of `check`."""
         try:
             return call(*arguments, **options)
-        except FMICallException as failure:
-            self.check(failure.status, failure.function)
+        except FMICallException as caught:
+            failure = caught
+        self.check(failure.status, failure.function)
 
     def set(self, values=None, **keywords):
         """Sets parameters and inputs, given as to `Differential.set`."""
