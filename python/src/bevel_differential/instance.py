@@ -29,6 +29,8 @@ class Instance:
     `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
 
     def __init__(self, fmu, kind="CoSimulation", name="differential"):
+        if kind not in KINDS:
+            raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
         self.fmu, self.messages, self.time = fmu, [], 0.0
         description = fmu.description
         make, element = KINDS[kind]
@@ -46,8 +48,11 @@ class Instance:
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
                                  for call in ("Real", "Integer", "Boolean")} for verb in ("Get", "Set"))
-        if kind == "CoSimulation":
-            self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
+        self._setup = self._function("fmi2SetupExperiment", ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double,
+                                     ctypes.c_int, ctypes.c_double)
+        self._enter, self._exit, self._reset = (self._function(f"fmi2{name}", ctypes.c_void_p) for name in
+                                                ("EnterInitializationMode", "ExitInitializationMode", "Reset"))
+        self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
         self._is_fresh = True
         self._batches = {}
 
@@ -67,10 +72,10 @@ class Instance:
         if status >= DISCARD:
             raise DifferentialError(self.messages[-1] if self.messages else f"{doing} failed with status {status}", status)
 
-    def _through(self, call, *arguments, **options):
+    def _through(self, call, *arguments):
         """Calls a method of `raw`; its error becomes that of `check`."""
         try:
-            return call(*arguments, **options)
+            return call(*arguments)
         except FMICallException as caught:
             failure = caught
         self.check(failure.status, failure.function)
@@ -113,14 +118,14 @@ class Instance:
         if not self._is_fresh:
             self.reset()
         self._is_fresh = False
-        self._through(self.raw.setupExperiment, startTime=0.0, stopTime=stop)
+        self.check(self._setup(self._component, 0, 0.0, 0.0, stop is not None, stop or 0.0), "fmi2SetupExperiment")
         self._write(values)
-        self._through(self.raw.enterInitializationMode)
-        self._through(self.raw.exitInitializationMode)
+        self.check(self._enter(self._component), "fmi2EnterInitializationMode")
+        self.check(self._exit(self._component), "fmi2ExitInitializationMode")
 
     def reset(self):
         """As new: all variables have their start values, nothing is logged."""
-        self._through(self.raw.reset)
+        self.check(self._reset(self._component), "fmi2Reset")
         self.messages.clear()
         self._is_fresh, self.time = True, 0.0
 
