@@ -9,8 +9,7 @@ BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of 
           correct to four digits"""
 
 import numpy as np
-from bevel_differential import Instance
-from bevel_differential.instance import Batches
+from bevel_differential.instance import Batches, Instance
 from momentum import Momentum
 
 UNDAMPED, BLOWS = 1e-6, 1e-4

@@ -17,7 +17,8 @@ import threading
 import time
 
 import random_scenes
-from bevel_differential import DifferentialError, Fmu, Instance
+from bevel_differential import DifferentialError, Fmu
+from bevel_differential.instance import Instance
 from fmpy.fmi1 import FMICallException
 from momentum import Momentum
 

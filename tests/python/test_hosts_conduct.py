@@ -6,7 +6,8 @@ from threading import Barrier
 
 import numpy as np
 import pytest
-from bevel_differential import Fmu, Instance
+from bevel_differential import Fmu
+from bevel_differential.instance import Instance
 
 OUTPUTS = ["left.speed", "right.speed", "left.angle", "left.normal_force", "heat.contact", "solver.steps"]
 STEP, STEPS = 1.0 / 512.0, 40

@@ -13,7 +13,6 @@
 
 from .differential import Differential
 from .fmu import Fmu
-from .instance import Instance
 from .values import DifferentialError
 
-__all__ = ["Differential", "DifferentialError", "Fmu", "Instance"]
+__all__ = ["Differential", "DifferentialError", "Fmu"]

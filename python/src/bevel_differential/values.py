@@ -34,12 +34,12 @@ class Variable:
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
-        self.start, self.minimum, self.maximum = map(self._written, (described.start, described.min, described.max))
         shown = units.get(self.unit)
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
         for unit in shown.displayUnits if shown is not None else []:
             self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
+        self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
     def number(self, value):
         """`value` as the FMU takes it: SI, number of a literal, bool.
@@ -60,12 +60,6 @@ class Variable:
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
         return ("" if name == "1" else name), values * factor + offset
-
-    def _written(self, text):
-        """A number of the model description."""
-        if text is None:
-            return None
-        return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
 
     def _boolean(self, value):
         words = {"true": True, "false": False}
@@ -115,6 +109,12 @@ class Variable:
         if number != int(number):
             raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
         return int(number)
+
+    def _declared(self, text):
+        """A value in the model description, as the FMU takes it."""
+        if text is None:
+            return None
+        return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
 
     def _in_unit(self):
         return f" in {self.unit}" if self.unit else ""
