@@ -12,7 +12,7 @@ import time as clock
 
 import numpy as np
 from bevel_differential import Fmu
-from bevel_differential.instance import Batches
+from bevel_differential.batches import Batches
 
 import cases
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 from bevel_differential import Fmu
-from bevel_differential.instance import Batches
+from bevel_differential.batches import Batches
 
 from parameters import CONNECTIONS, PARTS, settings
 

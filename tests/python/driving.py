@@ -9,7 +9,8 @@ BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of 
           correct to four digits"""
 
 import numpy as np
-from bevel_differential.instance import Batches, Instance
+from bevel_differential.batches import Batches
+from bevel_differential.instance import Instance
 from momentum import Momentum
 
 UNDAMPED, BLOWS = 1e-6, 1e-4

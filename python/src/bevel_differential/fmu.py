@@ -5,6 +5,7 @@ import importlib.resources
 import os
 import shutil
 import threading
+from collections.abc import Mapping
 from pathlib import Path
 
 from fmpy import extract, read_model_description
@@ -51,7 +52,7 @@ class Fmu:
         except KeyError:
             raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
 
-    def numbers(self, values=None, **keywords):
+    def numbers(self, values: Mapping | None = None, **keywords) -> list[tuple[Variable, float | int | bool]]:
         """Values of parameters and inputs as the FMU takes them, [(variable, number)]; given as to `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
@@ -62,7 +63,7 @@ class Fmu:
             pairs.append((variable, variable.number(value)))
         return pairs
 
-    def open(self, kind="CoSimulation", name="differential"):
+    def open(self, kind: str = "CoSimulation", name: str = "differential") -> Instance:
         """A new instance, to be driven call by call; `kind` is "CoSimulation" or "ModelExchange", `name` appears in logs.
 
         Used in a `with` statement it is freed at the end."""

@@ -1,16 +1,15 @@
 """An instance of the FMU. fmpy loads and instantiates; what is called in every step is called without its wrappers."""
 
 import ctypes
+from collections.abc import Iterable, Mapping
+from typing import Self
 
-import numpy as np
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
+from .batches import Batches
 from .values import DifferentialError
 
-# what the functions for each kind of variable are called, and what they take
-CALLS = {"Real": ("Real", np.float64), "Integer": ("Integer", np.int32), "Enumeration": ("Integer", np.int32),
-         "Boolean": ("Boolean", np.int32)}
 # what the log is to have
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
@@ -25,10 +24,10 @@ class Instance:
     Values are written as in `Differential` and read in SI. What the FMU refuses is a `DifferentialError` with the FMU's message
     and status.
 
-    Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `time` (s), to which
-    `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
+    Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `time` (s), to
+    which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
 
-    def __init__(self, fmu, kind="CoSimulation", name="differential"):
+    def __init__(self, fmu, kind: str = "CoSimulation", name: str = "differential"):
         if kind not in KINDS:
             raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
         self.fmu, self.messages, self.time = fmu, [], 0.0
@@ -80,7 +79,7 @@ class Instance:
             failure = caught
         self.check(failure.status, failure.function)
 
-    def set(self, values=None, **keywords):
+    def set(self, values: Mapping | None = None, **keywords) -> Self:
         """Sets parameters and inputs, given as to `Differential.set`."""
         self._write(self.fmu.numbers(values, **keywords))
         return self
@@ -88,25 +87,25 @@ class Instance:
     def _write(self, pairs):
         Batches([variable for variable, _ in pairs]).set(self, [number for _, number in pairs])
 
-    def set_slopes(self, slopes):
+    def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """Lets inputs change linearly in the steps to come, until they are set again.
 
         `slopes`: by name the change of a Real input in a second, SI units."""
         references = [self.fmu.variable(name).reference for name in slopes]
         self._through(self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
 
-    def get(self, name):
+    def get(self, name: str) -> float | int | bool:
         """The value of one variable, in SI; of an enumeration its number."""
         return self.read((name,))[0]
 
-    def read(self, names):
+    def read(self, names: Iterable[str]) -> list[float | int | bool]:
         """The values of several variables, as a list in their order."""
         names = tuple(names)
         if names not in self._batches:
             self._batches[names] = Batches([self.fmu.variable(name) for name in names])
         return self._batches[names].get(self)
 
-    def initialise(self, values=None, stop=None):
+    def initialise(self, values: Mapping | None = None, stop: float | None = None) -> Self:
         """Initialises at time 0, with `values` beside those that were set; `stop` (s): no step will go beyond it.
 
         After a run the instance is reset first."""
@@ -123,24 +122,24 @@ class Instance:
         self.check(self._enter(self._component), "fmi2EnterInitializationMode")
         self.check(self._exit(self._component), "fmi2ExitInitializationMode")
 
-    def reset(self):
+    def reset(self) -> None:
         """As new: all variables have their start values, nothing is logged."""
         self.check(self._reset(self._component), "fmi2Reset")
         self.messages.clear()
         self._is_fresh, self.time = True, 0.0
 
-    def step(self, size):
+    def step(self, size: float) -> None:
         """A communication step from `time` on, s."""
         self.do_step(self.time, size)
         self.time += size
 
-    def do_step(self, time, size):
+    def do_step(self, time: float, size: float) -> None:
         """A communication step from a time that the caller keeps, s."""
         status = self._do_step(self._component, time, size, 1)
         if status >= DISCARD:
             self.check(status, f"the step from {time:g} s")
 
-    def save(self):
+    def save(self) -> tuple[float, bytes]:
         """The state as (time, bytes), for this or another instance of the same FMU, in any process."""
         state = self._through(self.raw.getFMUstate)
         try:
@@ -148,7 +147,7 @@ class Instance:
         finally:
             self.raw.freeFMUstate(state)
 
-    def restore(self, saved):
+    def restore(self, saved: tuple[float, bytes]) -> Self:
         """Goes back to what `save` gave."""
         time, kept = saved
         state = self._through(self.raw.deSerializeFMUstate, kept)
@@ -159,57 +158,15 @@ class Instance:
         self.time, self._is_fresh = time, False
         return self
 
-    def close(self):
+    def close(self) -> None:
         """Frees the instance. The library stays loaded: loading costs more than all else."""
         if self._component:
             self.raw.fmi2FreeInstance(self.raw.component)
-            self._component = None
+            # what is called after this gets no instance, and is refused
+            self._component = self.raw.component = None
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
         self.close()
-
-
-class Batches:
-    """Variables in groups of their kinds, so that one call sets or gets a group. Order is kept within a kind.
-
-    Values are as the FMU takes them, and nothing but the FMU checks them."""
-
-    def __init__(self, variables):
-        self.groups = []
-        for call in ("Real", "Integer", "Boolean"):
-            places = [place for place, variable in enumerate(variables) if CALLS[variable.kind][0] == call]
-            if places:
-                references = np.array([variables[place].reference for place in places], np.uint32)
-                dtype = np.float64 if call == "Real" else np.int32
-                self.groups.append((call, places, references, dtype))
-
-    def set(self, instance, values):
-        """Sets all."""
-        for call, places, references, dtype in self.groups:
-            numbers = np.array([values[place] for place in places], dtype)
-            status = instance._set[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
-            instance.check(status, f"setting {call} variables")
-
-    def get(self, instance):
-        """Gets all, as a list in the order of the variables."""
-        values = {}
-        for call, places, references, dtype in self.groups:
-            numbers = np.empty(len(places), dtype)
-            status = instance._get[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
-            instance.check(status, f"getting {call} variables")
-            values.update(zip(places, (numbers != 0 if call == "Boolean" else numbers).tolist()))
-        return [values[place] for place in range(len(values))]
-
-    def record(self, rows):
-        """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""
-        return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
-
-    def readers(self, instance, record):
-        """For each group a function and its arguments, to which the address of a row is added: (function, component, references,
-        count, address of the first row, bytes of a row)."""
-        return [(instance._get[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),
-                 block.ctypes.data, block.strides[0])
-                for (call, places, references, _), block in zip(self.groups, record)]

@@ -21,7 +21,8 @@ class Variable:
     """A variable of the FMU, with its units and literals.
 
     Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
-    `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by name."""
+    `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
+    name."""
 
     def __init__(self, described, units):
         self.name = described.name
