@@ -1,5 +1,6 @@
 """An instance of the FMU. fmpy loads and instantiates; what is called in every step is called without its wrappers."""
 
+import contextlib
 import ctypes
 from collections.abc import Iterable, Mapping
 from typing import Self
@@ -42,7 +43,9 @@ class Instance:
         self._callbacks.freeMemory = defaultCallbacks.freeMemory
         self.raw.instantiate(callbacks=self._callbacks, loggingOn=False)
         known = {category.name for category in description.logCategories}
-        self.raw.setDebugLogging(True, [category for category in LOGGED if category in known])
+        # a library behind fmpy's remoting cannot be told, and logs errors alone
+        with contextlib.suppress(FMICallException):
+            self.raw.setDebugLogging(True, [category for category in LOGGED if category in known])
         self._component = ctypes.c_void_p(self.raw.component)
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
