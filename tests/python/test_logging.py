@@ -26,7 +26,6 @@ def test_debug_logging_reports_the_warning_of_the_start_values(categories):
 def test_errors_are_logged_without_debug_logging(through_fmpy):
     log = []
     with pytest.raises(Exception):
-        through_fmpy({"geometry.module": 4.5},
-                     logger=lambda *line: log.append((line[3].decode(), line[4].decode())))
+        through_fmpy({"geometry.module": 4.5}, logger=lambda *line: log.append((line[3].decode(), line[4].decode())))
     assert [category for category, _ in log] == ["logStatusError"]
     assert "geometry.module" in log[0][1]
