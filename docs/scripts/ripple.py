@@ -140,7 +140,8 @@ def variants():
     for law in ["line", "line_weber"]:
         yield f"law `{law}`", {"contact.law": law}, None, 1e-4
         yield f"`{law}`, elastic bodies", {"contact.law": law, "effects.body_compliance": True}, None, 1e-4
-    bores = {"contact.law": "line_weber", "effects.body_compliance": True, "geometry.planet_bore": 16e-3, "geometry.side_bore": 30e-3}
+    bores = {"contact.law": "line_weber", "effects.body_compliance": True, "geometry.planet_bore": 16e-3,
+             "geometry.side_bore": 30e-3}
     yield "`line_weber`, elastic bodies on bores ⌀ 16/30 mm", bores, None, 1e-4
     relief = {"effects.tooth_errors": True, "tooth_errors.planet_tip_relief": 30e-6, "tooth_errors.side_tip_relief": 30e-6}
     yield "the same with tip relief of 30 µm", bores | relief, None, 1e-4

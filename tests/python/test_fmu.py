@@ -216,8 +216,9 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
                 scene = {**scene, "effects.strength": False}
             for kind in ["CoSimulation", "ModelExchange"]:
                 with fmu.open(kind) as opened:
-                    opened.initialise(scene | {"geometry.planet_count": 4, "scene.gear_contact": contact, "planet.spin_command": 1.0,
-                                               "scene.carrier_drive": carrier, "scene.planet_spin": spin})
+                    opened.initialise(scene | {"geometry.planet_count": 4, "scene.gear_contact": contact,
+                                               "scene.carrier_drive": carrier, "scene.planet_spin": spin,
+                                               "planet.spin_command": 1.0})
                     if kind == "CoSimulation":
                         opened.step(1e-3)
                     observed |= acted_on(opened, inputs, outputs)
