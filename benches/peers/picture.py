@@ -1,10 +1,8 @@
 """The picture of the comparison: what a run of the turn costs, and whether its ripple converges."""
 
-import sys
 from pathlib import Path
 
-sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
-import style  # noqa: E402
+import style
 
 MARKERS = {"this program": "o", "MuJoCo": "s", "Drake": "^"}
 

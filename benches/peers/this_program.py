@@ -7,19 +7,14 @@ in the peers: speeds by the gear law, teeth in the middle of their gaps.
 """
 
 import ctypes
-import shutil
 import statistics
-import sys
 import time as clock
-from pathlib import Path
 
 import numpy as np
-from fmpy import extract, instantiate_fmu, read_model_description
+from bevel_differential import Fmu
+from bevel_differential.batches import Batches
 
 import cases
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
-from instance import Instance  # noqa: E402
 
 FINE = 1e-4
 # a run takes milliseconds: so many of them, of which the median counts
@@ -29,16 +24,14 @@ ANGLES = ["left.angle", "right.angle", "carrier.angle", "planet[1].spin_angle"]
 
 
 class Program:
-    """The unpacked FMU."""
+    """The FMU in the case that is wanted."""
 
     def __init__(self, wanted):
         self.wanted, self.case = wanted, cases.CASES[wanted["case"]]
-        self.description = read_model_description(wanted["fmu"])
-        self.folder = extract(wanted["fmu"])
+        self.fmu = Fmu.of(wanted["fmu"])
 
     def start(self):
         """An instance at time 0 of the case."""
-        opened = Instance(instantiate_fmu(self.folder, self.description, logger=lambda *_: None), self.description)
         values = {"scene.gear_contact": self.wanted["contact"], "scene.start": "rolling",
                   "carrier.speed_command": self.case.carrier, "solver.relative_tolerance": self.wanted["tolerance"],
                   "left.load_torque": cases.LOAD, "right.load_torque": cases.LOAD}
@@ -46,28 +39,21 @@ class Program:
             values["contact.law"] = self.wanted["law"]
         if self.case.spin is not None:
             values |= {"scene.planet_spin": "imposed", "planet.spin_command": self.case.spin}
-        for name, value in values.items():
-            opened.set(name, value)
-        opened.initialise()
-        return opened
+        return self.fmu.open().initialise(values)
 
     def timed(self, working):
         """CPU time of a run [s]; not `working`: of the same calls that have nothing to do."""
         opened = self.start()
-        fmu = opened.fmu
-        step, get, component = fmu.dll.fmi2DoStep, fmu.dll.fmi2GetReal, fmu.component
-        get.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
+        count, read = round(cases.LENGTH / cases.STEP), Batches([self.fmu.variable(name) for name in SPEEDS])
+        record = read.record(count)
+        (get, component, references, length, first, width), = read.readers(opened, record)
+        times, rows = [k * cases.STEP for k in range(count)], [first + k * width for k in range(count)]
+        step, interval, status = opened.raw.dll["fmi2DoStep"], cases.STEP, 0
         step.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int]
-        references = (ctypes.c_uint32 * 2)(*(opened.variables[name].valueReference for name in SPEEDS))
-        count = round(cases.LENGTH / cases.STEP)
-        speeds = np.zeros((count, 2))
-        times = [k * cases.STEP for k in range(count)]
-        rows = [speeds.ctypes.data + k * speeds.strides[0] for k in range(count)]
-        length, interval, status = 2, cases.STEP, 0
         if not working:
             # no values are requested, and a read replaces the step
             length, interval = 0, 0
-            step = fmu.dll.fmi2GetInteger
+            step = opened.raw.dll["fmi2GetInteger"]
             step.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
             times = rows
         begin = clock.process_time()
@@ -75,7 +61,7 @@ class Program:
             status |= step(component, time, interval, 1)
             status |= get(component, references, length, row)
         spent = clock.process_time() - begin
-        fmu.freeInstance()
+        opened.close()
         if status:
             raise RuntimeError(f"the FMU refuses a step of {self.wanted}")
         return spent
@@ -86,23 +72,20 @@ class Program:
         within = round(cases.STEP / FINE)
         speeds, forces = np.zeros((count, 2)), np.full((count // within, 2), np.nan)
         for k in range(count):
-            opened.fmu.doStep(k * FINE, FINE)
+            opened.do_step(k * FINE, FINE)
             speeds[k] = opened.read(SPEEDS)
             if k % (within * cases.FORCES_EVERY) == 0:
                 forces[k // within] = opened.read(FORCES)
         angles = opened.read(ANGLES)
-        opened.fmu.freeInstance()
+        opened.close()
         return FINE * np.arange(1, count + 1), speeds, angles, forces
 
 
 def run(wanted):
     program = Program(wanted)
-    try:
-        spent = statistics.median(program.timed(True) for _ in range(TIMED_RUNS))
-        idle = statistics.median(program.timed(False) for _ in range(TIMED_RUNS))
-        time, speeds, angles, forces = program.recorded()
-    finally:
-        shutil.rmtree(program.folder, ignore_errors=True)
+    spent = statistics.median(program.timed(True) for _ in range(TIMED_RUNS))
+    idle = statistics.median(program.timed(False) for _ in range(TIMED_RUNS))
+    time, speeds, angles, forces = program.recorded()
     found = cases.measures(program.case, time, speeds, angles, forces, spent)
     return found | {"calls": idle / cases.LENGTH}
 

@@ -10,11 +10,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.append(str(ROOT / "fmu-build" / "python"))
+sys.path += [str(ROOT / "python" / "src"), str(ROOT / "fmu-build" / "python")]
 import style  # noqa: E402
+from bevel_differential import Differential  # noqa: E402
 
 FIGURES = ROOT / "docs" / "figures"
 FMU = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "target" / "fmu" / "BevelDifferential.fmu")
@@ -95,29 +95,21 @@ def square_root(te_one, exponent):
     return [100.0 * DIFFERENCE / speed * slope for _, speed in SIDES]
 
 
-class Turn:
-    """Runs of the turn with changed start values."""
+def turn(changes, step=1e-4):
+    """A record of the turn with changed start values, after a tooth."""
+    values = {"scene.planet_spin": "imposed", "planet.spin_command": (SPIN, "deg/s"), "carrier.speed_command": (CARRIER, "deg/s")}
+    outputs = [f"{side}.speed" for side, _ in SIDES] + ["planet[1].left_transmission_error"]
+    with Differential(values | changes, fmu=FMU) as differential:
+        record = differential.run(outputs=outputs, stop=3 * PERIOD, step=step)
+    return record[record["time"] > PERIOD]
 
-    def __init__(self):
-        self.description = read_model_description(FMU)
-        self.unpacked = extract(FMU)
 
-    def __call__(self, changes, step=1e-4):
-        values = {"scene.planet_spin": 2, "planet.spin_command": (SPIN, "deg/s"),
-                  "carrier.speed_command": (CARRIER, "deg/s"), **changes}
-        output = [f"{side}.speed" for side, _ in SIDES] + ["solver.steps"] + [
-            f"planet[1].{side}_{what}" for side, _ in SIDES for what in ["transmission_error", "pairs"]]
-        record = simulate_fmu(self.unpacked, model_description=self.description, start_values=values,
-                              stop_time=3 * PERIOD, output_interval=step, output=output,
-                              logger=lambda *_: None)
-        return record[record["time"] > PERIOD]
-
-    def measured(self, changes, step=1e-4):
-        """Deflection with one and with two pairs [m], ripple of both sides peak to peak [%]."""
-        record = self(changes, step)
-        error = record["planet[1].left_transmission_error"]
-        ripple = [100.0 * np.ptp(np.degrees(record[f"{side}.speed"])) / speed for side, speed in SIDES]
-        return np.max(error), np.min(error), ripple
+def measured(changes, step=1e-4):
+    """Deflection with one and with two pairs [m], ripple of both sides peak to peak [%]."""
+    record = turn(changes, step)
+    error = record["planet[1].left_transmission_error"]
+    ripple = [100.0 * np.ptp(np.degrees(record[f"{side}.speed"])) / speed for side, speed in SIDES]
+    return np.max(error), np.min(error), ripple
 
 
 def per_pair_force():
@@ -145,10 +137,11 @@ def variants():
     yield "all speeds × 10", {"carrier.speed_command": (CARRIER * 10, "deg/s"),
                               "planet.spin_command": (SPIN * 10, "deg/s")}, 1.5, 1e-5
     # laws from the teeth's shape, for which no rule is calculated
-    for law, name in [(2, "line"), (3, "line_weber")]:
-        yield f"law `{name}`", {"contact.law": law}, None, 1e-4
-        yield f"`{name}`, elastic bodies", {"contact.law": law, "effects.body_compliance": True}, None, 1e-4
-    bores = {"contact.law": 3, "effects.body_compliance": True, "geometry.planet_bore": 16e-3, "geometry.side_bore": 30e-3}
+    for law in ["line", "line_weber"]:
+        yield f"law `{law}`", {"contact.law": law}, None, 1e-4
+        yield f"`{law}`, elastic bodies", {"contact.law": law, "effects.body_compliance": True}, None, 1e-4
+    bores = {"contact.law": "line_weber", "effects.body_compliance": True, "geometry.planet_bore": 16e-3,
+             "geometry.side_bore": 30e-3}
     yield "`line_weber`, elastic bodies on bores ⌀ 16/30 mm", bores, None, 1e-4
     relief = {"effects.tooth_errors": True, "tooth_errors.planet_tip_relief": 30e-6, "tooth_errors.side_tip_relief": 30e-6}
     yield "the same with tip relief of 30 µm", bores | relief, None, 1e-4
@@ -161,12 +154,11 @@ def both(values):
 
 
 def main():
-    turn = Turn()
     print("| variant | TE₁, µm | TE₂, µm | TE₁ − TE₂, µm | ripple measured, % | quasi-static, % | κ√(a₁c), % |")
     print("|---|---:|---:|---:|---:|---:|---:|")
     points = []
     for name, changes, exponent, step in variants():
-        one, two, ripple = turn.measured(changes, step)
+        one, two, ripple = measured(changes, step)
         if "speeds" in name:  # in per cent of the case's own speeds
             ripple = [r / 10 for r in ripple]
         calculated = ["–", "–"]
@@ -178,14 +170,14 @@ def main():
     print("κ(e):", {e: round(steepest(e), 3) for e in [1.0, 1.5, 2.0]})
     print("c at the study's deflection, planet's and side gear's tip:",
           [float(round(a / np.interp(a, t, DELTA) ** 2, 3)) for t in (GAP_P, GAP_S) for a in [depth_of_study() / R_M]])
-    draw(turn, points)
+    draw(points)
 
 
 def depth_of_study():
     return (per_pair_force() / STIFFNESS) ** (1 / 1.5)
 
 
-def draw(turn, points):
+def draw(points):
     figure, (errors, speeds, rule) = style.panels(1, 3, 5.2)
     left = SIDES[0][1]
     for name, factor in [("study's K", 1), ("K × 4", 4), ("K × 16", 16)]:

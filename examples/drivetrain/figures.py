@@ -1,13 +1,8 @@
 """Pictures: the launch, errors by communication step, and the flow of signals."""
 
-import sys
-from pathlib import Path
-
+import style
 from masters import ALL
 from parameters import CONNECTIONS, STEP
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
-import style  # noqa: E402
 
 RADIUS, RATIO = 0.334, 13.65
 

@@ -1,40 +1,25 @@
 """A system of FMUs as a master sees it: parts that step over time, give outputs and take their state back."""
 
-import shutil
-
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+from bevel_differential import Fmu
+from bevel_differential.batches import Batches
 
 from parameters import CONNECTIONS, PARTS, settings
 
-INTEGERS = ("Integer", "Enumeration")
-
 
 class FmuPart:
-    """One FMU through FMPy's calls of the C interface."""
+    """One FMU, call by call."""
 
     def __init__(self, name, fmu, inputs, outputs, values):
-        description = read_model_description(fmu)
-        known = {variable.name: variable for variable in description.modelVariables}
-        self.name, self.folder = name, extract(fmu)
-        self.interpolates = description.coSimulation.canInterpolateInputs
-        self.fmu = FMU2Slave(guid=description.guid, unzipDirectory=self.folder, instanceName=name,
-                             modelIdentifier=description.coSimulation.modelIdentifier)
-        self.fmu.instantiate()
-        for variable, value in values.items():
-            write = self.fmu.setInteger if known[variable].type in INTEGERS else self.fmu.setReal
-            write([known[variable].valueReference], [value])
-        self.inputs = [known[variable].valueReference for variable in inputs]
-        self.outputs = [known[variable].valueReference for variable in outputs]
-        slopes = [known.get(f"der({variable})") for variable in inputs]
-        self.slopes = [slope.valueReference for slope in slopes] if all(slopes) else None
+        self.name, fmu = name, Fmu.of(fmu)
+        self.interpolates = fmu.description.coSimulation.canInterpolateInputs
+        self.instance, self.inputs = fmu.open(name=name), inputs
+        self.fed, self.given = (Batches([fmu.variable(each) for each in names]) for names in (inputs, outputs))
+        slopes = [f"der({each})" for each in inputs]
+        self.slopes = Batches([fmu.variable(each) for each in slopes]) if all(each in fmu.variables for each in slopes) else None
         self.sloping = False
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
         # everything is at rest
-        self.fmu.setReal(self.inputs, [0.0] * len(self.inputs))
-        self.fmu.exitInitializationMode()
+        self.instance.initialise(values | dict.fromkeys(inputs, 0.0))
 
     @property
     def follows_lines(self):
@@ -48,32 +33,30 @@ class FmuPart:
             u, slope = u + 0.5 * size * slope, None
         self.put(u)
         if slope is not None and self.interpolates:
-            self.fmu.setRealInputDerivatives(self.inputs, [1] * len(slope), list(slope))
+            self.instance.set_slopes(dict(zip(self.inputs, slope)))
         elif self.slopes is not None and (slope is not None or self.sloping):
-            self.fmu.setReal(self.slopes, [0.0] * len(u) if slope is None else list(slope))
+            self.slopes.set(self.instance, np.zeros(len(u)) if slope is None else slope)
             self.sloping = slope is not None
-        self.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=size)
+        self.instance.do_step(time, size)
 
     def put(self, u):
-        self.fmu.setReal(self.inputs, list(u))
+        self.fed.set(self.instance, u)
 
     def read(self):
-        return self.fmu.getReal(self.outputs)
+        return self.given.get(self.instance)
 
     def save(self):
-        return self.fmu.getFMUState(), self.sloping
+        return self.instance.raw.getFMUState(), self.sloping
 
     def restore(self, saved):
-        self.fmu.setFMUState(saved[0])
+        self.instance.raw.setFMUState(saved[0])
         self.sloping = saved[1]
 
     def drop(self, saved):
-        self.fmu.freeFMUState(saved[0])
+        self.instance.raw.freeFMUState(saved[0])
 
     def close(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
+        self.instance.close()
 
 
 class System:

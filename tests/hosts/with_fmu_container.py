@@ -2,6 +2,7 @@
 steps the container. Enumerations are Integers there, and parameters are prefixed with the inner FMU's name.
 """
 
+import copy
 import subprocess
 import sys
 import tempfile
@@ -28,9 +29,9 @@ def run(fmu, scene):
         prefix = Path(fmu).stem.lower() + "."
         # what is local inside is not seen from outside
         names = {name: next((n for n in (name, prefix + name) if n in found), None) for name in inner}
-        known = {name: found[seen] for name, seen in names.items() if seen}
-        literals = {name: variable.literals for name, variable in inner.items()}
-        known = {name: common.Variable(name, v.reference, v.kind, literals[name]) for name, v in known.items()}
+        known = {name: copy.copy(inner[name]) for name, seen in names.items() if seen}
+        for name, variable in known.items():
+            variable.reference = found[names[name]].reference
         return with_fmpy.stepped(outer, scene, known, scene.outputs)
 
 

@@ -1,17 +1,20 @@
-"""The packaged FMU for the tests, and two ways to use it: `run` as a user does, `open_fmu` call by call."""
+"""The packaged FMU for the tests, and ways to use it: `run` a scene, `drive` it from step to step, `fmu.open` it call by call."""
 
 import os
 import sys
-from contextlib import contextmanager
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
-from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
 
-for folder in ("fmu-build/python", "python/src"):
-    sys.path.insert(0, str(Path(__file__).resolve().parents[2] / folder))
+FOLDERS = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python/src", "fmu-build/python")]
+sys.path[:0] = FOLDERS
+# for processes that tests start
+os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)
+
+from bevel_differential import Differential, Fmu  # noqa: E402
 from driving import Drive  # noqa: E402
-from instance import Instance  # noqa: E402
 
 
 def pytest_addoption(parser):
@@ -29,80 +32,48 @@ def fmu_file():
 
 
 @pytest.fixture(scope="session")
+def fmu(fmu_file):
+    """The extracted FMU, with its variables; `fmu.open()` is an instance."""
+    return Fmu.of(fmu_file)
+
+
+@pytest.fixture(scope="session")
+def outputs(fmu):
+    """Names of all outputs."""
+    return [variable.name for variable in fmu.variables.values() if variable.causality == "output"]
+
+
+@pytest.fixture(scope="session")
 def description(fmu_file):
+    """The model description, valid by fmpy's rules."""
     return read_model_description(fmu_file, validate=True)
 
 
 @pytest.fixture(scope="session")
-def unpacked(fmu_file, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("fmu")
-    extract(fmu_file, str(folder))
-    return str(folder)
-
-
-@pytest.fixture(scope="session")
-def reference(description):
-    """Value reference by name."""
-    return {variable.name: variable.valueReference for variable in description.modelVariables}
-
-
-@pytest.fixture(scope="session")
-def literals(description):
-    """Value of a literal by the name of the variable and the literal."""
-    return {variable.name: {item.name: int(item.value) for item in variable.declaredType.items}
-            for variable in description.modelVariables if variable.type == "Enumeration"}
-
-
-@pytest.fixture(scope="session")
-def run(unpacked, description, literals):
-    """run(start_values, stop, step, output): a simulation; enumerations by literal or number, (value, unit) as fmpy takes it."""
+def run(fmu_file, outputs):
+    """run(start_values, stop, step, output): a record of a simulation; of all outputs, if none are named."""
 
     def simulate(start_values=None, stop=0.5, step=0.001, output=None):
-        values = {name: literals[name].get(value, value) if name in literals else value
-                  for name, value in (start_values or {}).items()}
-        return simulate_fmu(unpacked, model_description=description, start_values=values, stop_time=stop,
-                            output_interval=step, output=output, logger=lambda *_: None)
+        with Differential(start_values, fmu=fmu_file) as differential:
+            return differential.run(outputs=output or outputs, stop=stop, step=step)
 
     return simulate
 
 
-class Opened(Instance):
-    """An instance to be called function by function, with its warnings and errors."""
+@pytest.fixture(scope="session")
+def through_fmpy(fmu):
+    """through_fmpy(values, stop, **options): a record of fmpy's own loop; `options` are those of simulate_fmu."""
 
-    def __init__(self, unpacked, description, kind="CoSimulation"):
-        self.log = []
-        opened = instantiate_fmu(unpacked, description, fmi_type=kind, debug_logging=True, logger=self.record)
-        super().__init__(opened, description)
+    def simulate(values=None, stop=0.1, logger=lambda *_: None, **options):
+        numbers = {variable.name: number for variable, number in fmu.numbers(values)}
+        return simulate_fmu(fmu.folder, model_description=fmu.description, start_values=numbers, stop_time=stop,
+                            logger=logger, **{"output_interval": 0.001, **options})
 
-    def record(self, _environment, _instance, _status, category, message):
-        if category != b"logEvents":
-            self.log.append(message.decode())
-
-
-@pytest.fixture
-def open_fmu(unpacked, description):
-    """A context with an opened instance, freed at its end."""
-
-    @contextmanager
-    def opened(kind="CoSimulation"):
-        instance = Opened(unpacked, description, kind)
-        try:
-            yield instance
-        finally:
-            instance.fmu.freeInstance()
-
-    return opened
+    return simulate
 
 
 @pytest.fixture
-def drive(unpacked, description):
+def drive(fmu):
     """drive(values): a started scene (see driving.py); all are freed at the end of the test."""
-    begun = []
-
-    def start(values=None):
-        begun.append(Opened(unpacked, description))
-        return Drive(begun[-1], values)
-
-    yield start
-    for opened in begun:
-        opened.fmu.freeInstance()
+    with ExitStack() as begun:
+        yield lambda values=None: begun.enter_context(Drive(fmu, values))

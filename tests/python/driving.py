@@ -1,4 +1,4 @@
-"""Drives an opened FMU from communication point to communication point, accounts for the energy it turns over, and asserts
+"""Drives the FMU from communication point to communication point, accounts for the energy it turns over, and asserts
 the balance of the angular momentum about the axle after every step (momentum.py).
 
 Limits of the energy residual, each against what it is compared with:
@@ -9,6 +9,8 @@ BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of 
           correct to four digits"""
 
 import numpy as np
+from bevel_differential.batches import Batches
+from bevel_differential.instance import Instance
 from momentum import Momentum
 
 UNDAMPED, BLOWS = 1e-6, 1e-4
@@ -28,31 +30,29 @@ GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.pla
 LEAST = 1e-9
 
 
-class Drive:
+def put(instance, name, value):
+    """Sets what the package would not, so that the FMU judges it."""
+    Batches([instance.fmu.variable(name)]).set(instance, [value])
+
+
+class Drive(Instance):
     """A started scene.
 
     The energy turned over is the heat of all causes and ∫(|P_in| + |P_out|) dt of drives and wheels, by the trapezoidal
     rule between communication points, powers read under the inputs that act in the step."""
 
-    def __init__(self, opened, values=None):
-        self.opened, self.time, self.exchanged = opened, 0.0, 0.0
-        self.set(values or {})
-        opened.initialise()
-        self.heats = [name for name in opened.variables if name.startswith("heat.")]
-        self.momentum = Momentum(opened)
+    def __init__(self, fmu, values=None):
+        super().__init__(fmu)
+        self.initialise(values)
+        self.exchanged = 0.0
+        self.heats = [name for name in fmu.variables if name.startswith("heat.")]
+        self.momentum = Momentum(self)
 
     def __getitem__(self, name):
-        return self.opened.get(name)
-
-    def set(self, values):
-        for name, value in values.items():
-            self.opened.set(name, value)
+        return self.get(name)
 
     def load(self, left, right=None):
         self.set({"left.load_torque": left, "right.load_torque": left if right is None else right})
-
-    def read(self, names):
-        return self.opened.read(names)
 
     def powers(self):
         return sum(map(abs, self.read(["power.in", "power.out"])))
@@ -60,8 +60,7 @@ class Drive:
     def step(self, size):
         begin = self.powers()
         self.momentum.before_step()
-        self.opened.fmu.doStep(self.time, size)
-        self.time += size
+        super().step(size)
         self.momentum.after_step(size)
         self.exchanged += 0.5 * size * (begin + self.powers())
 
@@ -73,21 +72,6 @@ class Drive:
             self.step(begin + k * size - self.time)
             if each:
                 each(self)
-        return self
-
-    def save(self):
-        """The state as bytes, and its time."""
-        state = self.opened.fmu.getFMUstate()
-        kept = self.opened.fmu.serializeFMUstate(state)
-        self.opened.fmu.freeFMUstate(state)
-        return kept, self.time
-
-    def restore(self, saved):
-        """Back to a saved state, of this instance or another."""
-        kept, self.time = saved
-        state = self.opened.fmu.deSerializeFMUstate(kept)
-        self.opened.fmu.setFMUstate(state)
-        self.opened.fmu.freeFMUstate(state)
         return self
 
     def heat(self):

@@ -22,11 +22,10 @@ class Momentum:
 
     def __init__(self, opened):
         self.opened = opened
-        self.on = {name: self.switch(name) for name in opened.variables if name.startswith("effects.")}
-        drives = {name: self.whole(f"scene.{name}") for name in ["carrier_drive", "left_drive", "right_drive"]}
-        self.imposed = {name: drives[name] == opened.number(f"scene.{name}", "speed") for name in drives}
-        self.planets = self.whole("geometry.planet_count")
-        self.radius = 0.5 * opened.get("geometry.module") * self.whole("geometry.side_teeth")
+        self.on = {name: opened.get(name) for name in opened.fmu.variables if name.startswith("effects.")}
+        self.imposed = {name: self.literal(f"scene.{name}") == "speed" for name in ["carrier_drive", "left_drive", "right_drive"]}
+        self.planets = opened.get("geometry.planet_count")
+        self.radius = 0.5 * opened.get("geometry.module") * opened.get("geometry.side_teeth")
         self.orbit, self.side, self.facets = self.inertias()
         self.carrier = opened.get("inertia.carrier")
         self.twists = [self.imposed[f"{s}_drive"] or self.on["effects.half_shaft"] and opened.get(f"inertia.{s}_end") > 0.0
@@ -41,29 +40,22 @@ class Momentum:
         self.gained = self.given = self.turned_over = 0.0
         self.momentum, self.external = self.now(), self.commands()
 
-    def switch(self, name):
-        return bool(self.opened.fmu.getBoolean([self.opened.variables[name].valueReference])[0])
-
-    def whole(self, name):
-        return self.opened.fmu.getInteger([self.opened.variables[name].valueReference])[0]
+    def literal(self, name):
+        number = self.opened.get(name)
+        return next(literal for literal, its in self.opened.fmu.variable(name).literals.items() if its == number)
 
     def inertias(self):
         """Of a planet about the axle and of a side gear, and how far that of the solids may be off."""
-        integers = ["planet_teeth", "side_teeth"]
-
         def of(name):
             if name == "backlash" and not self.on["effects.backlash"]:
                 return 0.0
-            return self.whole(f"geometry.{name}") if name in integers else self.opened.get(f"geometry.{name}")
+            return self.opened.get(f"geometry.{name}")
 
-        number = self.whole("geometry.addendum_system")
-        items = self.opened.variables["geometry.addendum_system"].declaredType.items
-        system = next(item.name for item in items if int(item.value) == number)
-        both, cones = outline_solids.gears(system, of)
+        both, cones = outline_solids.gears(self.literal("geometry.addendum_system"), of)
         density = self.opened.get("material.density")
         planet, side = (gear.inertias(cones, of(bore), density)
                         for gear, bore in zip(both, ["planet_bore", "side_bore"]))
-        if self.switch("inertia.from_geometry"):
+        if self.opened.get("inertia.from_geometry"):
             return planet[1], side[0], [1.0, 1.0]
         # a given planet has its solid's proportions
         given = self.opened.get("inertia.planet")
@@ -98,7 +90,7 @@ class Momentum:
         if not self.imposed["carrier_drive"]:
             wave = 1.0
             if self.on["effects.final_drive"]:
-                teeth = self.whole("final_drive.ring_teeth")
+                teeth = one.get("final_drive.ring_teeth")
                 wave += one.get("final_drive.amplitude") * np.sin(teeth * one.get("carrier.angle"))
             wanted = one.get("carrier.torque_command") * wave
         elif not any(self.on[name] for name in RUBBING) and one.get("lock.command") == 0.0:

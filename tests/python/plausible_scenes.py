@@ -4,14 +4,10 @@ Where the interface allows many decades, because gears of watches and of ships d
 value. Sizes follow the module. Values that are documented to exclude each other are drawn so that they agree."""
 
 import os
-import sys
 from math import atan2, exp, log, pi, sin
-from pathlib import Path
 
+import effects_list
 from sampling import spread
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
-import effects_list  # noqa: E402
 
 # the interface's enumerations, by number
 EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
@@ -63,13 +59,12 @@ IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_c
 
 def value(variable, u, scene):
     """Of one variable, given the values of those it follows."""
-    name, low, high = variable.name, variable.min, variable.max
-    if variable.type == "Boolean":
+    name, start, low, high = variable.name, variable.start, variable.minimum, variable.maximum
+    if variable.kind == "Boolean":
         return u < 0.5
-    if variable.type == "Enumeration":
-        return 1 + int(u * len(variable.declaredType.items))
-    start, low, high = float(variable.start), float(low), float(high)
-    if variable.type == "Integer":
+    if variable.kind == "Enumeration":
+        return 1 + int(u * len(variable.literals))
+    if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
     size = scene.get("geometry.module", MODULE)
     if name in FACTORS:

@@ -19,20 +19,20 @@ LATER = ["effects.body_compliance", "effects.mesh_history"]
 BOLD = 0.03
 
 
-def free_variables(description):
+def free_variables(fmu):
     """All parameters and inputs."""
-    return [v for v in description.modelVariables if v.causality in ("parameter", "input")]
+    return [v for v in fmu.variables.values() if v.causality in ("parameter", "input")]
 
 
 def wild_value(variable, u):
-    if variable.type == "Boolean":
+    if variable.kind == "Boolean":
         return u < 0.5
-    if variable.type == "Enumeration":
-        return 1 + int(u * len(variable.declaredType.items))
-    low, high = float(variable.min), float(variable.max)
-    if variable.type == "Integer":
+    if variable.kind == "Enumeration":
+        return 1 + int(u * len(variable.literals))
+    low, high = variable.minimum, variable.maximum
+    if variable.kind == "Integer":
         return int(low + u * (high - low + 1.0))
-    return spread(u, low, high, float(variable.start))
+    return spread(u, low, high, variable.start)
 
 
 def schedule(random, duration, inputs, draw):
@@ -42,9 +42,9 @@ def schedule(random, duration, inputs, draw):
     return [(float(size), {v.name: draw(v) for v in inputs if random.random() < 0.15}) for size in sizes]
 
 
-def scenes(description, kind, count, seed, first=0, last=None):
+def scenes(fmu, kind, count, seed, first=0, last=None):
     """Scenes `first` to `last` of the `count` of a kind: {"start": values by name, "steps": [(size, inputs)]}."""
-    everything = free_variables(description)
+    everything = free_variables(fmu)
     variables = [v for v in everything if v.name not in LATER]
     inputs = [v for v in variables if v.causality == "input"]
     cube = latin(count, len(variables), np.random.default_rng([seed, KINDS.index(kind)]))

@@ -2,7 +2,8 @@
 
 `Attempts` runs them in a separate process, so that a crash or a hang is reported with the scene that caused it. Replay one:
 
-    FMU=target/fmu/BevelDifferential.fmu python tests/python/scene_runs.py replay 'the scene as it was printed'
+    export FMU=target/fmu/BevelDifferential.fmu PYTHONPATH=python/src:fmu-build/python
+    target/python/bin/python tests/python/scene_runs.py replay 'the scene as it was printed'
 """
 
 import ast
@@ -12,19 +13,14 @@ import os
 import queue
 import subprocess
 import sys
-import tempfile
 import threading
 import time
-from pathlib import Path
-
-from fmpy import extract, instantiate_fmu, read_model_description
-from fmpy.fmi1 import FMICallException
 
 import random_scenes
+from bevel_differential import DifferentialError, Fmu
+from bevel_differential.instance import Instance
+from fmpy.fmi1 import FMICallException
 from momentum import Momentum
-
-sys.path.append(str(Path(__file__).resolve().parents[2] / "fmu-build" / "python"))
-from instance import Instance  # noqa: E402
 
 OK, DISCARD, ERROR = 0, 2, 3
 # attempts at steps that the FMU grants a communication step of up to a second before it discards it
@@ -45,52 +41,60 @@ PATIENCE = 300.0
 class StatusInstance(Instance):
     """An instance whose calls return their status and do not raise."""
 
-    def __init__(self, folder, description):
-        self.log = []
-        logger = lambda *message: self.log.append(message[-1].decode())  # noqa: E731
-        super().__init__(instantiate_fmu(folder, description, logger=logger), description)
-        self.readable = [name for name, variable in self.variables.items() if variable.causality == "output"]
+    def __init__(self, fmu):
+        super().__init__(fmu)
+        # errors alone
+        self.raw.setDebugLogging(False, [])
+        self.readable = [name for name, variable in fmu.variables.items() if variable.causality == "output"]
 
-    def call(self, function, *arguments, **options):
+    def call(self, function, *arguments):
         try:
-            function(*arguments, **options)
-        except FMICallException as failure:
+            function(*arguments)
+        except (DifferentialError, FMICallException) as failure:
+            if failure.status is None:
+                # refused by the package, and not by the FMU
+                raise
             return failure.status
         return OK
 
     def set(self, name, value):
-        return self.call(super().set, name, value)
+        return self.call(super().set, {name: value})
 
     def initialise(self):
-        return (self.call(self.fmu.setupExperiment) or self.call(self.fmu.enterInitializationMode)
-                or self.call(self.fmu.exitInitializationMode))
+        return self.call(super().initialise)
+
+    def step(self, size):
+        return self.call(super().step, size)
+
+    def reset(self):
+        return self.call(super().reset)
 
     def outputs(self):
         return dict(zip(self.readable, self.read(self.readable)))
 
     def names_a_variable(self, since=0):
         """Whether what was logged names a variable that there is."""
-        words = " ".join(self.log[since:]).replace(",", " ").replace(":", " ").replace("\"", " ").replace("`", " ")
-        return any(word.strip(".;()") in self.variables for word in words.split())
+        words = " ".join(self.messages[since:]).replace(",", " ").replace(":", " ").replace("\"", " ").replace("`", " ")
+        return any(word.strip(".;()") in self.fmu.variables for word in words.split())
 
 
 class Attempt:
     """One scene: `verdict` is refused, ran, discarded or failed; `problems` says what did not hold."""
 
-    def __init__(self, folder, description, scene):
+    def __init__(self, fmu, scene):
         self.scene, self.problems, self.verdict = scene, [], "ran"
         self.imbalance = self.turned_over = self.attempts = self.slowest = 0.0
         self.balanced = False
-        self.instance, self.messages = StatusInstance(folder, description), []
+        self.instance, self.messages = StatusInstance(fmu), []
         try:
             if self.start():
                 self.go()
             else:
                 self.verdict = "refused"
-            self.messages = self.instance.log[-2:]
+            self.messages = self.instance.messages[-2:]
             self.fresh_again()
         finally:
-            self.instance.fmu.freeInstance()
+            self.instance.close()
         if self.problems:
             self.verdict = "failed"
 
@@ -111,15 +115,15 @@ class Attempt:
             if status:
                 self.demand(status in (DISCARD, ERROR) and one.names_a_variable(), f"{name} refused with {status}")
                 return False
-        begin, time_before = len(one.log), time.monotonic()
+        begin, time_before = len(one.messages), time.monotonic()
         status = one.initialise()
         self.slowest = time.monotonic() - time_before
         if status > 1:
-            self.demand(status == ERROR and one.names_a_variable(begin), f"refused with {status}, {one.log[begin:]}")
+            self.demand(status == ERROR and one.names_a_variable(begin), f"refused with {status}, {one.messages[begin:]}")
         return status <= 1
 
     def go(self):
-        one, now = self.instance, 0.0
+        one = self.instance
         self.finite(one.outputs(), "at the start")
         momentum = self.momentum()
         exchanged = inertial = 0.0
@@ -127,11 +131,11 @@ class Attempt:
             for name, value in inputs.items():
                 self.demand(one.set(name, value) == OK, f"input {name} = {value} refused")
             before = one.outputs()
-            kept = one.fmu.getFMUstate()
+            kept = one.raw.getFMUstate()
             if momentum:
                 momentum.before_step()
-            begin, time_before = len(one.log), time.monotonic()
-            status = one.call(one.fmu.doStep, now, size)
+            now, begin, time_before = one.time, len(one.messages), time.monotonic()
+            status = one.step(size)
             self.slowest = max(self.slowest, time.monotonic() - time_before)
             after = one.outputs()
             self.finite(after, f"after the step from {now}")
@@ -141,17 +145,16 @@ class Attempt:
             if status > 1:
                 self.verdict = "discarded"
                 self.demand(status == DISCARD, f"step from {now} has status {status}")
-                self.demand("t = " in " ".join(one.log[begin:]), f"no time in {one.log[begin:]}")
-                self.demand(one.call(one.fmu.setFMUstate, kept) == OK and one.outputs() == before, "state not restored")
+                self.demand("t = " in " ".join(one.messages[begin:]), f"no time in {one.messages[begin:]}")
+                self.demand(one.call(one.raw.setFMUstate, kept) == OK and one.outputs() == before, "state not restored")
             else:
                 if momentum:
                     self.demand_momentum(momentum, size)
                 exchanged += size * (turned(before) + turned(after)) / 2.0
                 inertial = max(inertial, kinetic(self.scene, before), kinetic(self.scene, after))
-            one.fmu.freeFMUstate(kept)
+            one.raw.freeFMUstate(kept)
             if status > 1:
                 break
-            now += size
         outputs = one.outputs()
         heat = {name: value for name, value in outputs.items() if name.startswith("heat.")}
         self.turned_over = sum(map(abs, heat.values())) + exchanged + inertial
@@ -168,6 +171,8 @@ class Attempt:
         """The balance of the angular momentum, where gears have solids that the tests can weigh."""
         try:
             return Momentum(self.instance)
+        except DifferentialError:
+            raise
         except ValueError:
             return None
 
@@ -185,7 +190,7 @@ class Attempt:
     def fresh_again(self):
         """After fmi2Reset the instance is as new: the study's straight case."""
         one = self.instance
-        done = one.call(one.fmu.reset) == OK and one.initialise() <= 1 and one.call(one.fmu.doStep, 0.0, 1e-3) == OK
+        done = one.reset() == OK and one.initialise() == OK and one.step(1e-3) == OK
         straight = done and one.outputs()["left.speed"] == one.outputs()["right.speed"]
         self.demand(done and straight, "not usable after fmi2Reset")
 
@@ -203,12 +208,12 @@ def kinetic(scene, outputs):
     return sum(0.5 * start[inertia] * outputs[speed] ** 2 for inertia, speed in bodies)
 
 
-def work(folder, kind, count, seed, first):
+def work(file, kind, count, seed, first):
     """The worker: attempts scenes from `first` on and reports begin and end of each."""
-    description = read_model_description(os.path.join(folder, "modelDescription.xml"))
-    for index, scene in random_scenes.scenes(description, kind, count, seed, first):
+    fmu = Fmu.of(file)
+    for index, scene in random_scenes.scenes(fmu, kind, count, seed, first):
         print(json.dumps({"index": index}), flush=True)
-        print(json.dumps(Attempt(folder, description, scene).record()), flush=True)
+        print(json.dumps(Attempt(fmu, scene).record()), flush=True)
 
 
 def listen(stream, lines):
@@ -217,11 +222,11 @@ def listen(stream, lines):
     lines.put(None)
 
 
-def attempts(folder, kind, count, seed):
+def attempts(file, kind, count, seed):
     """Records of all scenes of a kind, from processes that may crash or hang."""
     first = 0
     while first < count:
-        arguments = [folder, kind, str(count), str(seed), str(first)]
+        arguments = [str(file), kind, str(count), str(seed), str(first)]
         process = subprocess.Popen([sys.executable, os.path.abspath(__file__), "work", *arguments],
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         lines = queue.Queue()
@@ -251,10 +256,7 @@ def attempts(folder, kind, count, seed):
 if __name__ == "__main__":
     task, *arguments = sys.argv[1:]
     if task == "work":
-        folder, kind, *numbers = arguments
-        work(folder, kind, *map(int, numbers))
+        file, kind, *numbers = arguments
+        work(file, kind, *map(int, numbers))
     else:
-        unpacked = tempfile.mkdtemp()
-        extract(os.environ["FMU"], unpacked)
-        model = read_model_description(os.path.join(unpacked, "modelDescription.xml"))
-        print(json.dumps(Attempt(unpacked, model, ast.literal_eval(arguments[0])).record(), indent=2))
+        print(json.dumps(Attempt(Fmu.of(os.environ["FMU"]), ast.literal_eval(arguments[0])).record(), indent=2))

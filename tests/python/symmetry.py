@@ -21,35 +21,14 @@ def table():
 class Image:
     """The image of one scene: `way` is reversed or swapped."""
 
-    def __init__(self, description, scene, way):
+    def __init__(self, fmu, scene, way):
         self.way, self.columns = way, table()
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.factors = {(unit.name, shown.name): float(shown.factor) for unit in description.unitDefinitions
-                        for shown in unit.displayUnits}
-        self.start = {v.name: self.number(v.name, v.start) for v in self.variables.values()
-                      if v.causality in ("parameter", "input")}
-        self.start |= {name: self.number(name, value) for name, value in scene["start"].items()}
-        self.steps = [(size, {name: self.number(name, value) for name, value in inputs.items()})
-                      for size, inputs in scene["steps"]]
+        self.variables = fmu.variables
+        self.start = {v.name: v.start for v in self.variables.values() if v.causality in ("parameter", "input")}
+        self.start |= {v.name: number for v, number in fmu.numbers(scene["start"])}
+        self.steps = [(size, {v.name: number for v, number in fmu.numbers(inputs)}) for size, inputs in scene["steps"]]
         self.planets, self.planet_teeth, self.side_teeth = (
             self.start[f"geometry.{name}"] for name in ("planet_count", "planet_teeth", "side_teeth"))
-
-    def number(self, name, value):
-        """A value as the FMU takes it: enumerations by number, text with a display unit in SI."""
-        variable = self.variables[name]
-        if variable.type == "Enumeration":
-            literals = {item.name: int(item.value) for item in variable.declaredType.items}
-            return literals[value] if value in literals else int(value)
-        if variable.type == "Boolean":
-            return value in (True, "true")
-        if variable.type == "Integer":
-            return int(value)
-        text, *unit = value.split() if isinstance(value, str) else [value]
-        return float(text) / self.factors.get((self.unit(name), *unit), 1.0)
-
-    def unit(self, name):
-        variable = self.variables[name]
-        return variable.unit or variable.declaredType and variable.declaredType.unit
 
     def entry(self, name):
         """Pattern of a variable in the table: its own, or that of its group; a derivative is what its state is."""
@@ -85,7 +64,7 @@ class Image:
     def values(self, values):
         image = {}
         for name, value in values.items():
-            changes = self.variables[name].type == "Real" and self.factor(name) < 0.0
+            changes = self.variables[name].kind == "Real" and self.factor(name) < 0.0
             image[self.name(name)] = -value if changes else value
         return image
 

@@ -4,10 +4,8 @@ import ctypes
 
 import numpy as np
 import pytest
-from callbacks import silent
 from driving import TURN
-from fmpy import simulate_fmu
-from fmpy.fmi2 import FMU2Model, fmi2EventInfo
+from fmpy.fmi2 import fmi2EventInfo
 
 WHEELS = {"inertia.left_end": 0.5, "inertia.right_end": 0.5}
 SCENES = {
@@ -25,14 +23,9 @@ OUTPUTS = ["left.speed", "right.speed", "carrier.angle", "carrier.torque", "left
 
 
 @pytest.fixture
-def simulate(unpacked, description, literals):
-    def run(kind, values, stop, tolerance, **options):
-        values = {name: literals[name][value] if name in literals else value for name, value in values.items()}
-        return simulate_fmu(unpacked, model_description=description, fmi_type=kind, start_values=values, stop_time=stop,
-                            output_interval=1e-3, relative_tolerance=tolerance, output=OUTPUTS,
-                            logger=lambda *_: None, **options)
-
-    return run
+def simulate(through_fmpy):
+    return lambda kind, values, stop, tolerance, **options: through_fmpy(
+        values, stop, fmi_type=kind, relative_tolerance=tolerance, output=OUTPUTS, **options)
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -68,23 +61,18 @@ def test_states_and_derivatives_are_in_the_model_structure(description):
     assert description.numberOfEventIndicators == 24
 
 
-def test_states_are_read_in_the_order_of_the_model_structure(unpacked, description, reference):
-    fmu = FMU2Model(guid=description.guid, unzipDirectory=unpacked, instanceName="exchange",
-                    modelIdentifier=description.modelExchange.modelIdentifier)
-    fmu.instantiate(callbacks=silent())
-    fmu.setupExperiment()
-    fmu.enterInitializationMode()
-    fmu.exitInitializationMode()
-    info = fmi2EventInfo()
-    fmu.fmi2NewDiscreteStates(fmu.component, info)
-    fmu.enterContinuousTimeMode()
-    count = len(description.derivatives)
-    states, rates = (ctypes.c_double * count)(), (ctypes.c_double * count)()
-    fmu.getContinuousStates(states, count)
-    fmu.getDerivatives(rates, count)
-    by_name = {"state": [v.variable.derivative.name for v in description.derivatives],
-               "rate": [v.variable.name for v in description.derivatives]}
-    for kind, values in [("state", states), ("rate", rates)]:
-        assert list(values) == fmu.getReal([reference[name] for name in by_name[kind]])
-    fmu.terminate()
-    fmu.freeInstance()
+def test_states_are_read_in_the_order_of_the_model_structure(fmu, description):
+    with fmu.open("ModelExchange") as opened:
+        opened.initialise()
+        raw, info = opened.raw, fmi2EventInfo()
+        raw.fmi2NewDiscreteStates(raw.component, info)
+        raw.enterContinuousTimeMode()
+        count = len(description.derivatives)
+        states, rates = (ctypes.c_double * count)(), (ctypes.c_double * count)()
+        raw.getContinuousStates(states, count)
+        raw.getDerivatives(rates, count)
+        by_name = {"state": [v.variable.derivative.name for v in description.derivatives],
+                   "rate": [v.variable.name for v in description.derivatives]}
+        for kind, values in [("state", states), ("rate", rates)]:
+            assert list(values) == opened.read(by_name[kind])
+        raw.terminate()

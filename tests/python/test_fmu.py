@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 import theory
-from fmpy.fmi1 import FMICallException
+from bevel_differential import DifferentialError
+from driving import put
 from fmpy.validation import validate_fmu
 
 DISCARD, ERROR = 2, 3
@@ -132,67 +133,63 @@ def test_energy_balances(straight, turn):
         assert np.max(np.abs(record["solver.energy_residual"])) < 1e-6 * through
 
 
-def test_three_planets_on_sixteen_teeth_are_refused_by_the_assembly_condition(open_fmu):
-    with open_fmu() as opened:
-        opened.set("geometry.planet_count", 3)
-        with pytest.raises(FMICallException) as refusal:
-            opened.initialise()
+def test_three_planets_on_sixteen_teeth_are_refused_by_the_assembly_condition(fmu):
+    with fmu.open() as opened:
+        with pytest.raises(DifferentialError) as refusal:
+            opened.initialise({"geometry.planet_count": 3})
     assert refusal.value.status == ERROR
-    message = "\n".join(opened.log)
+    message = "\n".join(opened.messages)
     assert "geometry.planet_count" in message and "assembly condition" in message
 
 
-def test_a_module_of_4_5_metres_is_refused_with_a_hint(open_fmu):
-    with open_fmu() as opened:
-        with pytest.raises(FMICallException) as refusal:
-            opened.set("geometry.module", 4.5)
-            opened.initialise()
+def test_a_module_of_4_5_metres_is_refused_with_a_hint(fmu):
+    with fmu.open() as opened:
+        with pytest.raises(DifferentialError) as refusal:
+            opened.initialise({"geometry.module": 4.5})
     assert refusal.value.status in [DISCARD, ERROR]
-    message = "\n".join(opened.log)
+    message = "\n".join(opened.messages)
     assert "geometry.module" in message and "did you mean 4.5 mm = 0.0045" in message
 
 
-def test_an_input_that_is_no_number_is_refused_and_the_run_goes_on(open_fmu):
+def test_an_input_that_is_no_number_is_refused_and_the_run_goes_on(fmu):
     speeds = []
     for disturbed in [False, True]:
-        with open_fmu() as opened:
+        with fmu.open() as opened:
             opened.initialise()
             for step in range(20):
                 if disturbed and step == 10:
                     for value in [float("nan"), float("inf")]:
-                        with pytest.raises(FMICallException) as refusal:
-                            opened.set("left.load_torque", value)
+                        with pytest.raises(DifferentialError) as refusal:
+                            put(opened, "left.load_torque", value)
                         assert refusal.value.status in [DISCARD, ERROR]
-                    assert any("left.load_torque" in message and "finite" in message for message in opened.log)
-                opened.fmu.doStep(step * 1e-3, 1e-3)
-            speeds.append((opened.get("left.speed"), opened.get("left.normal_force")))
+                    assert any("left.load_torque" in message and "finite" in message for message in opened.messages)
+                opened.step(1e-3)
+            speeds.append(opened.read(["left.speed", "left.normal_force"]))
     assert speeds[0] == speeds[1]
 
 
-def test_the_only_message_is_the_warning_about_the_face_width(open_fmu):
-    with open_fmu() as opened:
+def test_the_only_message_is_the_warning_about_the_face_width(fmu):
+    with fmu.open() as opened:
         opened.initialise()
-        opened.fmu.doStep(0.0, 1e-3)
-    assert [message.split(":")[0] for message in opened.log] == ["geometry.face_width"]
+        opened.step(1e-3)
+    assert [message.split(":")[0] for message in opened.messages] == ["geometry.face_width"]
 
 
 def acted_on(opened, inputs, outputs):
     """Pairs (output, input) in which the input acts at once."""
     acts = set()
     for name in inputs:
-        before = {output: opened.get(output) for output in outputs}
-        value = opened.get(name)
-        opened.set(name, 1.1 * value + 0.1)
-        acts |= {(output, name) for output in outputs if opened.get(output) != before[output]}
-        opened.set(name, value)
+        before, value = opened.read(outputs), opened.get(name)
+        opened.set({name: 1.1 * value + 0.1})
+        acts |= {(output, name) for output, was, now in zip(outputs, before, opened.read(outputs)) if now != was}
+        opened.set({name: value})
     return acts
 
 
-def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(open_fmu, description):
+def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fmu, description, outputs):
     """The dependencies of the model structure are the union over all scenes and both kinds: nothing missing, nothing
     superfluous."""
-    inputs = [v.name for v in description.modelVariables if v.causality == "input"]
-    outputs = [v.name for v in description.modelVariables if v.causality == "output"]
+    inputs = [v.name for v in fmu.variables.values() if v.causality == "input"]
     declared = {(unknown.variable.name, known.name)
                 for unknown in description.outputs for known in unknown.dependencies if known.causality == "input"}
     observed = set()
@@ -218,17 +215,12 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(op
             if contact == "ideal":
                 scene = {**scene, "effects.strength": False}
             for kind in ["CoSimulation", "ModelExchange"]:
-                with open_fmu(kind) as opened:
-                    for name, value in scene.items():
-                        opened.set(name, value)
-                    opened.set("geometry.planet_count", 4)
-                    opened.set("scene.gear_contact", contact)
-                    opened.set("scene.carrier_drive", carrier)
-                    opened.set("scene.planet_spin", spin)
-                    opened.set("planet.spin_command", 1.0)
-                    opened.initialise()
+                with fmu.open(kind) as opened:
+                    opened.initialise(scene | {"geometry.planet_count": 4, "scene.gear_contact": contact,
+                                               "scene.carrier_drive": carrier, "scene.planet_spin": spin,
+                                               "planet.spin_command": 1.0})
                     if kind == "CoSimulation":
-                        opened.fmu.doStep(0.0, 1e-3)
+                        opened.step(1e-3)
                     observed |= acted_on(opened, inputs, outputs)
     assert observed - declared == set()
     # numbers of pairs jump, where a load passes through zero; efficiency is 1 wherever nothing is lost

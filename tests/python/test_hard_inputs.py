@@ -4,36 +4,37 @@ import math
 import re
 
 import pytest
-from fmpy.fmi1 import FMICallException
+from bevel_differential import DifferentialError
+from driving import put
 
 DISCARD, ERROR = 2, 3
 NONE, ENDLESS = float("nan"), [float("inf"), float("-inf")]
 
 
-def reals(description, causality):
-    return [v for v in description.modelVariables if v.causality == causality and v.type == "Real"]
+def of(fmu, causality, kind):
+    return [v for v in fmu.variables.values() if (v.causality, v.kind) == (causality, kind)]
 
 
 def refusal(opened, name, value):
     """The line of the log that refuses a value, at the call that sets it or at the end of initialisation."""
-    begin = len(opened.log)
-    with pytest.raises(FMICallException) as failure:
-        opened.set(name, value)
+    begin = len(opened.messages)
+    with pytest.raises(DifferentialError) as failure:
+        put(opened, name, value)
         opened.initialise()
     assert failure.value.status in (DISCARD, ERROR), (name, value)
-    lines = "\n".join(opened.log[begin:]).replace(": ", ":\n", 1).splitlines()
+    lines = "\n".join(opened.messages[begin:]).replace(": ", ":\n", 1).splitlines()
     messages = [line.strip() for line in lines if line.strip().startswith(f"{name}: ")]
-    assert len(messages) == 1, (name, value, opened.log[begin:])
+    assert len(messages) == 1, (name, value, opened.messages[begin:])
     return messages[0]
 
 
 def assert_usable_after_reset(opened):
-    opened.fmu.reset()
+    opened.reset()
     opened.initialise()
-    opened.fmu.doStep(0.0, 1e-3)
+    opened.step(1e-3)
     assert opened.get("left.speed") == pytest.approx(math.radians(2861.0), rel=1e-6)
     assert abs(opened.get("solver.energy_residual")) < 1e-6 * opened.get("power.in") * 1e-3
-    opened.fmu.reset()
+    opened.reset()
 
 
 def assert_message(message, variable, value):
@@ -46,101 +47,96 @@ def assert_message(message, variable, value):
     else:
         assert "not a finite number" in message, message
     low, high = re.search(r"\[(\S+), (\S+)\]", message).groups()
-    assert [float(low), float(high)] == pytest.approx([float(variable.min), float(variable.max)], rel=1e-9), message
+    assert [float(low), float(high)] == pytest.approx([variable.minimum, variable.maximum], rel=1e-9), message
 
 
 @pytest.mark.parametrize("value", [NONE, *ENDLESS, 1e300, -1e300])
-def test_an_absurd_input_is_refused_by_name_value_unit_and_range_and_the_run_goes_on(open_fmu, description, value):
-    with open_fmu() as undisturbed, open_fmu() as opened:
+def test_an_absurd_input_is_refused_by_name_value_unit_and_range_and_the_run_goes_on(fmu, outputs, value):
+    with fmu.open() as undisturbed, fmu.open() as opened:
         for one in (undisturbed, opened):
             one.initialise()
-            one.fmu.doStep(0.0, 1e-3)
-        for variable in reals(description, "input"):
-            kept, begin = opened.get(variable.name), len(opened.log)
-            with pytest.raises(FMICallException) as failure:
-                opened.set(variable.name, value)
+            one.step(1e-3)
+        for variable in of(fmu, "input", "Real"):
+            kept, begin = opened.get(variable.name), len(opened.messages)
+            with pytest.raises(DifferentialError) as failure:
+                put(opened, variable.name, value)
             assert failure.value.status in (DISCARD, ERROR)
-            assert_message(opened.log[begin].split(": ", 1)[1], variable, value)
+            assert_message(opened.messages[begin].split(": ", 1)[1], variable, value)
             assert opened.get(variable.name) == kept
-        outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
         for one in (undisturbed, opened):
-            one.fmu.doStep(1e-3, 1e-3)
-        assert opened.fmu.getReal(outputs) == undisturbed.fmu.getReal(outputs)
+            one.step(1e-3)
+        assert opened.read(outputs) == undisturbed.read(outputs)
         assert_usable_after_reset(opened)
 
 
 @pytest.mark.parametrize("causality", ["parameter", "input"])
-def test_a_value_out_of_its_range_is_refused_by_name_value_unit_and_range(open_fmu, description, causality):
-    with open_fmu() as opened:
-        for variable in reals(description, causality):
-            low, high = float(variable.min), float(variable.max)
+def test_a_value_out_of_its_range_is_refused_by_name_value_unit_and_range(fmu, causality):
+    with fmu.open() as opened:
+        for variable in of(fmu, causality, "Real"):
+            low, high = variable.minimum, variable.maximum
             for value in [low - max(abs(low), 1e-9 * high), 2.0 * high, NONE, *ENDLESS]:
                 assert_message(refusal(opened, variable.name, value), variable, value)
                 assert_usable_after_reset(opened)
 
 
-def test_a_whole_number_out_of_its_range_is_refused_by_name_value_and_range(open_fmu, description):
-    with open_fmu() as opened:
-        for variable in description.modelVariables:
-            if variable.type == "Integer" and variable.causality == "parameter":
-                low, high = int(variable.min), int(variable.max)
-                # a seed may be any number there is
-                for value in [v for v in (low - 1, high + 1) if -2**31 <= v < 2**31]:
-                    assert_message(refusal(opened, variable.name, value), variable, value)
-                    assert_usable_after_reset(opened)
+def test_a_whole_number_out_of_its_range_is_refused_by_name_value_and_range(fmu):
+    with fmu.open() as opened:
+        for variable in of(fmu, "parameter", "Integer"):
+            # a seed may be any number there is
+            for value in [v for v in (variable.minimum - 1, variable.maximum + 1) if -2**31 <= v < 2**31]:
+                assert_message(refusal(opened, variable.name, value), variable, value)
+                assert_usable_after_reset(opened)
 
 
-def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(open_fmu, description):
-    with open_fmu() as opened:
-        for variable in description.modelVariables:
-            if variable.type == "Enumeration":
-                literals = [f"{item.value} = {item.name}" for item in variable.declaredType.items]
+def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(fmu):
+    with fmu.open() as opened:
+        for variable in fmu.variables.values():
+            if variable.kind == "Enumeration":
+                literals = [f"{number} = {name}" for name, number in variable.literals.items()]
                 for value in (0, -3, len(literals) + 1):
                     message = refusal(opened, variable.name, value)
                     assert all(literal in message for literal in literals), message
                     assert_usable_after_reset(opened)
 
 
-def test_all_that_is_wrong_is_told_at_once(open_fmu):
+def test_all_that_is_wrong_is_told_at_once(fmu):
     wrong = {"geometry.face_width": -1.0, "inertia.carrier": 0.0, "contact.exponent": 7.0, "material.density": 1e9}
-    with open_fmu() as opened:
-        for name, value in wrong.items():
-            opened.set(name, value)
-        with pytest.raises(FMICallException) as failure:
+    with fmu.open() as opened:
+        opened.set(wrong)
+        with pytest.raises(DifferentialError) as failure:
             opened.initialise()
         assert failure.value.status == ERROR
-        message = "\n".join(opened.log)
+        message = "\n".join(opened.messages)
         assert all(name in message for name in wrong), message
         assert_usable_after_reset(opened)
 
 
 @pytest.mark.parametrize("size", [0.0, -1e-3, NONE, *ENDLESS])
-def test_a_communication_step_that_is_none_is_refused(open_fmu, size):
-    with open_fmu() as opened:
+def test_a_communication_step_that_is_none_is_refused(fmu, size):
+    with fmu.open() as opened:
         opened.initialise()
-        with pytest.raises(FMICallException) as failure:
-            opened.fmu.doStep(0.0, size)
+        with pytest.raises(DifferentialError) as failure:
+            opened.step(size)
         assert failure.value.status == ERROR
-        assert "communication step size" in opened.log[-1] and "finite and positive" in opened.log[-1]
+        assert "communication step size" in opened.messages[-1] and "finite and positive" in opened.messages[-1]
         assert_usable_after_reset(opened)
 
 
-def test_loads_that_break_the_run_discard_the_step_and_leave_a_state_to_go_on_from(open_fmu, description):
-    outputs = [v.valueReference for v in description.modelVariables if v.causality == "output"]
+def test_loads_that_break_the_run_discard_the_step_and_leave_a_state_to_go_on_from(fmu, outputs):
     for load in (5e6, 1e8, -1e8):
-        with open_fmu() as opened:
+        with fmu.open() as opened:
             opened.initialise()
-            opened.fmu.doStep(0.0, 1e-3)
-            kept, before = opened.fmu.getFMUstate(), opened.fmu.getReal(outputs)
-            opened.set("right.load_torque", load)
-            with pytest.raises(FMICallException) as failure:
-                opened.fmu.doStep(1e-3, 1e-3)
+            opened.step(1e-3)
+            kept, before = opened.raw.getFMUstate(), opened.read(outputs)
+            opened.set({"right.load_torque": load})
+            with pytest.raises(DifferentialError) as failure:
+                opened.do_step(1e-3, 1e-3)
             assert failure.value.status == DISCARD
-            assert "t = 0.001" in opened.log[-1] and "fmi2SetFMUstate" in opened.log[-1]
-            assert all(map(math.isfinite, opened.fmu.getReal(outputs)))
-            opened.fmu.setFMUstate(kept)
-            assert opened.fmu.getReal(outputs) == before
-            opened.fmu.doStep(1e-3, 1e-3)
+            assert "t = 0.001" in opened.messages[-1] and "fmi2SetFMUstate" in opened.messages[-1]
+            assert all(map(math.isfinite, opened.read(outputs)))
+            opened.raw.setFMUstate(kept)
+            assert opened.read(outputs) == before
+            opened.do_step(1e-3, 1e-3)
             assert abs(opened.get("solver.energy_residual")) < 1e-6 * opened.get("power.in") * 2e-3
-            opened.fmu.freeFMUstate(kept)
+            opened.raw.freeFMUstate(kept)
             assert_usable_after_reset(opened)

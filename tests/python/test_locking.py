@@ -104,14 +104,14 @@ def test_published_friction_laws_lose_energy_by_their_coefficients(run, law):
 
 def test_a_friction_law_outside_its_range_warns_once(drive):
     outside = drive(STEADY_TURN | {"effects.tooth_friction": True, "tooth_friction.law": "xu_kahraman"}).to(0.02, 1e-3)
-    warnings = [line for line in outside.opened.log if "tooth_friction.law" in line]
-    assert len(warnings) == 1 and "outside" in warnings[0], outside.opened.log
+    warnings = [line for line in outside.messages if "tooth_friction.law" in line]
+    assert len(warnings) == 1 and "outside" in warnings[0], outside.messages
     inside = drive(STEADY_TURN | {"effects.tooth_friction": True}).to(0.02, 1e-3)
-    assert not any("tooth_friction" in line for line in inside.opened.log)
+    assert not any("tooth_friction" in line for line in inside.messages)
 
 
 def test_pins_and_washers_that_do_not_fit_the_gears_warn(drive):
     small = STEADY_TURN | {"geometry.module": 2.25e-3, "geometry.face_width": 10e-3, "effects.thrust_friction": True}
     for values, expected in [({}, 3), ({"thrust_friction.radii_from_geometry": True}, 0)]:
-        opened = drive(small | values).opened
-        assert sum("radii_from_geometry" in line for line in opened.log) == expected, opened.log
+        opened = drive(small | values)
+        assert sum("radii_from_geometry" in line for line in opened.messages) == expected, opened.messages

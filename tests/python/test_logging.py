@@ -1,17 +1,15 @@
 """What fmpy's users see of the FMU's log."""
 
 import pytest
-from fmpy import simulate_fmu
 
 
 @pytest.fixture
-def categories(unpacked, description):
+def categories(through_fmpy):
     """categories(options): log categories of a short run by fmpy, in order."""
 
     def run(**options):
         log = []
-        simulate_fmu(unpacked, model_description=description, stop_time=0.002, output_interval=0.001,
-                     logger=lambda *line: log.append(line[3].decode()), **options)
+        through_fmpy({}, 0.002, logger=lambda *line: log.append(line[3].decode()), **options)
         return log
 
     return run
@@ -25,10 +23,9 @@ def test_debug_logging_reports_the_warning_of_the_start_values(categories):
     assert categories(debug_logging=True) == ["logEvents", "logStatusWarning", "logEvents"]
 
 
-def test_errors_are_logged_without_debug_logging(unpacked, description):
+def test_errors_are_logged_without_debug_logging(through_fmpy):
     log = []
     with pytest.raises(Exception):
-        simulate_fmu(unpacked, model_description=description, start_values={"geometry.module": 4.5},
-                     logger=lambda *line: log.append((line[3].decode(), line[4].decode())))
+        through_fmpy({"geometry.module": 4.5}, logger=lambda *line: log.append((line[3].decode(), line[4].decode())))
     assert [category for category, _ in log] == ["logStatusError"]
     assert "geometry.module" in log[0][1]

@@ -14,23 +14,17 @@ TURN = {"effects.mesh_history": True, "scene.planet_spin": "imposed", "carrier.s
 STOP = 0.045
 
 
-def started(opened, values):
-    for name, value in values.items():
-        opened.set(name, value)
-    opened.initialise()
-
-
 def peaks(opened):
     return np.array(opened.read([f"{name}_peak_to_peak" for name in NAMES]))
 
 
-def test_values_are_those_of_a_dense_recording(open_fmu):
-    with open_fmu() as opened:
-        started(opened, TURN)
+def test_values_are_those_of_a_dense_recording(fmu):
+    with fmu.open() as opened:
+        opened.initialise(TURN)
         angles = ["left.angle", "right.angle"]
         rows = [opened.read(NAMES + angles)]
         for k in range(round(STOP * 1e6)):
-            opened.fmu.doStep(k * 1e-6, 1e-6)
+            opened.do_step(k * 1e-6, 1e-6)
             rows.append(opened.read(NAMES + angles))
         found = peaks(opened)
     rows = np.array(rows)

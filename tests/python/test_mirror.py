@@ -16,9 +16,10 @@ import test_hard_clutches
 import test_hard_stiffness
 import test_solid
 import test_steps
+from bevel_differential import DifferentialError
 from braking import BRAKED, brakes, drive_torque
 from driving import BIAS, GIVEN, STEADY_TURN, TURN, UNLOADED
-from fmpy.fmi1 import FMICallException
+from platform_scenes import flat
 from symmetry import Image
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
@@ -56,26 +57,17 @@ def ready(path):
     with open(path, "rb") as file:
         entry = tomllib.load(file)
 
-    def flat(values, prefix=""):
-        for name, value in values.items():
-            if isinstance(value, dict):
-                yield from flat(value, f"{prefix}{name}.")
-            else:
-                yield prefix + name, value
-
-    changes = [{name: value for name, value in flat(at) if name != "time"} | {"time": at["time"]}
-               for at in entry.get("at", [])]
     steps = [(entry["step"], {}) for _ in STEPS]
-    for change in changes:
+    for change in map(flat, entry.get("at", [])):
         k = round(change.pop("time") / entry["step"])
         if k < len(steps):
             steps[k] = (entry["step"], steps[k][1] | change)
-    return {"start": dict(flat(entry.get("set", {}))), "steps": steps}
+    return {"start": flat(entry.get("set", {})), "steps": steps}
 
 
-def plausible(description, index):
+def plausible(fmu, index):
     """A random scene without what the FMU cannot mirror."""
-    _, scene = next(random_scenes.scenes(description, "plausible", RANDOM, SEED, index, index + 1))
+    _, scene = next(random_scenes.scenes(fmu, "plausible", RANDOM, SEED, index, index + 1))
     start = scene["start"]
     start |= {"tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
               "tooth_errors.planet_runout": 0.0, "tooth_errors.side_runout": 0.0}
@@ -92,20 +84,18 @@ class Course:
     """All outputs at all communication points, until a step fails."""
 
     def __init__(self, instance, scene):
-        for name, value in scene["start"].items():
-            instance.set(name, value)
+        instance.set(scene["start"])
         try:
             instance.initialise()
-        except FMICallException as refused:
-            raise Refused("; ".join(instance.log)) from refused
-        self.names = [name for name, v in instance.variables.items() if v.causality == "output"]
+        except DifferentialError as refused:
+            raise Refused("; ".join(instance.messages)) from refused
+        self.names = [name for name, v in instance.fmu.variables.items() if v.causality == "output"]
         self.times, rows = [0.0], [instance.read(self.names)]
         for size, inputs in scene["steps"]:
-            for name, value in inputs.items():
-                instance.set(name, value)
+            instance.set(inputs)
             try:
-                instance.fmu.doStep(self.times[-1], size)
-            except FMICallException:
+                instance.do_step(self.times[-1], size)
+            except DifferentialError:
                 break
             self.times.append(self.times[-1] + size)
             rows.append(instance.read(self.names))
@@ -115,7 +105,7 @@ class Course:
 def disturbed(image, sign):
     """The scene of `image` with all inputs and the pressure angle disturbed."""
     def by(name, value):
-        exact = image.variables[name].type != "Real" or name != "geometry.pressure_angle" and (
+        exact = image.variables[name].kind != "Real" or name != "geometry.pressure_angle" and (
             image.variables[name].causality != "input" or name == "lock.command")
         return value if exact else value * (1.0 + sign * DISTURBANCE)
 
@@ -126,8 +116,8 @@ def disturbed(image, sign):
 def scales(image, course):
     """By name: the largest magnitude of all outputs of the unit; energies by what is turned over or carried too."""
     largest = {name: np.max(np.abs(values)) for name, values in course.values.items()}
-    kinds = {name: image.unit(name) if image.unit(name) in SHARED else image.entry(name)
-             for name in course.names}
+    units = {name: image.variables[name].unit for name in course.names}
+    kinds = {name: unit if unit in SHARED else image.entry(name) for name, unit in units.items()}
     turned = sum(np.sum(np.abs(course.values[name][1:]) * np.diff(course.times)) for name in ("power.in", "power.out"))
     carried = 0.5 * image.start["inertia.carrier"] * largest["carrier.speed"] ** 2
     of_kind = {}
@@ -168,15 +158,15 @@ def differences(image, base, twins, mirrored):
 
 
 @pytest.fixture
-def compare(open_fmu, description):
+def compare(fmu):
     """compare(scene, way): what does not map, and how much was compared; nothing of a scene that is refused."""
 
     def course(scene):
-        with open_fmu() as instance:
+        with fmu.open() as instance:
             return Course(instance, scene)
 
     def compared(scene, way):
-        image = Image(description, scene, way)
+        image = Image(fmu, scene, way)
         base = course({"start": image.start, "steps": image.steps})
         twins = [course(disturbed(image, sign)) for sign in (1.0, -1.0)]
         return differences(image, base, twins, course(image.scene()))
@@ -202,11 +192,11 @@ def test_the_reversed_image_of_a_ready_scene_does_the_same(compare, path):
     assert share > 0.2
 
 
-def test_the_reversed_images_of_random_scenes_do_the_same(compare, description):
+def test_the_reversed_images_of_random_scenes_do_the_same(compare, fmu):
     shares, found = [], []
     for index in range(RANDOM):
         try:
-            wrong, share = compare(plausible(description, index), "reversed")
+            wrong, share = compare(plausible(fmu, index), "reversed")
         except Refused:
             continue
         shares.append(share)
@@ -215,18 +205,18 @@ def test_the_reversed_images_of_random_scenes_do_the_same(compare, description):
     assert len(shares) > RANDOM / 2 and np.mean(shares) > 0.6
 
 
-def test_every_output_and_input_has_an_entry_of_its_own(description):
-    image = Image(description, {"start": {}, "steps": []}, "reversed")
+def test_every_output_and_input_has_an_entry_of_its_own(fmu):
+    image = Image(fmu, {"start": {}, "steps": []}, "reversed")
     for name, variable in image.variables.items():
         assert image.parity(name) in ("+", "-", "lash", "wave", "teeth")
         assert variable.causality in ("parameter", "calculatedParameter") or not image.entry(name).endswith("*"), name
 
 
-def test_a_bias_by_friction_is_above_one_and_the_same_in_reverse_at_every_instant(open_fmu, description):
+def test_a_bias_by_friction_is_above_one_and_the_same_in_reverse_at_every_instant(fmu):
     start = BIAS | {"effects.thrust_friction": True, "effects.tooth_friction": True}
     scene = {"start": start, "steps": [(3e-3, {})] * 100}
-    image = Image(description, scene, "reversed")
-    with open_fmu() as one, open_fmu() as other:
+    image = Image(fmu, scene, "reversed")
+    with fmu.open() as one, fmu.open() as other:
         forward, backward = Course(one, scene), Course(other, image.scene())
     for name in ("torque_bias_ratio", "locking_value"):
         assert backward.values[name] == pytest.approx(forward.values[name], abs=1e-9)
@@ -239,12 +229,12 @@ def test_a_steady_turn_repeats_itself_after_a_tooth_cycle(drive):
     spin, points, tolerance = radians(200.0), 20, 1e-9
     cycle = 2.0 * pi / 10.0 / spin
     scene, rows = drive(STEADY_TURN | {"solver.relative_tolerance": tolerance}), []
-    names = [name for name, v in scene.opened.variables.items() if v.causality == "output"
+    names = [name for name, v in scene.fmu.variables.items() if v.causality == "output"
              and not name.startswith(("heat.", "solver.")) and not name.endswith("angle")]
     scene.to(2.0 * cycle, cycle / points)
     scene.to(4.0 * cycle, cycle / points, lambda s: rows.append(s.read(names)))
     one, other = np.array(rows[:points]), np.array(rows[points:])
-    units = np.array([scene.opened.variables[name].unit or "" for name in names])
+    units = np.array([scene.fmu.variable(name).unit or "" for name in names])
     for column, name in enumerate(names):
         limit = 1e-5 * np.max(np.abs(one[:, units == units[column]]))
         if units[column] == "rad/s2":

@@ -16,23 +16,23 @@ SEED = 1
 SHOWN = 5
 
 
-def described(description, kind, count, index, record):
+def described(fmu, kind, count, index, record):
     """What reproduces a failure."""
-    _, scene = next(random_scenes.scenes(description, kind, count, SEED, index, index + 1))
+    _, scene = next(random_scenes.scenes(fmu, kind, count, SEED, index, index + 1))
     return f"{kind} scene {index} of {count}: {record['problems']}\nlog: {record['log']}\nscene: {scene!r}\n"
 
 
 @pytest.mark.parametrize("kind", random_scenes.KINDS)
-def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(unpacked, description, request, kind):
+def test_random_scenes_finish_in_balance_or_are_refused_with_a_clear_error(fmu, request, kind):
     count = max(request.config.getoption("--scenes") // len(random_scenes.KINDS), 1)
     verdicts, failures, balanced = collections.Counter(), [], 0
-    for index, record in scene_runs.attempts(unpacked, kind, count, SEED):
+    for index, record in scene_runs.attempts(fmu.file, kind, count, SEED):
         verdicts[record["verdict"]] += 1
         balanced += record.get("balanced", False)
         if record["verdict"] == "failed":
             failures.append((index, record))
     print(kind, dict(verdicts))
-    shown = "\n".join(described(description, kind, count, *failure) for failure in failures[:SHOWN])
+    shown = "\n".join(described(fmu, kind, count, *failure) for failure in failures[:SHOWN])
     assert not failures, f"{len(failures)} of {count} failed: {[index for index, _ in failures]}\n{shown}"
     assert sum(verdicts.values()) == count
     if kind == "plausible":
@@ -48,11 +48,11 @@ def test_a_latin_hypercube_has_one_value_in_each_part_of_each_dimension():
     assert np.all(np.sort(np.floor(50 * cube), axis=0) == np.arange(50)[:, None])
 
 
-def test_values_are_spread_over_their_ranges_to_the_ends(description):
-    for variable in random_scenes.free_variables(description):
-        if variable.type not in ("Real", "Integer"):
+def test_values_are_spread_over_their_ranges_to_the_ends(fmu):
+    for variable in random_scenes.free_variables(fmu):
+        if variable.kind not in ("Real", "Integer"):
             continue
-        low, high, start = float(variable.min), float(variable.max), float(variable.start)
+        low, high, start = variable.minimum, variable.maximum, variable.start
         values = [random_scenes.wild_value(variable, u) for u in np.linspace(0.0, 1.0 - 1e-12, 101).tolist()]
         assert all(low <= value <= high for value in values), variable.name
         assert min(values) == pytest.approx(low, abs=1e-6 * (high - low)), variable.name
@@ -62,33 +62,33 @@ def test_values_are_spread_over_their_ranges_to_the_ends(description):
     assert spread(0.5, 1e-3, 1e3, 1.0) == pytest.approx(1.0)
 
 
-def test_what_is_printed_of_a_failure_reproduces_its_scene(description):
-    again = [random_scenes.scenes(description, "bold", 20, SEED, 7, 8) for _ in range(2)]
+def test_what_is_printed_of_a_failure_reproduces_its_scene(fmu):
+    again = [random_scenes.scenes(fmu, "bold", 20, SEED, 7, 8) for _ in range(2)]
     first, second = (next(scenes) for scenes in again)
     assert first == second
     assert eval(repr(first[1])) == first[1]
 
 
-def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one_goes_on(unpacked, monkeypatch):
+def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one_goes_on(fmu, monkeypatch):
     crashed = list(scene_runs.attempts("no such folder", "wild", 2, SEED))
     assert [index for index, _ in crashed] == [0, 1]
     assert all("process ended with 1" in record["problems"][0] for _, record in crashed)
     # no answer within less than it takes to start
     monkeypatch.setattr(scene_runs, "PATIENCE", 1e-3)
-    hung = list(scene_runs.attempts(unpacked, "wild", 2, SEED))
+    hung = list(scene_runs.attempts(fmu.file, "wild", 2, SEED))
     assert [record["verdict"] for _, record in hung] == ["failed", "failed"]
     assert all("no answer" in record["problems"][0] for _, record in hung)
 
 
-def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(unpacked, description, monkeypatch):
-    scenes = (scene for _, scene in random_scenes.scenes(description, "plausible", 20, SEED))
-    attempts = ((scene, scene_runs.Attempt(unpacked, description, scene)) for scene in scenes)
+def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(fmu, monkeypatch):
+    scenes = (scene for _, scene in random_scenes.scenes(fmu, "plausible", 20, SEED))
+    attempts = ((scene, scene_runs.Attempt(fmu, scene)) for scene in scenes)
     # one whose rounding leaves something to be out of balance by
     scene = next(scene for scene, attempt in attempts if attempt.verdict == "ran" and attempt.imbalance > 0.0)
     monkeypatch.setattr(scene_runs, "IMBALANCE", 0.0)
-    out_of_balance = scene_runs.Attempt(unpacked, description, scene)
+    out_of_balance = scene_runs.Attempt(fmu, scene)
     assert out_of_balance.verdict == "failed" and "energy residual" in out_of_balance.problems[0]
     scene["start"]["geometry.shaft_angle"] = 1.0
     monkeypatch.setattr(scene_runs.StatusInstance, "names_a_variable", lambda *_: False)
-    nameless = scene_runs.Attempt(unpacked, description, scene)
+    nameless = scene_runs.Attempt(fmu, scene)
     assert nameless.verdict == "failed" and "refused with 3" in nameless.problems[0]

@@ -17,7 +17,7 @@ STRETCH = 3e-3
 
 
 @pytest.fixture
-def errors(open_fmu):
+def errors(fmu):
     """errors(case, tolerance, at): times, and by name of the output the error of the FMU there. Communication points
     are the rows `at`, or all, of the file."""
 
@@ -28,18 +28,14 @@ def errors(open_fmu):
         values = np.array([columns[output] for output in case.outputs]).T
         scales = make_reference.scales(case, values)
         times, values = times[at], values[at]
-        with open_fmu() as opened:
-            for variable, value in (case.fmu | {"scene.start": case.start}).items():
-                opened.set(variable, value)
-            if tolerance is not None:
-                opened.set("solver.relative_tolerance", tolerance)
-            opened.initialise()
-            for variable, value in case.then.items():
-                opened.set(variable, value)
-            rows = [[opened.get(output) for output in case.outputs]]
+        with fmu.open() as opened:
+            finer = {} if tolerance is None else {"solver.relative_tolerance": tolerance}
+            opened.initialise(case.fmu | {"scene.start": case.start} | finer)
+            opened.set(case.then)
+            rows = [opened.read(case.outputs)]
             for begin, end in zip(times[:-1], times[1:]):
-                opened.fmu.doStep(begin, end - begin)
-                rows.append([opened.get(output) for output in case.outputs])
+                opened.do_step(begin, end - begin)
+                rows.append(opened.read(case.outputs))
         return times, dict(zip(case.outputs, (np.abs(np.array(rows) - values) / scales).T))
 
     return compared

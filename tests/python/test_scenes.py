@@ -129,33 +129,25 @@ def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_fi
     assert len(recorded(own)[2]) == 70 and float.fromhex(recorded(own)[2][-1][0]) == 0.0205
 
 
-def test_a_parameter_set_is_valid_and_starts_the_scene(scene_command, scene, open_fmu, tmp_path):
+def test_a_parameter_set_is_valid_and_starts_the_scene(scene_command, scene, fmu, tmp_path):
     file, record = tmp_path / "set.ssv", tmp_path / "own.csv"
     scene_command(scene, "--ssv", file, "--csv", record, "--set", "stop_time=1e-4", "--set", "step=1e-4")
     # against the schema of SSP 1.0 that fmpy has
     parameters = read_ssv(str(file), validate=True).parameters
     names = [parameter.name for parameter in parameters]
     assert len(names) == len(set(names))
-    with open_fmu() as instance:
-        variables = instance.variables
+    with fmu.open() as instance:
+        variables = fmu.variables
         assert {name for name, variable in variables.items() if variable.causality == "input"} <= set(names)
         for parameter in parameters:
             variable = variables[parameter.name]
-            assert parameter.type == variable.type, parameter.name
+            assert parameter.type == variable.kind, parameter.name
             if parameter.unit is not None:
                 assert parameter.unit == variable.unit, parameter.name
-            instance.set(parameter.name, value_of(parameter))
-        instance.initialise()
+        instance.initialise({parameter.name: parameter.value for parameter in parameters})
         _, (_, *outputs), rows = recorded(record)
         started = [value.hex() for value in instance.read(outputs)]
         assert started == rows[0][1:]
-
-
-def value_of(parameter):
-    """As `Instance.set` takes it: enumerations by their literals."""
-    if parameter.type == "Boolean":
-        return {"true": True, "false": False}[parameter.value]
-    return {"Real": float, "Integer": int, "Enumeration": str}[parameter.type](parameter.value)
 
 
 def test_parameter_sets_hold_the_bits_that_were_set_and_define_their_units(scene_command, tmp_path):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import subprocess
 import sys
 
@@ -34,23 +35,19 @@ WAYS = {"1e-1": [0.1] * 2, "1e-2": [0.01] * 20, "1e-3": [0.001] * 200, "1e-4": [
         "a third": [STOP / 7] * 7, "irregular": irregular(1), "irregular again": irregular(2)}
 
 
-def end(open_fmu, scene, steps):
-    with open_fmu() as opened:
-        for name, value in SCENES[scene].items():
-            opened.set(name, value)
-        opened.initialise()
-        time = 0.0
+def end(fmu, scene, steps):
+    with fmu.open() as opened:
+        opened.initialise(SCENES[scene])
         for step in steps:
-            # added up as hosts do it, with all the rounding that brings
-            opened.fmu.doStep(time, step)
-            time += step
-        assert time == pytest.approx(STOP, rel=1e-9)
-        return np.array([opened.get(name) for name in OUTPUTS])
+            # times are added up as hosts do it, with all the rounding that brings
+            opened.step(step)
+        assert opened.time == pytest.approx(STOP, rel=1e-9)
+        return np.array(opened.read(OUTPUTS))
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_the_trajectory_does_not_depend_on_the_communication_steps(open_fmu, scene):
-    ends = {way: end(open_fmu, scene, steps) for way, steps in WAYS.items()}
+def test_the_trajectory_does_not_depend_on_the_communication_steps(fmu, scene):
+    ends = {way: end(fmu, scene, steps) for way, steps in WAYS.items()}
     finest = ends["1e-5"]
     for way, values in ends.items():
         # ten times the solver's tolerance of 1e-6
@@ -58,43 +55,39 @@ def test_the_trajectory_does_not_depend_on_the_communication_steps(open_fmu, sce
 
 
 GO_ON = """
-import json, sys
-from fmpy import instantiate_fmu, read_model_description
-folder, blob, names = sys.argv[1], sys.argv[2], json.loads(sys.argv[3])
-description = read_model_description(folder)
-fmu = instantiate_fmu(folder, description)
-reference = {v.name: v.valueReference for v in description.modelVariables}
-state = fmu.deSerializeFMUstate(open(blob, "rb").read())
-fmu.setFMUstate(state)
-for step in range(20):
-    fmu.doStep(0.0305 + step * 1e-3, 1e-3)
-print(json.dumps([value.hex() for value in fmu.getReal([reference[name] for name in names])]))
+import json, pickle, sys
+from bevel_differential import Fmu
+file, blob, names = sys.argv[1], sys.argv[2], json.loads(sys.argv[3])
+with Fmu.of(file).open() as opened:
+    opened.restore(pickle.load(open(blob, "rb")))
+    for step in range(20):
+        opened.step(1e-3)
+    print(json.dumps([value.hex() for value in opened.read(names)]))
 """
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_a_state_continues_in_another_process_as_in_this_one(open_fmu, unpacked, tmp_path, description, scene):
-    names = [v.name for v in description.modelVariables if v.causality == "output"]
-    with open_fmu() as opened:
-        for name, value in SCENES[scene].items():
-            opened.set(name, value)
-        opened.initialise()
+def test_a_state_continues_in_another_process_as_in_this_one(fmu, outputs, tmp_path, scene):
+    def go_on():
+        for step in range(20):
+            opened.step(1e-3)
+        return [value.hex() for value in opened.read(outputs)]
+
+    with fmu.open() as opened:
+        opened.initialise(SCENES[scene])
         for step in range(61):
-            opened.fmu.doStep(step * 5e-4, 5e-4)
+            opened.step(5e-4)
         # in mid contact: teeth carry the load
         assert opened.get("planet[1].left_pairs") >= 1.0 and opened.get("left.normal_force") > 1e4
-        state = opened.fmu.getFMUstate()
-        (tmp_path / "state").write_bytes(opened.fmu.serializeFMUstate(state))
-        for step in range(20):
-            opened.fmu.doStep(0.0305 + step * 1e-3, 1e-3)
-        here = [opened.get(name).hex() for name in names]
+        state, kept = opened.raw.getFMUstate(), opened.save()
+        (tmp_path / "state").write_bytes(pickle.dumps(kept))
+        here = go_on()
         # and once more here
-        opened.fmu.setFMUstate(state)
-        for step in range(20):
-            opened.fmu.doStep(0.0305 + step * 1e-3, 1e-3)
-        assert [opened.get(name).hex() for name in names] == here
-        opened.fmu.freeFMUstate(state)
-    command = [sys.executable, "-c", GO_ON, unpacked, str(tmp_path / "state"), json.dumps(names)]
+        opened.raw.setFMUstate(state)
+        opened.time = kept[0]
+        assert go_on() == here
+        opened.raw.freeFMUstate(state)
+    command = [sys.executable, "-c", GO_ON, str(fmu.file), str(tmp_path / "state"), json.dumps(outputs)]
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
     assert done.returncode == 0, done.stderr
     there = json.loads(done.stdout.strip().splitlines()[-1])

@@ -42,10 +42,10 @@ def test_damage_counts_relative_revolutions_and_nothing_without_them(run):
 
 def test_stresses_above_the_strength_warn_once_each(drive):
     weak = drive({"effects.strength": True, "strength.bending_strength": 1e7, "strength.contact_strength": 1e8})
-    log = weak.to(0.02, 1e-3).opened.log
+    log = weak.to(0.02, 1e-3).messages
     warnings = [line for line in log if "exceeds the strength" in line]
     gears = ["root stress of planet[1]", "root stress of the left side gear", "contact stress between planet[1]"]
     assert len(warnings) == 3 and all(any(gear in line for line in warnings) for gear in gears), log
     assert all("at t = " in line and "MPa" in line for line in warnings)
     strong = drive({"effects.strength": True, "strength.bending_strength": 1e11, "strength.contact_strength": 1e11})
-    assert not any("exceeds the strength" in line for line in strong.to(0.02, 1e-3).opened.log)
+    assert not any("exceeds the strength" in line for line in strong.to(0.02, 1e-3).messages)

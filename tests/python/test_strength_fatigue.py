@@ -54,8 +54,8 @@ def pulses(drive, low, high, values=None):
 
 
 @pytest.mark.parametrize("law", ["impact", "line"])
-def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(drive, literals, law):
-    values = {"contact.law": literals["contact.law"][law]}
+def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(drive, law):
+    values = {"contact.law": law}
     # free planets that stand beside the middle leave their place while a reversal lets all flanks go
     held = values | {"scene.planet_spin": "imposed"}
     planet = {}
@@ -68,8 +68,8 @@ def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(dr
     assert planet[400.0, -900.0] == pytest.approx(planet[-400.0, 900.0], rel=0.03)
 
 
-def test_standing_teeth_that_carry_unevenly_are_damaged_by_the_stress_at_the_worst_of_the_face(drive, literals):
-    line = {"contact.law": literals["contact.law"]["line"], "effects.tooth_errors": True}
+def test_standing_teeth_that_carry_unevenly_are_damaged_by_the_stress_at_the_worst_of_the_face(drive):
+    line = {"contact.law": "line", "effects.tooth_errors": True}
     # crowned teeth under a small load are in balance beside the middle, from where free planets roll to and fro
     line["scene.planet_spin"] = "imposed"
     even, _ = pulses(drive, 50.0, 900.0, line)

@@ -201,7 +201,7 @@ def test_a_speed_driven_wheel_works_against_its_brake_through_zero(drive, contac
     name = "left.speed_command"
     for k in range(20):
         driven.set({name: start + slope * driven.time})
-        driven.opened.fmu.setRealInputDerivatives([driven.opened.variables[name].valueReference], [1], [slope])
+        driven.set_slopes({name: slope})
         driven.step(0.05 * (k + 1) - driven.time)
     damping = 2.0 * sqrt(END / STIFFNESS)
     forward = 0.5 * start**2 / -slope

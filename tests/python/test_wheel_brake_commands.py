@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
+from bevel_differential import DifferentialError
 from braking import BRAKED, CONTACTS, END, EXACT, MASSLESS, STIFFNESS, WHOLE, brakes, drive_torque, wheel_angles
-from driving import SIDES
-from fmpy import simulate_fmu
-from fmpy.fmi1 import FMICallException
+from driving import SIDES, put
 
 IDEAL = BRAKED | MASSLESS | {"scene.gear_contact": "ideal"}
 STOP = IDEAL | brakes(400.0) | drive_torque(300.0) | {"carrier.speed_command": 30.0}
@@ -14,14 +13,9 @@ OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque",
            "held.wheels", "solver.steps", "solver.energy_residual", "power.in", "power.out", "power.loss"]
 
 
-def reference(driven, name):
-    return driven.opened.variables[name].valueReference
-
-
 def ramp(driven, rate):
     """Both brake torques change at `rate` [N·m/s] in the steps to come."""
-    names = [reference(driven, f"{side}.brake_torque") for side in SIDES]
-    driven.opened.fmu.setRealInputDerivatives(names, [1, 1], [rate, rate])
+    driven.set_slopes({f"{side}.brake_torque": rate for side in SIDES})
 
 
 def slowed(torque, drive, speed, time, rate):
@@ -128,19 +122,18 @@ def test_torques_are_read_under_the_brakes_that_were_just_set(drive, contact):
 
 
 @pytest.mark.parametrize("value", [-1.0, -1e-9, float("nan"), float("inf"), 2e8])
-def test_a_torque_that_is_no_brake_s_is_refused_by_name_and_range(open_fmu, value):
-    with open_fmu() as opened:
-        opened.set("effects.wheel_brake", True)
-        opened.initialise()
+def test_a_torque_that_is_no_brake_s_is_refused_by_name_and_range(fmu, value):
+    with fmu.open() as opened:
+        opened.initialise({"effects.wheel_brake": True})
         for side in SIDES:
-            begin, name = len(opened.log), f"{side}.brake_torque"
-            with pytest.raises(FMICallException) as failure:
-                opened.set(name, value)
+            begin, name = len(opened.messages), f"{side}.brake_torque"
+            with pytest.raises(DifferentialError) as failure:
+                put(opened, name, value)
             assert failure.value.status == 2
-            message = "\n".join(opened.log[begin:])
+            message = "\n".join(opened.messages[begin:])
             assert name in message and "[0, 100000000]" in message and "N.m" in message, message
             assert opened.get(name) == 0.0
-        opened.fmu.doStep(0.0, 1e-3)
+        opened.step(1e-3)
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
@@ -153,11 +146,11 @@ def test_a_state_saved_while_a_wheel_is_held_goes_on_with_the_same_bits(drive, c
 
     driven = drive(values).to(0.1, 1e-3)
     assert driven["held.wheels"] == 1.0
-    kept, within = driven.save(), driven.opened.fmu.getFMUstate()
+    kept, within = driven.save(), driven.raw.getFMUstate()
     first = go_on(driven)
-    driven.opened.fmu.setFMUstate(within)
-    driven.opened.fmu.freeFMUstate(within)
-    driven.time = kept[1]
+    driven.raw.setFMUstate(within)
+    driven.raw.freeFMUstate(within)
+    driven.time = kept[0]
     assert go_on(driven) == first
     assert go_on(driven.restore(kept)) == first
     assert go_on(drive(values).restore(kept)) == first
@@ -212,16 +205,14 @@ def test_every_method_stops_a_wheel_where_it_stops(drive, method):
 
 
 @pytest.fixture
-def exchange(unpacked, description, literals):
+def exchange(through_fmpy):
     """exchange(values, signals, stop): the speed and the angle of the left wheel under a solver of the host's."""
 
     def run(values, signals, stop):
-        values = {name: literals[name][value] if name in literals else value for name, value in values.items()}
-        record = simulate_fmu(unpacked, model_description=description, fmi_type="ModelExchange", start_values=values,
-                              input=signals, stop_time=stop, output_interval=1e-3, relative_tolerance=1e-9,
-                              output=["left.speed", "left.angle", "heat.brake", "held.wheels"], solver="CVode",
-                              logger=lambda *_: None)
-        return [record[name][-1] for name in ("left.speed", "left.angle", "heat.brake", "held.wheels")]
+        names = ["left.speed", "left.angle", "heat.brake", "held.wheels"]
+        record = through_fmpy(values, stop, fmi_type="ModelExchange", input=signals, relative_tolerance=1e-9, output=names,
+                              solver="CVode")
+        return [record[name][-1] for name in names]
 
     return run
 
@@ -256,17 +247,17 @@ def test_a_solver_of_the_host_follows_a_brake_that_is_ramped_up_from_nothing_and
 
 def test_derivatives_by_the_brake_torque_are_those_of_the_closed_form(drive):
     driven = drive(STOP | {"scene.start": "rolling"}).to(0.02, 1e-2)
-    fmu, known = driven.opened.fmu, [reference(driven, f"{side}.brake_torque") for side in SIDES]
-    unknown = [reference(driven, name) for name in ("left.acceleration", "left.shaft_torque")]
+    known, unknown = ([driven.fmu.variable(name).reference for name in names]
+                      for names in (brakes(0.0), ("left.acceleration", "left.shaft_torque")))
     # both wheels: −2/J of all, of which each wheel keeps 1 − 2 J_w/J
     expected = [-2.0 / WHOLE, 1.0 - 2.0 * END / WHOLE]
-    assert fmu.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx(expected, rel=1e-6)
+    assert driven.raw.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx(expected, rel=1e-6)
     ramp(driven, -700.0)
     driven.step(0.01)
-    slopes = fmu.getRealOutputDerivatives(unknown, [1, 1])
+    slopes = driven.raw.getRealOutputDerivatives(unknown, [1, 1])
     assert slopes == pytest.approx([-700.0 * slope for slope in expected], rel=1e-6)
     # a wheel that is held does not feel its brake's torque
     ramp(driven, 0.0)
     driven.to(1.0, 1e-2)
     assert driven["held.wheels"] == 2.0
-    assert fmu.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-9)
+    assert driven.raw.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx([0.0, 0.0], abs=1e-9)

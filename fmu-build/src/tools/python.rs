@@ -140,10 +140,15 @@ impl Environment {
         Python { program: inside.iter().fold(self.folder.clone(), |path, part| path.join(part)).into(), arguments: &[] }
     }
 
-    /// A command that runs the environment's Python, isolated from the user's settings and files.
+    /// A command that runs the environment's Python, isolated from the user's settings and files. It finds the package
+    /// `bevel_differential` and the modules that scripts share.
     pub fn command(&self) -> Command {
+        let folders = [["python", "src"], ["fmu-build", "python"]]
+            .map(|[top, folder]| paths::workspace().join(top).join(folder).into_os_string());
+        let separator = OsStr::new(if cfg!(windows) { ";" } else { ":" });
         let mut command = self.interpreter().command();
         command
+            .env("PYTHONPATH", folders.join(separator))
             .env("PYTHONDONTWRITEBYTECODE", "1")
             .env("PYTHONUTF8", "1")
             .env("MPLBACKEND", "Agg")

@@ -11,14 +11,21 @@ _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2",
 
 
 class DifferentialError(ValueError):
-    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do."""
+    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
+
+    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None."""
+
+    def __init__(self, message, status=None):
+        super().__init__(message)
+        self.status = status
 
 
 class Variable:
     """A variable of the FMU, with its units and literals.
 
     Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
-    `unit` (SI) and `description`."""
+    `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
+    name."""
 
     def __init__(self, described, units):
         self.name = described.name
@@ -36,6 +43,7 @@ class Variable:
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
         for unit in shown.displayUnits if shown is not None else []:
             self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
+        self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
     def number(self, value):
         """`value` as the FMU takes it: SI, number of a literal, bool.
@@ -107,6 +115,12 @@ class Variable:
         if number != int(number):
             raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
         return int(number)
+
+    def _declared(self, text):
+        """A value in the model description, as the FMU takes it."""
+        if text is None:
+            return None
+        return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
 
     def _in_unit(self):
         return f" in {self.unit}" if self.unit else ""

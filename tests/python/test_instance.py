@@ -1,0 +1,113 @@
+"""Instances of the Python package, driven call by call: values of all kinds, steps, states, refusals."""
+
+import pickle
+
+import pytest
+from bevel_differential import Differential, DifferentialError
+from driving import TURN
+
+DISCARD, ERROR = 2, 3
+WATCHED = ["left.speed", "planet[1].left_normal_force", "solver.steps"]
+
+
+def test_values_of_all_kinds_are_read_as_they_were_written(fmu):
+    written = {"effects.strength": True, "geometry.planet_teeth": 11, "contact.law": "line", "geometry.module": "5 mm"}
+    with fmu.open() as opened:
+        opened.set(written, left__load_torque="500 N.m")
+        assert opened.read([*written, "left.load_torque"]) == [True, 11, 2, 0.005, 500.0]
+        assert opened.get("effects.strength") is True
+
+
+def test_a_run_call_by_call_has_the_bits_of_a_record(fmu, fmu_file):
+    with Differential(TURN, fmu=fmu_file) as differential:
+        record = differential.run(outputs=WATCHED, stop=0.02)
+    with fmu.open() as opened:
+        opened.initialise(TURN, stop=0.02)
+        rows = [opened.read(WATCHED)]
+        for begin, end in zip(record["time"], record["time"][1:]):
+            opened.do_step(begin, end - begin)
+            rows.append(opened.read(WATCHED))
+    assert rows == [[*row] for row in record[WATCHED].tolist()]
+
+
+def test_initialising_again_is_a_fresh_run(fmu):
+    with fmu.open() as opened:
+        ends = []
+        for values in (TURN, {"left.load_torque": 100.0}, TURN):
+            opened.initialise(values)
+            opened.step(5e-3)
+            assert opened.time == 5e-3
+            ends.append(opened.read(WATCHED))
+    assert ends[0] == ends[2] != ends[1]
+
+
+def test_a_saved_state_goes_on_with_the_same_bits_in_another_instance(fmu):
+    def go_on(opened):
+        opened.step(3e-3)
+        return opened.time, opened.read(WATCHED)
+
+    with fmu.open() as one, fmu.open() as other:
+        one.initialise(TURN)
+        one.step(5e-3)
+        saved = pickle.loads(pickle.dumps(one.save()))
+        first = go_on(one)
+        assert first[0] == pytest.approx(8e-3, rel=1e-12)
+        assert go_on(one.restore(saved)) == first == go_on(other.restore(saved))
+        # a restored instance is not fresh: it is reset before it begins anew
+        assert other.initialise(TURN).get("solver.steps") == 0.0
+
+
+def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_reset(fmu):
+    with fmu.open() as opened:
+        opened.initialise()
+        with pytest.raises(DifferentialError, match="left.load_torque.* N.m is outside") as refused:
+            opened.set({"left.load_torque": 1e30})
+        assert refused.value.status == DISCARD and str(refused.value) == opened.messages[-1]
+        with pytest.raises(DifferentialError, match="assembly condition") as refused:
+            opened.initialise({"geometry.planet_count": 3})
+        assert refused.value.status == ERROR
+        assert pickle.loads(pickle.dumps(refused.value)).status == ERROR
+        opened.reset()
+        assert opened.messages == [] and opened.time == 0.0
+        opened.initialise()
+        opened.step(1e-3)
+
+
+@pytest.mark.parametrize("use, parts", [
+    (lambda opened: opened.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
+    (lambda opened: opened.set(contact__law="lin"), ["contact.law", "did you mean line"]),
+    (lambda opened: opened.get("left.sped"), ["left.sped", "did you mean left.speed"]),
+    (lambda opened: opened.set_slopes({"left.sped": 1.0}), ["left.sped"]),
+    (lambda opened: opened.fmu.open("Exchange"), ["'Exchange'", "CoSimulation, ModelExchange"]),
+])
+def test_what_cannot_be_is_said_before_the_fmu_is_asked(fmu, use, parts):
+    with fmu.open() as opened, pytest.raises(DifferentialError) as error:
+        use(opened)
+    assert error.value.status is None and all(part in str(error.value) for part in parts)
+
+
+@pytest.mark.parametrize("use", [lambda opened: opened.step(1e-3), lambda opened: opened.get("left.speed"),
+                                 lambda opened: opened.initialise(), lambda opened: opened.save()])
+def test_a_closed_instance_refuses_every_call(fmu, use):
+    with fmu.open() as opened:
+        opened.initialise()
+    opened.close()
+    with pytest.raises(DifferentialError):
+        use(opened)
+
+
+def test_an_instance_for_model_exchange_takes_no_steps(fmu):
+    with fmu.open("ModelExchange") as opened:
+        opened.initialise(TURN)
+        assert opened.get("left.speed") > 0.0
+        with pytest.raises(DifferentialError, match="fmi2DoStep") as refused:
+            opened.step(1e-3)
+        assert refused.value.status == ERROR
+
+
+def test_variables_know_their_start_values_and_ranges(fmu):
+    teeth, module, switch = (fmu.variable(name) for name in ("geometry.planet_teeth", "geometry.module", "effects.strength"))
+    assert (teeth.start, teeth.minimum, teeth.maximum) == (10, 5, 200)
+    assert (module.start, module.minimum, module.maximum) == (0.0045, 2e-4, 0.1)
+    assert (switch.start, switch.minimum, switch.maximum) == (False, None, None)
+    assert fmu.variable("carrier.speed_command").shown(3.141592653589793) == ("deg/s", pytest.approx(180.0))
