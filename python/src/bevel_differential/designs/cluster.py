@@ -10,9 +10,12 @@ from ..values import DifferentialError
 
 # a scheduler or its workers that do not answer so soon are not there, s
 PATIENCE = 10.0
-# workers that may die under a chunk before it is given up
-ALLOWED_FAILURES = 1
-SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.worker.multiprocessing-method": "spawn",
+# a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
+ALLOWED_FAILURES = 0
+# a worker that takes longer to start again is given up for good
+RESTART = 300.0
+SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
+            "distributed.worker.multiprocessing-method": "spawn",
             "distributed.comm.timeouts.connect": f"{PATIENCE:g}s", "distributed.admin.log-length": 0}
 
 

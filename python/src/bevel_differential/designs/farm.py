@@ -20,8 +20,6 @@ SHORTEST, LONGEST = 0.1, 1.0
 LAST_CHUNKS = 4
 # chunks that a worker has at hand, so that it never waits
 AT_HAND = 2
-# a new worker process that dies before its nanny knows that it runs is not started again; the nanny knows after so long, s
-SETTLED = 0.3
 # time without any worker after which none will come any more, s
 DESERTED = 60.0
 
@@ -154,19 +152,11 @@ def _kept(packed: bytes) -> bytes:
 
 def _evaluated(key: str, packed: bytes, chunk: Sequence) -> list[Row]:
     """Rows of a chunk, on a worker. The task is kept, and with it the FMU's instance."""
-    if not hasattr(_own, "key"):
-        _settle()
-    elif _own.key != key:
-        _own.task.close()
     if getattr(_own, "key", None) != key:
+        if hasattr(_own, "task"):
+            _own.task.close()
         _own.task, _own.key = pickle.loads(packed), key
     return [_own.task.evaluate(run, values) for run, values in chunk]
-
-
-def _settle():
-    from distributed import get_worker
-    if get_worker().nanny is not None:
-        time.sleep(SETTLED)
 
 
 def _with_bar(rows, total):
