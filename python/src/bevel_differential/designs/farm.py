@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
 from contextlib import suppress
 
+from ..extras import needed
 from ..values import DifferentialError
 from . import cluster
 from .task import Row, Task
@@ -146,5 +147,4 @@ class _Run:
 
 
 def _with_bar(rows, total):
-    from tqdm import tqdm
-    return tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+    return needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)

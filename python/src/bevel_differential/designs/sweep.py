@@ -112,6 +112,7 @@ def describe(task: Task, plan: Plan) -> dict:
         "vary": {one.variable: str(one) for one in plan.space.dimensions},
         "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,
         "wants": [str(want) for want in task.wants],
+        "figures": [str(want) for want in task.figures],
         "conditions": [f"{one.want} {one.relation} {one.limit!r}" for one in task.conditions],
         "from": task.start,
     }
