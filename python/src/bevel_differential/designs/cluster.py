@@ -4,13 +4,15 @@ import asyncio
 import logging
 import multiprocessing
 import os
+import signal
+import warnings
 from contextlib import contextmanager
 
 from ..extras import needed
 from ..values import DifferentialError
 
 # a scheduler or its workers that do not answer so soon are not there, s
-PATIENCE = 10.0
+PATIENCE = 5.0
 # a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
 ALLOWED_FAILURES = 0
 # a worker that takes longer to start again is given up for good
@@ -49,11 +51,27 @@ def usual_workers() -> int:
 def _started(distributed, workers, processes):
     count = workers or usual_workers()
     sizes = {"n_workers": count, "threads_per_worker": 1} if processes else {"n_workers": 1, "threads_per_worker": count}
-    cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=logging.CRITICAL + 1,
-                                       memory_limit=0, host="127.0.0.1" if processes else None)
+    with _interrupts_for_this_process_alone(), warnings.catch_warnings():
+        # where another cluster has its port for browsers
+        warnings.simplefilter("ignore", UserWarning)
+        cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=logging.CRITICAL + 1,
+                                           memory_limit=0, host="127.0.0.1" if processes else None)
     # it listens for browsers even so
     cluster.loop.add_callback(cluster.scheduler.http_server.stop)
     return distributed.Client(cluster, set_as_default=False)
+
+
+@contextmanager
+def _interrupts_for_this_process_alone():
+    """Threads and processes that are started meanwhile, and what these start, never see a Ctrl-C; one that comes meanwhile waits."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _connected(distributed, scheduler):
