@@ -170,9 +170,9 @@ def environment(fmu_file):
 
 
 def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path):
-    # ten times the time of one long step, so that the interrupt comes in the middle
+    # a thousand steps for each run, so that the interrupt comes in the middle
     scene = tmp_path / "turn.toml"
-    scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 1e-4")
+    scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 5e-4")
                      + "\n[[table]]\ninput = \"left.load_torque\"\ntime = [0.0, 0.5]\nvalue = [835.0, 835.0]\n")
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
     running = subprocess.Popen(command(scene, out), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,

@@ -7,6 +7,7 @@ import os
 import signal
 import warnings
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 
 from ..extras import needed
 from ..values import DifferentialError
@@ -67,6 +68,8 @@ def _interrupts_for_this_process_alone():
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
+    # the process that it starts with the first worker would end the blocking
+    resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
