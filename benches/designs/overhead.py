@@ -50,14 +50,15 @@ class Calls:
             lines.append(f"{CALLS[variable.kind][0]} {variable.reference} {float(variable.number(value))!r}")
         (self.folder / "set").write_text("\n".join(lines))
         references = [str(self.fmu.variable(name).reference) for name in outputs]
-        printed = subprocess.run([self.program, self.library, self.fmu.description.guid, self.folder / "set", str(STOP),
-                                  str(step or 0.0), str(runs + 1), *references], check=True, capture_output=True, text=True).stdout
+        command = [self.program, self.library, self.fmu.description.guid, self.folder / "set", str(STOP), str(step or 0.0),
+                   str(runs + 1), *references]
+        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return [float(line) for line in printed.split()][1:]
 
 
-def timed(action):
+def timed(action, *arguments):
     begun = time.perf_counter()
-    action()
+    action(*arguments)
     return time.perf_counter() - begun
 
 
@@ -91,7 +92,7 @@ def monte_carlo(fmu, designs, workers):
                 task = Task(scene, ["left.speed", "right.speed", "efficiency"])
                 plan = Plan.parse(Space.parse(fmu, LOADS), "random", designs, 1).designs()
                 farm.evaluate(task, plan[:200])
-                taken = timed(lambda: farm.evaluate(task, plan)) * 10_000 / designs
+                taken = timed(farm.evaluate, task, plan) * 10_000 / designs
             yield row(f"10 000 turns, {workers} workers, {what}", taken, None, "s", LIMIT_MONTE_CARLO)
 
 
@@ -103,7 +104,7 @@ def drawn(calls, designs, workers):
             task = Task(scene, ["left.speed", "right.speed", "efficiency"])
             plan = Plan.parse(Space.parse(fmu, vary), "random", designs, 1).designs()
             farm.evaluate(task, plan[:50])
-            taken = timed(lambda: farm.evaluate(task, plan))
+            taken = timed(farm.evaluate, task, plan)
         yield row(f"{designs} designs, {what}", taken, bare_designs(fmu, {**TURN, **values}, plan) / workers, "s", LIMIT_DRAWN)
 
 
@@ -135,7 +136,7 @@ def scaling(fmu, designs):
             for workers in sorted({1, 2, usual_workers()}):
                 with Farm(workers, processes) as farm:
                     farm.evaluate(task, plan[:50])
-                    rate = designs / timed(lambda farm=farm: farm.evaluate(task, plan))
+                    rate = designs / timed(farm.evaluate, task, plan)
                 first = first or rate
                 yield f"{workers} {'processes' if processes else 'threads'}", f"{rate:.0f}", f"{rate / first:.2f}"
 

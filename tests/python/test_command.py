@@ -13,8 +13,9 @@ from bevel_differential import Differential, DifferentialError, Scene, extras
 from bevel_differential.command import COMMANDS, main
 from bevel_differential.designs.sweep import SweepResult, sweep
 
-SWEEP = ["sweep", "--scene", "study_turning", "--vary", "left.load_torque=700 N.m..900 N.m", "--vary", "contact.law=line, line_weber",
-         "--want", "left.speed:mean", "--condition", "efficiency >= 0.9", "--from", "0.14 s", "--workers", "0"]
+SWEEP = ["sweep", "--scene", "study_turning", "--vary", "left.load_torque=700 N.m..900 N.m", "--vary",
+         "contact.law=line, line_weber", "--want", "left.speed:mean", "--condition", "efficiency >= 0.9", "--from", "0.14 s",
+         "--workers", "0"]
 
 
 @pytest.fixture(autouse=True)
@@ -24,8 +25,8 @@ def with_fmu(fmu_file, monkeypatch):
 
 def test_run_writes_what_the_scene_gives(tmp_path, capsys):
     csv, parquet, picture = (tmp_path / f"turn.{kind}" for kind in ("csv", "parquet", "png"))
-    assert main(["run", "study_turning", "--set", "left.load_torque=700 N.m", "--stop", "50 ms", "--output", "left.speed", "--output",
-                 "planet[1].left_pairs", "--csv", str(csv), "--parquet", str(parquet), "--plot", str(picture)]) == 0
+    assert main(["run", "study_turning", "--set", "left.load_torque=700 N.m", "--stop", "50 ms", "--output", "left.speed",
+                 "--output", "planet[1].left_pairs", "--csv", str(csv), "--parquet", str(parquet), "--plot", str(picture)]) == 0
     printed = capsys.readouterr().out
     with Scene.load("study_turning") as scene:
         record = scene.set({"left.load_torque": 700.0}).run(["left.speed", "planet[1].left_pairs"], stop=0.05)
@@ -60,15 +61,17 @@ def test_a_missing_package_is_said_with_its_extra(fmu_file, monkeypatch):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras.importlib, "import_module", missing)
-    with Differential(fmu=fmu_file) as straight, pytest.raises(DifferentialError, match=r"pandas.*bevel-differential\[sweep\]"):
-        straight.run(stop=0.01, frame=True)
-    with Differential(fmu=fmu_file) as straight, pytest.raises(DifferentialError, match=r"matplotlib.*bevel-differential\[plot\]"):
-        straight.plot(straight.run(stop=0.01))
+    with Differential(fmu=fmu_file) as straight:
+        with pytest.raises(DifferentialError, match=r"pandas.*bevel-differential\[sweep\]"):
+            straight.run(stop=0.01, frame=True)
+        with pytest.raises(DifferentialError, match=r"matplotlib.*bevel-differential\[plot\]"):
+            straight.plot(straight.run(stop=0.01))
 
 
 def test_sweep_prints_what_it_found_and_does_what_the_package_does(tmp_path, capsys):
     out = tmp_path / "found.parquet"
-    assert main([*SWEEP, "--plan", "sobol", "--runs", "5", "--seed", "1", "--set", "right.load_torque=800", "--out", str(out)]) == 0
+    assert main([*SWEEP, "--plan", "sobol", "--runs", "5", "--seed", "1", "--set", "right.load_torque=800",
+                 "--out", str(out)]) == 0
     printed = capsys.readouterr().out
     with Scene.load("study_turning") as scene:
         scene.set({"right.load_torque": 800.0})
@@ -131,7 +134,7 @@ def test_help_lists_all_commands(capsys):
 
 def test_help_of_run_and_sweep_imports_no_engine():
     script = ("import sys; from bevel_differential.command import main; main(['--help']); main(['sweep', '--help']);"
-              "print([name for name in ('dask', 'distributed', 'pyarrow', 'pandas', 'matplotlib', 'scipy') if name in sys.modules])")
+              "print([name for name in ('dask', 'pyarrow', 'pandas', 'matplotlib', 'scipy') if name in sys.modules])")
     source = Path(__file__).resolve().parents[2] / "python" / "src"
     done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "PYTHONPATH": str(source)}, capture_output=True,
                           text=True, timeout=120)

@@ -50,7 +50,7 @@ def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
         # planets evenly spaced: both side gears have the same number of teeth, so twice that number is a multiple of planets
         assembles = 2 * row["geometry.side_teeth"] % row["geometry.planet_count"] == 0
         assert assembles == (row["message"] == ""), row
-        assert assembles or ("geometry.planet_count" in row["message"] and row["left.speed:final"] is None and not row["feasible"])
+        assert assembles or ("geometry.planet_count" in row["message"] and row["left.speed:final"] is None)
         assert row["feasible"] == (assembles and row["efficiency:final"] >= 0.99999)
 
 
@@ -61,7 +61,8 @@ def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
 
 
 def workers_of_this_process():
-    return [child for child in psutil.Process().children(recursive=True) if "multiprocessing.spawn" in " ".join(child.cmdline())]
+    children = psutil.Process().children(recursive=True)
+    return [child for child in children if "multiprocessing.spawn" in " ".join(child.cmdline())]
 
 
 def test_chunks_of_a_killed_worker_run_again(scene, expected):
@@ -112,7 +113,8 @@ def test_a_file_says_what_it_holds(scene, tmp_path):
     assert read.metadata["plan"] == "lhs" and read.metadata["seed"] == 1 and read.metadata["runs"] == 20
     assert read.metadata["scene"]["set"]["left.load_torque"] == 835.0 and len(read.metadata["fmu"]) == 64
     assert read.metadata["conditions"] == ["efficiency:final >= 0.99999"]
-    assert [read.unit(name) for name in ("left.load_torque", "left.speed:final", "contact.law", "seconds")] == ["N.m", "rad/s", "1", "s"]
+    units = {"left.load_torque": "N.m", "left.speed:final": "rad/s", "contact.law": "1", "seconds": "s"}
+    assert {name: read.unit(name) for name in units} == units
     assert set(read.table["contact.law"].to_pylist()) == {"impact", "line_weber"}
     assert read.frame().index.tolist() == list(range(20))
 
@@ -121,8 +123,9 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
     file = tmp_path / "found.parquet"
     first = sweep(scene, **few(), out=file)
     before = file.read_bytes()
-    for changed, options, message in [({}, {}, "--resume"), ({"seed": 2}, {}, "something else"), ({"seed": 2}, {"resume": True}, "something else"),
-                                      ({"wants": ["right.speed"]}, {"resume": True}, "something else")]:
+    other = "something else"
+    for changed, options, message in [({}, {}, "--resume"), ({"seed": 2}, {}, other), ({"seed": 2}, {"resume": True}, other),
+                                      ({"wants": ["right.speed"]}, {"resume": True}, other)]:
         with pytest.raises(DifferentialError, match=message):
             sweep(scene, **few(**changed), out=file, **options)
         assert file.read_bytes() == before

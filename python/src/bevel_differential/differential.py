@@ -42,8 +42,8 @@ class Differential:
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError`
-        with the FMU's message."""
+        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
+        `DifferentialError` with the FMU's message."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
