@@ -1,6 +1,7 @@
 """Many variables in one call of the FMU."""
 
 import ctypes
+from functools import lru_cache
 
 import numpy as np
 
@@ -21,6 +22,12 @@ class Batches:
                 references = np.array([variables[place].reference for place in places], np.uint32)
                 dtype = np.float64 if call == "Real" else np.int32
                 self.groups.append((call, places, references, dtype))
+
+    @staticmethod
+    @lru_cache(256)
+    def of(variables: tuple) -> "Batches":
+        """Those of these variables, kept: designs of a sweep share them."""
+        return Batches(variables)
 
     def set(self, instance, values):
         """Sets all."""

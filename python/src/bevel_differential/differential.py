@@ -4,11 +4,13 @@ import threading
 
 import numpy as np
 
+from .batches import Batches
+from .extras import needed
 from .fmu import Fmu
 from .inputs import Signals
-from .instance import Batches, Instance
+from .instance import Instance
+from .plot import plot
 from .points import Steps, span
-from .values import DifferentialError
 
 # what `run` records if nothing is said
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
@@ -31,29 +33,34 @@ class Differential:
 
     def set(self, parameters=None, **keywords):
         """Changes parameters and start values of inputs."""
-        named = {name.replace("__", "."): value for name, value in keywords.items()}
-        self._values.update(self._read({**(parameters or {}), **named}))
+        self._values.update(self.fmu.numbers(parameters, **keywords))
         return self
 
-    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None):
+    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None, frame=False):
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. Raises `DifferentialError` with the FMU's message."""
+        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
+        `DifferentialError` with the FMU's message."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
-        return self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        return as_frame(record) if frame else record
 
     def final(self, outputs, inputs=None, stop=0.5, values=None):
         """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
+    def plot(self, record, file=None):
+        """Draws a record; see `plot.plot`."""
+        return plot(self.fmu, record, file=file)
+
     @property
     def values(self):
         """What has been set, by name, as the FMU takes it: SI numbers, numbers of literals."""
-        return {name: value for name, (_, value) in self._values.items()}
+        return {variable.name: value for variable, value in self._values.items()}
 
     @property
     def warnings(self):
@@ -66,24 +73,13 @@ class Differential:
             self._all.pop().close()
         self._instances = threading.local()
 
-    def _read(self, given):
-        """Values by name, as the FMU takes them, with their variables."""
-        read = {}
-        for name, value in given.items():
-            variable = self.fmu.variable(name)
-            if variable.causality not in ("parameter", "input"):
-                raise DifferentialError(f"{name}: it is calculated and cannot be set")
-            read[name] = (variable, variable.number(value))
-        return read
-
     def _simulate(self, steps, signals, outputs, values=None):
         """Starts, steps from point to point, and records."""
         variables = [self.fmu.variable(name) for name in outputs]
-        start = {**self._values, **(self._read(values) if values else {})}
-        start.update((variable.name, (variable, value)) for variable, value in signals.start())
+        start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start())
         instance = self._instance()
-        instance.start(list(start.values()), steps.points[-1])
-        batches = Batches(variables)
+        instance.start(list(start.items()), steps.points[-1])
+        batches = Batches.of(tuple(variables))
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
@@ -108,10 +104,15 @@ class Differential:
         self.__init__(state["values"], fmu=state["file"])
 
 
+def as_frame(record):
+    """A record as a pandas DataFrame, by time."""
+    return needed("pandas", "sweep").DataFrame(record).set_index("time")
+
+
 def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
-    driven = Batches([table.variable for table in signals.tables])
+    driven = Batches.of(tuple(table.variable for table in signals.tables))
     changes = list(signals.changes)
     sizes = np.diff(steps.points).tolist()
     for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):
@@ -126,7 +127,7 @@ def _advance(instance, batches, record, steps, signals):
 
 
 def _set(instance, pairs):
-    Batches([variable for variable, _ in pairs]).set(instance, [value for _, value in pairs])
+    Batches.of(tuple(variable for variable, _ in pairs)).set(instance, [value for _, value in pairs])
 
 
 def _structured(points, variables, batches, record):

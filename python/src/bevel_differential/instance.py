@@ -56,7 +56,6 @@ class Instance:
                                                 ("EnterInitializationMode", "ExitInitializationMode", "Reset"))
         self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
         self._is_fresh = True
-        self._batches = {}
 
     def _function(self, name, *types):
         # by index ctypes gives a function of its own, whose types are not those of fmpy
@@ -88,7 +87,7 @@ class Instance:
         return self
 
     def _write(self, pairs):
-        Batches([variable for variable, _ in pairs]).set(self, [number for _, number in pairs])
+        Batches.of(tuple(variable for variable, _ in pairs)).set(self, [number for _, number in pairs])
 
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
         """Lets inputs change linearly in the steps to come, until they are set again.
@@ -103,10 +102,7 @@ class Instance:
 
     def read(self, names: Iterable[str]) -> list[float | int | bool]:
         """The values of several variables, as a list in their order."""
-        names = tuple(names)
-        if names not in self._batches:
-            self._batches[names] = Batches([self.fmu.variable(name) for name in names])
-        return self._batches[names].get(self)
+        return Batches.of(tuple(self.fmu.variable(name) for name in names)).get(self)
 
     def initialise(self, values: Mapping | None = None, stop: float | None = None) -> Self:
         """Initialises at time 0, with `values` beside those that were set; `stop` (s): no step will go beyond it.

@@ -31,6 +31,10 @@ class Want:
     def __str__(self):
         return f"{self.name}:{self.statistic.word}"
 
+    def unit(self, fmu) -> str:
+        """SI unit of the figure; "1" where it has none."""
+        return "s" if self.statistic.word == "time_of_peak" else fmu.variable(self.name).unit or "1"
+
     def of(self, record: np.ndarray, planet_teeth: int) -> float:
         """The figure of a record (structured array with this output and, for orders, the angle that they are counted by)."""
         angle = self.statistic.angle
@@ -52,7 +56,8 @@ class Condition:
         """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
         parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
         if len(parts) != 3:
-            raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of {', '.join(RELATIONS)}")
+            raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of "
+                                    f"{', '.join(RELATIONS)}")
         want = Want.parse(fmu, parts[0])
         return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
 

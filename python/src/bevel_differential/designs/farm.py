@@ -1,0 +1,150 @@
+"""Evaluates designs on many cores or machines."""
+
+import hashlib
+import pickle
+import queue
+import sys
+import time
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import CancelledError
+from contextlib import suppress
+
+from ..extras import needed
+from ..values import DifferentialError
+from . import cluster
+from .task import Row, Task
+
+# time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
+SHORTEST, LONGEST = 0.1, 1.0
+# chunks that each worker still gets towards the end, so that all end at about the same time
+LAST_CHUNKS = 4
+# chunks that a worker has at hand, so that it never waits
+AT_HAND = 2
+# time without any worker after which none will come any more, s
+DESERTED = 60.0
+
+
+class Farm:
+    """Workers that evaluate designs; a context manager, kept for as many tasks as one likes.
+
+    `workers`: how many (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: each worker is
+    a process; otherwise threads of this one. `scheduler`: address of a dask scheduler whose workers are used instead.
+    `progress`: shows a bar on a terminal. Results are the same for all of these."""
+
+    def __init__(self, workers: int | None = None, processes: bool = True, scheduler: str | None = None, progress: bool = False):
+        if workers is not None and workers < 0:
+            raise DifferentialError(f"workers = {workers}: it is 0 or more")
+        self.workers, self.processes, self.scheduler, self.progress = workers, processes, scheduler, progress
+        self._client = self._opened = None
+
+    def __enter__(self):
+        if self.workers != 0 or self.scheduler:
+            self._opened = cluster.client(self.workers, self.processes, self.scheduler)
+            self._client = self._opened.__enter__()
+        return self
+
+    def __exit__(self, *_):
+        if self._client is not None:
+            self._client = None
+            self._opened.__exit__(None, None, None)
+
+    def evaluate(self, task: Task, designs: Iterable) -> list[Row]:
+        """Rows of all designs [(run, values)], in order of run."""
+        return sorted(self.rows(task, designs), key=lambda row: row.run)
+
+    def rows(self, task: Task, designs: Iterable) -> Iterator[Row]:
+        """Rows as they complete. `task`: a `Task`, or what has its `evaluate` and `close` and can be pickled."""
+        designs = list(designs)
+        rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()
+        return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
+
+    @staticmethod
+    def _here(task, designs):
+        for run, values in designs:
+            yield task.evaluate(run, values)
+
+
+class _Run:
+    """Designs of one task on their way through the workers."""
+
+    def __init__(self, client, task, designs):
+        from .worker import Delivery
+        self.client, self.left = client, deque(designs)
+        packed = pickle.dumps(task)
+        self.key = hashlib.sha256(packed).hexdigest()
+        self.delivery = Delivery(self.key, packed)
+        self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
+        # of chunks whose worker died, to be tried one by one; and what died even so, to be tried alone
+        self.singles, self.suspects = deque(), []
+
+    def rows(self):
+        try:
+            self.client.register_plugin(self.delivery)
+            self._fill()
+            while self.under_way:
+                future = self._next()
+                yield from self._taken(self.under_way.pop(future), future)
+                self._fill()
+        except (CancelledError, OSError):
+            raise DifferentialError("the scheduler is gone; start it again and go on") from None
+        finally:
+            self.client.cancel(list(self.under_way))
+            with suppress(ValueError, OSError):
+                self.client.unregister_worker_plugin(self.delivery.name)
+
+    def _next(self):
+        """A future that has ended."""
+        seen = time.monotonic()
+        while True:
+            try:
+                return self.ended.get(timeout=1.0)
+            except queue.Empty:
+                now = time.monotonic()
+                seen = now if self.client.nthreads() else seen
+                if now - seen > DESERTED:
+                    raise DifferentialError(f"all workers have been gone for {DESERTED:g} s; start some and go on") from None
+
+    def _fill(self):
+        """Hands out chunks until all workers have enough."""
+        workers = max(1, sum(self.client.nthreads().values()))
+        while (self.left or self.singles) and len(self.under_way) < AT_HAND * workers:
+            size = 1 if self.singles else min(self._size(workers), len(self.left))
+            source = self.singles or self.left
+            self._submit([source.popleft() for _ in range(size)])
+        if self.suspects and not self.under_way:
+            # alone, so that no other design can be what the worker dies of
+            self._submit([self.suspects.pop()], alone=True)
+
+    def _submit(self, chunk, alone=False):
+        from .worker import evaluated
+        future = self.client.submit(evaluated, self.key, chunk, pure=False)
+        self.under_way[future] = chunk, alone
+        future.add_done_callback(self.ended.put)
+
+    def _size(self, workers):
+        """Designs in the next chunk."""
+        if self.seconds is None:
+            return 1
+        share = len(self.left) * self.seconds / (LAST_CHUNKS * workers)
+        return max(1, round(min(max(share, SHORTEST), LONGEST) / self.seconds))
+
+    def _taken(self, submitted, future):
+        """Rows of a chunk that has ended."""
+        from distributed import KilledWorker
+        chunk, alone = submitted
+        try:
+            rows = future.result()
+        except KilledWorker:
+            if alone:
+                return [Row(run, dict(values), message="its worker process died each time") for run, values in chunk]
+            # one by one, to find the design that does it
+            (self.suspects if len(chunk) == 1 else self.singles).extend(chunk)
+            return []
+        recent = sum(row.seconds for row in rows) / len(rows)
+        self.seconds = max(1e-6, recent if self.seconds is None else 0.5 * (self.seconds + recent))
+        return rows
+
+
+def _with_bar(rows, total):
+    return needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)

@@ -1,0 +1,75 @@
+"""Pictures of a record: a panel for each unit."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from .extras import needed
+from .values import DifferentialError
+
+# inches
+WIDTH, PANEL, REST = 10.0, 2.3, 1.2
+
+
+def plot(fmu, record: np.ndarray, title: str = "", caption: str = "", file=None):
+    """Draws all outputs of a record (structured array with a field "time") over time, in the units that are usually shown.
+
+    Writes `file` (PNG, SVG or PDF) if there is one. Returns the matplotlib figure; it is not one of pyplot's, so that nothing is
+    to be closed."""
+    matplotlib = needed("matplotlib", "plot")
+    from matplotlib.figure import Figure
+
+    names = record.dtype.names[1:]
+    if not names:
+        raise DifferentialError("the record has no outputs to draw")
+    panels = {}
+    for name in names:
+        variable = fmu.variable(name)
+        unit, values = variable.shown(record[name].astype(float))
+        panels.setdefault((unit, variable.kind), []).append((name, values))
+    with matplotlib.rc_context({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
+                                "axes.axisbelow": True}):
+        figure = Figure(figsize=(WIDTH, PANEL * len(panels) + REST), layout="constrained")
+        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+        for panel, ((unit, kind), curves) in zip(axes, panels.items()):
+            _draw(panel, record["time"], unit, kind, curves)
+        axes[-1].set_xlabel("time, s")
+        figure.align_ylabels(axes)
+        if title:
+            figure.suptitle(title, fontsize=12, fontweight="bold")
+        figure.supxlabel(caption or _caption(record), fontsize=9.5, color="#444444")
+        if file is not None:
+            _save(figure, file)
+    return figure
+
+
+def _draw(panel, times, unit, kind, curves):
+    for place, (name, values) in enumerate(curves):
+        # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
+        panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
+                   drawstyle="default" if kind == "Real" else "steps-post")
+    panel.set_ylabel(_quantity([name for name, _ in curves], unit))
+    panel.ticklabel_format(axis="y", useOffset=False)
+    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
+
+
+def _quantity(names, unit):
+    """The last words that all names share, and the unit."""
+    shared = []
+    for words in zip(*(reversed(re.split(r"[._]", name)) for name in names)):
+        if len(set(words)) > 1 or words[0] in ("left", "right"):
+            break
+        shared.insert(0, words[0])
+    return ", ".join(filter(None, [" ".join(shared), unit.replace(".", "·")])) or "values without unit"
+
+
+def _caption(record):
+    return f"{len(record)} communication points from {record['time'][0]:g} s to {record['time'][-1]:g} s; one panel for each unit"
+
+
+def _save(figure, file):
+    try:
+        figure.savefig(Path(file), dpi=130)
+    except (OSError, ValueError) as error:
+        raise DifferentialError(f"{file}: {error}") from None
