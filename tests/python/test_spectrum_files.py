@@ -1,13 +1,12 @@
 """Duty cycles from files: the example, the command, and errors that help."""
 
-import argparse
-
 import numpy as np
 import pytest
 from duty_cycles import DUTY_CYCLE, FLANKS, HEAD, ROOT, ROOTS, spectrum_of
 
 from bevel_differential import DifferentialError
-from bevel_differential.spectrum import command, spectrum
+from bevel_differential.command import main
+from bevel_differential.spectrum import spectrum
 
 
 @pytest.fixture
@@ -100,18 +99,16 @@ def test_what_is_wrong_in_a_history_is_said_with_its_place(cycle, tmp_path, line
 
 
 def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_path, capsys):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
     table, picture = tmp_path / "table.csv", tmp_path / "picture.png"
     good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--table", str(table), "--picture", str(picture), "--set", "contact.law=line"]
-    assert command.run(parser.parse_args(good)) == 0
+    assert main(["spectrum", *good]) == 0
     assert "life by the" in capsys.readouterr().out and table.is_file() and picture.is_file()
     for wrong, part in [(["nowhere.csv"], "nowhere.csv"), ([str(DUTY_CYCLE), "--set", "track"], "NAME=VALUE"),
                         ([str(DUTY_CYCLE), "--set", "contact.law=lin"], "contact.law"),
                         ([str(DUTY_CYCLE), "--set", "wheel_radus=0.3"], "did you mean wheel_radius"),
                         ([str(DUTY_CYCLE), "--scene", "nowhere"], "no scene file 'nowhere'"),
-                        ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "needs scene.gear_contact"),
+                        ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "it needs scene.gear_contact"),
                         ([str(DUTY_CYCLE), "--picture", str(tmp_path / "p.xyz")], "p.xyz")]:
-        assert command.run(parser.parse_args([*wrong, "--fmu", fmu_file])) == 2
+        assert main(["spectrum", *wrong, "--fmu", fmu_file]) == 1
         message = capsys.readouterr().err.strip().splitlines()[-1]
-        assert message.startswith("bevel-differential spectrum: ") and part in message, message
+        assert message.startswith("bevel-differential: ") and part in message, message

@@ -1,4 +1,4 @@
-"""The sub-command `spectrum`."""
+"""The sub-command `spectrum`: damage and life over a duty cycle."""
 
 import sys
 
@@ -6,7 +6,8 @@ from ..values import DifferentialError
 from .slow import ORDERS
 from .total import spectrum
 
-WRONG_USE = 2
+HELP = "damage and life of the gears over a duty cycle: events with counts, torque and speeds"
+EXTRA = "design"
 
 
 def add_arguments(parser):
@@ -24,19 +25,15 @@ def add_arguments(parser):
 
 
 def run(arguments) -> int:
-    """Runs the sub-command; returns the exit status: 0, or 2 with a message in one line if something is wrong."""
-    try:
-        settings = _settings(arguments.settings)
-        result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
-        print(result.summary())
-        for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
-            if file:
-                print(f"wrote {write(file)}")
-        for warning in dict.fromkeys(result.warnings):
-            print(f"warning: {warning}", file=sys.stderr)
-    except (DifferentialError, OSError) as failure:
-        print(f"bevel-differential spectrum: {' '.join(str(failure).split())}", file=sys.stderr)
-        return WRONG_USE
+    """Prints damage and life, and writes what is asked for."""
+    settings = _settings(arguments.settings)
+    result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
+    print(result.summary())
+    for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
+        if file:
+            print(f"wrote {write(file)}")
+    for warning in dict.fromkeys(result.warnings):
+        print(f"warning: {warning}", file=sys.stderr)
     return 0
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..extras import needed
 from ..values import DifferentialError
 
 ORDERS = ("unknown", "written")
@@ -71,11 +72,7 @@ def count_slow_cycles(histories, counts, order, least=0.0):
 
 def closed_cycles(stress):
     """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
-    try:
-        import rainflow
-    except ImportError:
-        raise DifferentialError("counting cycles needs the package rainflow; "
-                                "install it, or bevel-differential[spectrum]") from None
+    rainflow = needed("rainflow", "design")
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
     for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):
