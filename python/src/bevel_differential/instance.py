@@ -83,6 +83,11 @@ class Instance:
             self._slave.fmi2FreeInstance(self._slave.component)
             self._component = None
 
+    def __del__(self):
+        # of a thread that has ended, or where nobody has closed it
+        if getattr(self, "_component", None):
+            self.close()
+
 
 class Batches:
     """Variables in groups of their kinds, so that one call sets or gets a group. Order is kept within a kind."""
