@@ -164,6 +164,11 @@ class Instance:
             # what is called after this gets no instance, and is refused
             self._component = self.raw.component = None
 
+    def __del__(self):
+        # of a thread that has ended, or where nobody has closed it
+        if getattr(self, "_component", None):
+            self.close()
+
     def __enter__(self):
         return self
 
