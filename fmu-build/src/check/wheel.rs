@@ -85,7 +85,7 @@ impl User {
         wanted.push(EXTRAS);
         let mut pip = self.command();
         pip.args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "--constraint"])
-            .arg(python_file("wheel_constraints.txt"))
+            .arg(python_file("requirements.txt"))
             .env("PIP_CACHE_DIR", paths::wheel().join("cache"))
             .arg(wanted);
         python::finish(&mut pip, "the wheel cannot be installed (check the network)")
