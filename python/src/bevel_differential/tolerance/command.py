@@ -14,7 +14,7 @@ def add_arguments(parser):
     parser.add_argument("--seed", type=int, help="another draw")
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
-    parser.add_argument("--workers", type=int, help="how many work at the same time (default: one per core; 0: this process alone)")
+    parser.add_argument("--workers", type=int, help="how many work at once (default: one per core; 0: this process alone)")
     parser.add_argument("--scheduler", help="address of a dask scheduler whose workers run the designs")
     parser.add_argument("--csv", type=Path, help="write all runs to this file")
     parser.add_argument("--picture", type=Path, help="write a picture (PNG) to this file")

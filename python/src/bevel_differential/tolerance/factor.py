@@ -51,7 +51,7 @@ class Reader:
         text = given.strip() if isinstance(given, str) else given
         try:
             return Factor(name, str(text), self._law(variable, text))
-        except DifferentialError as error:
+        except ValueError as error:
             known = str(error).startswith(name)
             raise DifferentialError(f"{'' if known else name + ': '}{error}") from None
 

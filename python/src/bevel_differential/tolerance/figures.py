@@ -60,8 +60,8 @@ def _resampled(values, statistic, seed):
     if np.ptp(values) <= 1e-12 * np.abs(values).max():
         value = float(values[0]) if statistic is np.mean else 0.0
         return Estimate(value, value, value)
-    found = stats.bootstrap((values,), statistic, confidence_level=LEVEL, n_resamples=RESAMPLES, method="percentile", vectorized=True,
-                            random_state=np.random.default_rng(seed)).confidence_interval
+    found = stats.bootstrap((values,), statistic, confidence_level=LEVEL, n_resamples=RESAMPLES, method="percentile",
+                            vectorized=True, random_state=np.random.default_rng(seed)).confidence_interval
     return Estimate(value, float(found.low), float(found.high))
 
 

@@ -45,11 +45,12 @@ class Gear:
 
     def check(self, name: str):
         """Raises what lies outside the ranges of the standard; `name` is the variable that a grade is given for."""
-        for what, value, (low, high), unit in (("mean module", self.module, MODULES, " m"), ("number of teeth", self.teeth, TEETH, ""),
-                                               ("tolerance diameter", self.diameter, DIAMETERS, " m")):
+        ranges = (("mean module", self.module, MODULES, " m"), ("number of teeth", self.teeth, TEETH, ""),
+                  ("tolerance diameter", self.diameter, DIAMETERS, " m"))
+        for what, value, (low, high), unit in ranges:
             if not low <= value <= high:
-                raise DifferentialError(f"{name}: ISO 17485 gives no tolerances for a {what} of {value:.6g}{unit}, but from {low:g} to "
-                                        f"{high:g}{unit}: give a distribution instead of a grade")
+                raise DifferentialError(f"{name}: ISO 17485 gives no tolerances for a {what} of {value:.6g}{unit}, but from "
+                                        f"{low:g} to {high:g}{unit}: give a distribution instead of a grade")
 
     # the equations take mm and give µm
     @property
@@ -71,11 +72,12 @@ def gears(scene) -> dict[str, Gear]:
     value = {name.removeprefix("geometry."): first[name].item() for name in _GEOMETRY}
     at_mean = 1.0 - 0.5 * value["face_width"] / value["outer_cone_distance"]
     module = value["module"]
-    ratio = value["side_teeth"] * math.cos(value["planet_pitch_angle"]) / (value["planet_teeth"] * math.cos(value["side_pitch_angle"]))
+    cosine = {kind: math.cos(value[f"{kind}_pitch_angle"]) for kind in ("planet", "side")}
+    ratio = value["side_teeth"] * cosine["planet"] / (value["planet_teeth"] * cosine["side"])
     systems = {number: name for name, number in scene.fmu.variable("geometry.addendum_system").literals.items()}
     difference = _addendum_difference(systems[value["addendum_system"]], ratio, value) * module
-    return {kind: Gear(at_mean * (module * value[f"{kind}_teeth"] + sign * difference * math.cos(value[f"{kind}_pitch_angle"])),
-                       at_mean * module, value[f"{kind}_teeth"]) for kind, sign in (("planet", 1.0), ("side", -1.0))}
+    return {kind: Gear(at_mean * (module * value[f"{kind}_teeth"] + sign * difference * cosine[kind]), at_mean * module,
+                       value[f"{kind}_teeth"]) for kind, sign in (("planet", 1.0), ("side", -1.0))}
 
 
 def _addendum_difference(system, ratio, value):

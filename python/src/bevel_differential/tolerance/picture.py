@@ -76,7 +76,7 @@ def _yields(axes, result, found):
     place = np.arange(len(names))[::-1]
     value = np.array([each.value for each in yields])
     ends = np.array([[each.value - each.low, each.high - each.value] for each in yields]).T
-    colours = [GREY if verdict.gain.low <= 0.0 <= verdict.gain.high else BLUE if verdict.gain.value > 0.0 else RED for verdict in found]
+    colours = [BLUE if verdict.gain.low > 0.0 else RED if verdict.gain.high < 0.0 else GREY for verdict in found]
     axes.axvline(base.value, color=GREY, linestyle="--", linewidth=1.0)
     for y, x, end, colour in zip(place, value, ends.T, [GREY, *colours]):
         axes.errorbar(x, y, xerr=end[:, None], fmt="o", color=colour, capsize=3)
@@ -85,11 +85,12 @@ def _yields(axes, result, found):
 
 
 def _caption(plan, result, found):
-    what = (f"{len(result.base.good)} differentials drawn from the tolerances of {plan.name}. Left: how each figure is spread, with its "
-            "limits. Right: Sobol indices with 95 % intervals: the part of the variance that a factor causes by itself, and the "
-            "part it takes part in together with others.")
+    what = (f"{len(result.base.good)} differentials drawn from the tolerances of {plan.name}. Left: how each figure is spread, "
+            "with its limits. Right: Sobol indices with 95 % intervals: the part of the variance that a factor causes by itself, and "
+            "the part it takes part in together with others.")
     best = next((verdict for verdict in found if verdict.gain.low > 0.0), None)
     if found:
-        what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; blue raises it by more than it "
-                 f"costs, red does not, grey is undecided. {best.line(result.base.good.mean()).capitalize() if best else 'None is worth its money'}.")
+        answer = best.line(float(result.base.good.mean())) if best else "no alternative is"
+        what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; blue raises it by more "
+                 f"than it costs, red does not, grey is undecided. First of them: {answer}.")
     return what

@@ -17,6 +17,8 @@ from .study import Alternative, Result, Study
 
 KEYS = {"description", "scene", "set", "from", "factors", "capability", "wants", "limits", "runs", "seed", "alternative"}
 NEEDED = ("description", "scene", "factors", "wants")
+KINDS = {str: ("text", ("description", "scene")), dict: ("a table", ("set", "factors")),
+         list: ("a list", ("wants", "limits", "alternative"))}
 BY_GRADE = "tooth_errors.runout_by_grade"
 INDIVIDUAL = "tooth_errors.seed"
 
@@ -42,6 +44,10 @@ class Plan:
             raise DifferentialError(f"{file}: {error}") from None
         problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(found.keys() - KEYS)]
         problems += [f"{key} is missing" for key in NEEDED if key not in found]
+        problems += [f"{key} = {found[key]!r}: it is {what}" for kind, (what, keys) in KINDS.items() for key in keys
+                     if key in found and not isinstance(found[key], kind)]
+        problems += [f"{key}: it has text alone, such as \"torque_bias_ratio:mean\"" for key in ("wants", "limits")
+                     if not all(isinstance(entry, str) for entry in found.get(key, []))]
         if problems:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
         near = file.parent / str(found["scene"])
@@ -69,14 +75,14 @@ class Plan:
                 raise DifferentialError(f"{name} has a tolerance, but {switch} is off: set it in the scene or in [set]")
         for name in RUNOUT:
             if name in self.study.factors and state[BY_GRADE]:
-                raise DifferentialError(f"{name} has a tolerance, but {BY_GRADE} gives all gears the same runout: leave one of them out")
+                raise DifferentialError(f"{name} has a tolerance, but {BY_GRADE} gives all gears the same runout: leave one of "
+                                        "them out")
 
     def _remarks(self):
         factors = self.study.factors
         individual = [name for name in (PITCH, *RUNOUT) if name in factors]
         if individual and INDIVIDUAL not in factors:
-            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it a range, such as "
-                    "\"0..1000000\""]
+            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it \"0..1000000\""]
         return []
 
     def _check_ranges(self):
@@ -89,9 +95,11 @@ class Plan:
             drawn = np.array([values[name] for values in designs], float)
             outside = (drawn < variable.least) | (drawn > variable.greatest)
             if np.any(outside):
-                least, greatest, worst = (_shown(variable, value) for value in (variable.least, variable.greatest, drawn[outside][0]))
-                raise DifferentialError(f"{name}: {np.sum(outside)} of {len(drawn)} draws are outside {least} to {greatest}, such as "
-                                        f"{worst}: make the tolerance narrower, or give a law that ends there, such as uniform(A, B)")
+                numbers = (variable.least, variable.greatest, drawn[outside][0])
+                least, greatest, worst = (_shown(variable, number) for number in numbers)
+                raise DifferentialError(f"{name}: {np.sum(outside)} of {len(drawn)} draws are outside {least} to {greatest}, "
+                                        f"such as {worst}: make the tolerance narrower, or give a law that ends there, such as "
+                                        "uniform(A, B)")
 
 
 class _Reading:
@@ -99,7 +107,8 @@ class _Reading:
 
     def __init__(self, scene, found):
         self.reader, self.problems = Reader(scene, found.get("capability", 1.0)), []
-        self.factors = {name: self.attempt("[factors]", self.reader.read, name, given) for name, given in _flat(found["factors"]).items()}
+        self.factors = {name: self.attempt("[factors]", self.reader.read, name, given)
+                        for name, given in _flat(found["factors"]).items()}
         self.alternatives = [self.alternative(dict(entry)) for entry in found.get("alternative", [])]
         if self.problems:
             raise DifferentialError("\n".join(self.problems))
@@ -133,8 +142,8 @@ def _study(reading, found, runs, seed, indices):
     fmu = reading.reader.fmu
     wants = [Want.parse(fmu, text) for text in found["wants"]]
     limits = [Condition.parse(fmu, text) for text in found.get("limits", [])]
-    return Study(list(reading.factors.values()), wants, limits, reading.alternatives, runs or found.get("runs", 512),
-                 found.get("seed", 1) if seed is None else seed, indices)
+    return Study(list(reading.factors.values()), wants, limits, reading.alternatives,
+                 found.get("runs", 512) if runs is None else runs, found.get("seed", 1) if seed is None else seed, indices)
 
 
 def _shown(variable, value):

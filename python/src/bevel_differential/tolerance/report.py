@@ -26,7 +26,8 @@ def write_runs(plan: Plan, result: Result, file) -> Path:
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(["run", *names, *wants, "message"])
         for row in result.rows:
-            writer.writerow([row.run, *(row.values[name] for name in names), *(row.figures.get(want, "") for want in wants), row.message])
+            values, figures = (row.values[name] for name in names), (row.figures.get(want, "") for want in wants)
+            writer.writerow([row.run, *values, *figures, row.message])
     return Path(file)
 
 
@@ -88,8 +89,8 @@ def _indices(plan, result):
     if found:
         lines = [("part of the variance: by itself | with others", *found)]
         for i, name in enumerate(result.names):
-            lines.append((name, *(f"{each.first[i]:.2f} ± {each.first_half[i]:.2f} | {each.total[i]:.2f} ± {each.total_half[i]:.2f}"
-                                  for each in found.values())))
+            lines.append((name, *(f"{each.first[i]:.2f} ± {each.first_half[i]:.2f} | {each.total[i]:.2f} ± "
+                                  f"{each.total_half[i]:.2f}" for each in found.values())))
         blocks.append(_table(lines))
     blocks += [f"Sobol indices of {want}: {why}" for want, why in result.indices.items() if isinstance(why, str)]
     return "\n".join(blocks)

@@ -8,7 +8,7 @@ from ..values import DifferentialError
 def check_runs(runs: int) -> int:
     """`runs` if Sobol sequences have that length."""
     if isinstance(runs, bool) or not isinstance(runs, int) or runs < 8 or runs & (runs - 1):
-        raise DifferentialError(f"runs = {runs!r}: it is a power of two from 8 on, such as 256 or 512, as Sobol sequences have it")
+        raise DifferentialError(f"runs = {runs!r}: it is a power of two from 8 on, such as 512, as Sobol sequences have it")
     return runs
 
 

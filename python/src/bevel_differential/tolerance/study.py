@@ -80,7 +80,8 @@ class Study:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as torque_bias_ratio:mean")
         for limit in self.limits:
             if limit.want not in self.wants:
-                raise DifferentialError(f"limit {limit}: {limit.want} is not wanted; wanted are {', '.join(map(str, self.wants))}")
+                known = ", ".join(map(str, self.wants))
+                raise DifferentialError(f"limit {limit}: {limit.want} is not wanted; wanted are {known}")
         for one in self.alternatives:
             for name in one.factors.keys() - self.factors.keys():
                 raise DifferentialError(f"alternative {one.name!r}: {name} is none of the factors {', '.join(self.factors)}")
