@@ -10,7 +10,7 @@ from scipy import stats
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Dimension, Farm, Row, Task
 from bevel_differential.statistic import Statistic
-from bevel_differential.tolerance import Alternative, Factor, Plan, Reader, Spread, Study, command, report, verdicts
+from bevel_differential.tolerance import Alternative, Factor, Plan, Reader, Spread, Study, command, verdicts
 from bevel_differential.tolerance.figures import proportion
 from bevel_differential.tolerance.grade import Gear, gears
 from bevel_differential.tolerance.laws import Given, RunoutGrade, band
@@ -24,7 +24,7 @@ FILE = """
 description = "a turn"
 scene = "turn.toml"
 from = "20 ms"
-runs = 16
+runs = 8
 wants = ["planet[1].left_transmission_error:peak_to_peak", "torque_bias_ratio:mean"]
 limits = ["planet[1].left_transmission_error:peak_to_peak <= 60 um"]
 
@@ -45,7 +45,7 @@ tooth_friction.coefficient = "normal(0.03, 0.002)"
 """
 SCENE = """
 description = "a turn"
-stop_time = "120 ms"
+stop_time = "80 ms"
 step = "1 ms"
 outputs = ["torque_bias_ratio"]
 [set]
@@ -198,8 +198,9 @@ def test_alternatives_are_drawn_at_the_same_shares_and_judged_by_what_they_cost(
     assert best.yield_.low < exact[1] < best.yield_.high
     assert best.gain.low < exact[1] - 1.05 * exact[0] < best.gain.high
     assert (best.alternative.name, best.word) == ("a finer", "worth its money")
-    # 16 of 17 parts of the variance
-    assert "in 94 % of the variance of y:final" in best.line(0.85)
+    indices = result.indices["y:final"]
+    assert abs(indices.total[0] - 16.0 / 17.0) <= indices.total_half[0]
+    assert f"in {100.0 * indices.total[0]:.0f} % of the variance of y:final" in best.line(0.85)
     assert (other.alternative.name, other.word) == ("b finer", "not worth its money")
 
 
@@ -234,13 +235,13 @@ def test_without_tolerances_all_are_the_nominal_one(turn):
 
 
 def transmission_errors(values, side, grade, fmu_file):
-    with Scene(stop=0.12, set=values, outputs=["left.speed"], fmu=fmu_file) as scene:
+    with Scene(stop=0.08, set=values, outputs=["left.speed"], fmu=fmu_file) as scene:
         reader = Reader(scene)
         graded = ("accuracy_grade", "planet_runout", "side_runout")
         factors = [*(reader.read(f"tooth_errors.{name}", f"grade {grade}") for name in graded),
                    reader.read("tooth_errors.seed", "0..1000000")]
         wanted = Want.parse(scene.fmu, f"planet[1].{side}_transmission_error:peak_to_peak")
-        study = Study(factors, [wanted], runs=64, indices=False)
+        study = Study(factors, [wanted], runs=32, indices=False)
         return result_of(study, Task(scene, study.wants, start=0.02)).base.figures[str(wanted)]
 
 
@@ -248,7 +249,7 @@ def test_mirror_images_have_the_same_spread(fmu_file):
     left, right = transmission_errors(TURN, "left", 7, fmu_file), transmission_errors(MIRRORED, "right", 7, fmu_file)
     assert not np.array_equal(left, right)
     assert stats.ks_2samp(left, right).pvalue > 0.05
-    assert stats.ks_2samp(left, transmission_errors(MIRRORED, "right", 9, fmu_file)).pvalue < 1e-6
+    assert stats.ks_2samp(left, transmission_errors(MIRRORED, "right", 10, fmu_file)).pvalue < 1e-4
 
 
 def test_a_file_gives_the_same_for_any_workers_and_what_an_engineer_expects(files, fmu_file):
@@ -275,7 +276,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
     picture, runs = tmp_path / "a.png", tmp_path / "a.csv"
-    given = [str(files), "--runs", "8", "--workers", "0", "--picture", str(picture), "--csv", str(runs)]
+    given = [str(files), "--workers", "0", "--picture", str(picture), "--csv", str(runs)]
     assert command.run(parser.parse_args(given)) == 0
     printed = capsys.readouterr().out
     for part in ("8 differentials drawn, 0 of them failed", "tooth_errors.seed", "all: yield", "smoother flanks", "as it is"):
@@ -304,12 +305,12 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("[factors]", "factors = 7\n[other]", ["factors = 7: it is a table"]),
     ("wants = [", "wants = [7, ", ["wants: it has text"]),
     ("cost = -0.01", "cost = \"cheap\"", ["[[alternative]]", "cost", "part of the price"]),
-    ("runs = 16", "runs = 20", ["runs = 20", "power of two"]),
-    ("runs = 16", "seed = -1", ["seed = -1"]),
-    ("runs = 16", "capability = 0", ["capability = 0"]),
-    ("runs = 16", "rums = 16", ["rums", "did you mean runs"]),
-    ("runs = 16", "set.effects.tooth_errors = false", ["effects.tooth_errors is off"]),
-    ("runs = 16", "set.tooth_errors.runout_by_grade = true", ["tooth_errors.side_runout", "runout_by_grade"]),
+    ("runs = 8", "runs = 20", ["runs = 20", "power of two"]),
+    ("runs = 8", "seed = -1", ["seed = -1"]),
+    ("runs = 8", "capability = 0", ["capability = 0"]),
+    ("runs = 8", "rums = 8", ["rums", "did you mean runs"]),
+    ("runs = 8", "set.effects.tooth_errors = false", ["effects.tooth_errors is off"]),
+    ("runs = 8", "set.tooth_errors.runout_by_grade = true", ["tooth_errors.side_runout", "runout_by_grade"]),
     ("[factors]", "[factors.more]", ["more.tooth_errors", "no such variable"]),
 ])
 def test_errors_in_a_file_are_named(old, new, parts, files, fmu_file):
@@ -323,7 +324,4 @@ def test_errors_in_a_file_are_named(old, new, parts, files, fmu_file):
 
 def test_gears_that_do_not_vary_are_noted(files, fmu_file):
     files.write_text(FILE.replace("tooth_errors.seed = \"0..1000000\"", ""), encoding="utf-8")
-    plan = Plan.load(files, fmu=fmu_file)
-    assert "same teeth" in plan.notes[0]
-    with Farm(workers=0) as farm:
-        assert "note: all gears have the same teeth" in report.text(plan, plan.run(farm))
+    assert "all gears have the same teeth" in Plan.load(files, fmu=fmu_file).notes[0]

@@ -16,8 +16,8 @@ _GRADE = re.compile(r"grade\s+(\S+)$")
 _BAND = re.compile(r"\+-|\+/-|±")
 _USAGE = ("write \"grade 7\", \"0.1 mm +- 0.02 mm\", normal(MEAN, SD), uniform(A, B), triangular(A, PEAK, B), "
           "lognormal(MEDIAN, FACTOR), \"A..B\", a list or one value")
-# what the words do: the spread is so many times as large, or the grade so many steps coarser
-WORDS = {"finer": (0.5, -1), "coarser": (2.0, 1)}
+# what the words do: the spread is so many times as large, or the grade so many steps coarser; how the former is said
+WORDS = {"finer": (0.5, -1, "half the spread of"), "coarser": (2.0, 1, "twice the spread of")}
 
 
 @dataclass(frozen=True)
@@ -59,12 +59,12 @@ class Reader:
         """The factor with another tolerance: as in a file, or "finer" or "coarser" (a grade, or half and twice the spread)."""
         if given not in WORDS:
             return self.read(factor.variable, given)
-        ratio, steps = WORDS[given]
+        ratio, steps, said = WORDS[given]
         try:
             law = factor.law.graded(steps) or factor.law.scaled(ratio)
         except DifferentialError as error:
             raise DifferentialError(f"{factor.variable} = {given}: {error}") from None
-        return Factor(factor.variable, f"grade {law.number}" if hasattr(law, "number") else f"{given} than {factor.text}", law)
+        return Factor(factor.variable, f"grade {law.number}" if hasattr(law, "number") else f"{said} {factor.text}", law)
 
     def _law(self, variable, text):
         if isinstance(text, str):

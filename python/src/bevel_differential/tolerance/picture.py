@@ -12,29 +12,31 @@ from .study import Indices, Result
 from .verdict import verdicts
 
 BLUE, PALE, RED, GREY = "#1f6fb4", "#9bbfe0", "#d1495b", "#6b7280"
-WIDTH, ROW, CAPTION = 12.0, 2.5, 0.75
+# inches: width, a row of panels, what a factor or an alternative adds to it, the caption; letters of a line of the caption
+WIDTH, ROW, LINE, CAPTION, LETTERS = 12.0, 1.4, 0.13, 0.95, 170
 STYLE = {"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True, "axes.spines.top": False,
          "axes.spines.right": False, "legend.frameon": False}
 
 
 def draw(plan: Plan, result: Result, file) -> Path:
-    """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields."""
+    """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
     import matplotlib
     from matplotlib.figure import Figure
 
     found = verdicts(plan.study, result)
-    rows = len(plan.study.wants) + bool(found)
+    figures = len(plan.study.wants) * (ROW + LINE * len(result.names))
+    yields = (ROW + LINE * len(found)) if found else 0.0
     with matplotlib.rc_context(STYLE):
-        height = ROW * rows + CAPTION + 0.12 * len(result.names)
-        picture = Figure(figsize=(WIDTH, height), layout="constrained")
-        grid = picture.add_gridspec(rows, 2)
+        picture = Figure(figsize=(WIDTH, figures + yields + CAPTION), layout="constrained")
+        parts = iter(picture.subfigures(2 + bool(found), 1, height_ratios=[figures, *([yields] if found else []), CAPTION]))
+        panels = next(parts).subplots(len(plan.study.wants), 2, squeeze=False)
         for i, want in enumerate(plan.study.wants):
-            _histogram(picture.add_subplot(grid[i, 0]), plan, result, want)
-            _bars(picture.add_subplot(grid[i, 1]), result, want, i == 0)
+            _histogram(panels[i, 0], plan, result, want)
+            _bars(panels[i, 1], result, want, i == 0)
         if found:
-            _yields(picture.add_subplot(grid[-1, :]), result, found)
-        picture.get_layout_engine().set(rect=(0.0, CAPTION / height, 1.0, 1.0 - CAPTION / height))
-        picture.text(0.01, 0.01, "\n".join(textwrap.wrap(_caption(plan, result, found), 165)), va="bottom", color="#333333")
+            _yields(next(parts).subplots(), result, found)
+        lines = textwrap.wrap(_caption(plan, result, found), LETTERS)
+        next(parts).text(0.01, 0.95, "\n".join(lines), va="top", color="#333333")
         picture.savefig(file, dpi=90)
     return Path(file)
 
@@ -47,9 +49,10 @@ def _histogram(axes, plan, result, want):
         axes.hist(values, bins="auto", color=PALE, edgecolor=BLUE, linewidth=0.6)
     for limit in plan.study.limits:
         if limit.want == want:
-            axes.axvline(variable.shown(limit.limit)[1], color=RED, label=limit_text(plan, limit).removeprefix(f"{want} "))
+            label = limit_text(plan, limit).removeprefix(f"{want} ")
+            axes.axvline(variable.shown(limit.limit)[1], color=RED, label=f"limit {label}")
     if axes.get_legend_handles_labels()[0]:
-        axes.legend(title="limit", loc="upper right")
+        axes.legend(loc="best")
     axes.set(xlabel=f"{want}, {unit}" if unit else str(want), ylabel="differentials")
 
 
@@ -64,9 +67,9 @@ def _bars(axes, result, want, with_legend):
     axes.barh(place + 0.2, indices.first, xerr=indices.first_half, color=BLUE, label="by itself", **error)
     axes.barh(place - 0.2, indices.total, xerr=indices.total_half, color=PALE, label="with others", **error)
     axes.set_yticks(place, result.names)
-    axes.set(xlim=(0.0, 1.05), xlabel=f"part of the variance of {want}")
+    axes.set(xlim=(0.0, 1.05), xlabel="part of the variance of the figure at the left")
     if with_legend:
-        axes.legend(loc="best")
+        axes.legend(loc="lower right")
 
 
 def _yields(axes, result, found):
@@ -85,12 +88,12 @@ def _yields(axes, result, found):
 
 
 def _caption(plan, result, found):
-    what = (f"{len(result.base.good)} differentials drawn from the tolerances of {plan.name}. Left: how each figure is spread, "
-            "with its limits. Right: Sobol indices with 95 % intervals: the part of the variance that a factor causes by itself, and "
+    what = (f"{len(result.base.good)} differentials drawn: {plan.description}. Left: how each figure is spread, with its "
+            "limits. Right: Sobol indices with 95 % intervals: the part of the variance that a factor causes by itself, and "
             "the part it takes part in together with others.")
     best = next((verdict for verdict in found if verdict.gain.low > 0.0), None)
     if found:
-        answer = best.line(float(result.base.good.mean())) if best else "no alternative is"
-        what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; blue raises it by more "
-                 f"than it costs, red does not, grey is undecided. First of them: {answer}.")
+        answer = best.line(float(result.base.good.mean())) if best else "none is surely better"
+        what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; a good differential "
+                 f"becomes cheaper (blue), dearer (red), or the runs do not tell (grey). Best: {answer}.")
     return what

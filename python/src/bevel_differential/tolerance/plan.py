@@ -129,7 +129,7 @@ class _Reading:
         if not given:
             self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
         others = {variable: self.attempt(place, self.other, variable, text) for variable, text in given.items()}
-        written = ", ".join(f"{variable} {other.text}" for variable, other in others.items() if other)
+        written = ", ".join(f"{variable} = {other.text}" for variable, other in others.items() if other)
         return Alternative(str(name or written), others, cost)
 
     def other(self, variable, text) -> Factor:

@@ -26,7 +26,8 @@ class Verdict:
     def line(self, before: float) -> str:
         """The answer in a line; `before`: the yield with the tolerances as they are."""
         cost = "" if self.alternative.cost is None else f" at {100.0 * self.alternative.cost:+.3g} % of the price"
-        return (f"{self.word}: {self.alternative.name}{cost} (yield {self.yield_.value:.3f} for {before:.3f}"
+        gain = f"{self.gain.value:+.3f} [{self.gain.low:+.3f}, {self.gain.high:+.3f}]"
+        return (f"{self.word}: {self.alternative.name}{cost} (yield {self.yield_.value:.3f} for {before:.3f}, gain {gain}"
                 f"{'; ' + self.why if self.why else ''})")
 
 
@@ -60,4 +61,4 @@ def _why(study, result, one):
     if not parts:
         return ""
     part, want = max(parts)
-    return f"in {100.0 * min(max(part, 0.0), 1.0):.0f} % of the variance of {want}"
+    return f"it has a part in {100.0 * min(max(part, 0.0), 1.0):.0f} % of the variance of {want}"
