@@ -10,10 +10,14 @@ from scipy import stats
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Dimension, Farm, Row, Task
 from bevel_differential.statistic import Statistic
-from bevel_differential.tolerance import Alternative, Factor, Plan, Reader, Spread, Study, command, verdicts
-from bevel_differential.tolerance.figures import proportion
+from bevel_differential.tolerance import command
+from bevel_differential.tolerance.factor import Factor, Reader
+from bevel_differential.tolerance.figures import Spread, proportion
 from bevel_differential.tolerance.grade import Gear, gears
 from bevel_differential.tolerance.laws import Given, RunoutGrade, band
+from bevel_differential.tolerance.plan import Plan
+from bevel_differential.tolerance.study import Alternative, Study
+from bevel_differential.tolerance.verdict import verdicts
 from bevel_differential.want import Condition, Want
 
 TURN = {"scene.carrier_drive": "torque", "carrier.torque_command": "1670 N.m", "scene.left_drive": "speed",
@@ -30,7 +34,7 @@ limits = ["planet[1].left_transmission_error:peak_to_peak <= 60 um"]
 
 [factors]
 tooth_errors.accuracy_grade = "grade 7"
-tooth_errors.seed = "0..1000000"
+tooth_errors.seed = "seed"
 tooth_errors.side_runout = "grade 7"
 geometry.backlash = "0.1 mm +- 0.04 mm"
 tooth_friction.coefficient = "triangular(0.04, 0.05, 0.07)"
@@ -239,7 +243,7 @@ def transmission_errors(values, side, grade, fmu_file):
         reader = Reader(scene)
         graded = ("accuracy_grade", "planet_runout", "side_runout")
         factors = [*(reader.read(f"tooth_errors.{name}", f"grade {grade}") for name in graded),
-                   reader.read("tooth_errors.seed", "0..1000000")]
+                   reader.read("tooth_errors.seed", "seed")]
         wanted = Want.parse(scene.fmu, f"planet[1].{side}_transmission_error:peak_to_peak")
         study = Study(factors, [wanted], runs=32, indices=False)
         return result_of(study, Task(scene, study.wants, start=0.02)).base.figures[str(wanted)]
@@ -298,7 +302,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("limits = [\"planet[1].left", "limits = [\"planet[1].right", ["right_transmission_error", "is not wanted"]),
     ("triangular(0.04, 0.05, 0.07)", "triangular(0.08, 0.05, 0.07)", ["tooth_friction.coefficient", "make no distribution"]),
     ("\"coarser\"", "\"grade 12\"", ["[[alternative]]", "grade 12"]),
-    ("accuracy_grade = \"coarser\"", "seed = \"finer\"", ["tooth_errors.seed", "list of values"]),
+    ("accuracy_grade = \"coarser\"", "seed = \"finer\"", ["tooth_errors.seed", "whole numbers"]),
     ("accuracy_grade = \"coarser\"", "crowning = \"finer\"", ["tooth_errors.crowning", "none of the factors"]),
     ("tooth_friction.coefficient = \"tri", "tooth_friction.law = \"tri", ["tooth_friction.law", "only real"]),
     ("triangular(0.04, 0.05, 0.07)", "lognormal(0.05, much)", ["tooth_friction.coefficient", "much"]),

@@ -6,25 +6,24 @@ import multiprocessing
 import os
 from contextlib import contextmanager
 
+from ..extras import needed
 from ..values import DifferentialError
 
 # a scheduler or its workers that do not answer so soon are not there, s
 PATIENCE = 10.0
-# workers that may die under a chunk before it is given up
-ALLOWED_FAILURES = 1
-SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.worker.multiprocessing-method": "spawn",
+# a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
+ALLOWED_FAILURES = 0
+# a worker that takes longer to start again is given up for good
+RESTART = 300.0
+SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
+            "distributed.worker.multiprocessing-method": "spawn",
             "distributed.comm.timeouts.connect": f"{PATIENCE:g}s", "distributed.admin.log-length": 0}
 
 
 @contextmanager
 def client(workers: int | None, processes: bool, scheduler: str | None):
     """A dask client: of the scheduler at an address, or of an own cluster with one thread per worker."""
-    try:
-        import dask
-        import distributed
-    except ImportError as missing:
-        raise DifferentialError(f"{missing.name} is missing; install it by pip install \"bevel-differential[sweep]\", or take "
-                                "workers=0") from None
+    dask, distributed = needed("dask", "sweep"), needed("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
                                 "if __name__ == \"__main__\":")

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from ..command.arguments import add_fmu
+
 HELP = "what manufacturing tolerances do: spread of figures, yield, and which tolerance is worth its money"
 EXTRA = "design"
 QUICK = 64
@@ -15,9 +17,11 @@ def add_arguments(parser):
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
     parser.add_argument("--workers", type=int, help="how many work at once (default: one per core; 0: this process alone)")
-    parser.add_argument("--scheduler", help="address of a dask scheduler whose workers run the designs")
+    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
     parser.add_argument("--csv", type=Path, help="write all runs to this file")
     parser.add_argument("--picture", type=Path, help="write a picture (PNG) to this file")
+    add_fmu(parser)
 
 
 def run(arguments) -> int:
@@ -27,8 +31,8 @@ def run(arguments) -> int:
     from .plan import Plan
 
     runs = arguments.runs or (QUICK if arguments.quick else None)
-    plan = Plan.load(arguments.file, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
-    with Farm(workers=arguments.workers, scheduler=arguments.scheduler, progress=True) as farm:
+    plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
+    with Farm(arguments.workers, not arguments.threads, arguments.scheduler, progress=True) as farm:
         result = plan.run(farm)
     print(report.text(plan, result))
     if arguments.csv:

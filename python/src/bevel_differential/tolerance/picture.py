@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..extras import needed
+from ..values import DifferentialError
 from .figures import proportion
 from .plan import Plan
 from .report import limit_text
@@ -20,7 +22,7 @@ STYLE = {"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow"
 
 def draw(plan: Plan, result: Result, file) -> Path:
     """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
-    import matplotlib
+    matplotlib = needed("matplotlib", "plot")
     from matplotlib.figure import Figure
 
     found = verdicts(plan.study, result)
@@ -37,7 +39,10 @@ def draw(plan: Plan, result: Result, file) -> Path:
             _yields(next(parts).subplots(), result, found)
         lines = textwrap.wrap(_caption(plan, result, found), LETTERS)
         next(parts).text(0.01, 0.95, "\n".join(lines), va="top", color="#333333")
-        picture.savefig(file, dpi=90)
+        try:
+            picture.savefig(file, dpi=90)
+        except (OSError, ValueError) as error:
+            raise DifferentialError(f"{file}: {error}") from None
     return Path(file)
 
 

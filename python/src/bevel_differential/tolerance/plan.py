@@ -9,7 +9,7 @@ from ..designs import Task
 from ..fmu import Fmu
 from ..points import seconds
 from ..scene import Scene
-from ..scene_file import _flat
+from ..scene_file import flat
 from ..values import DifferentialError, suggestion
 from ..want import Condition, Want
 from .factor import PITCH, RUNOUT, Factor, Reader
@@ -53,7 +53,7 @@ class Plan:
         near = file.parent / str(found["scene"])
         scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu.file)
         try:
-            scene.set(_flat(found.get("set", {})))
+            scene.set(flat(found.get("set", {})))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
             task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))
             return cls(file.stem, found["description"], scene, task, study)
@@ -82,7 +82,7 @@ class Plan:
         factors = self.study.factors
         individual = [name for name in (PITCH, *RUNOUT) if name in factors]
         if individual and INDIVIDUAL not in factors:
-            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it \"0..1000000\""]
+            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it \"seed\""]
         return []
 
     def _check_ranges(self):
@@ -93,10 +93,10 @@ class Plan:
             if variable.kind not in ("Real", "Integer"):
                 continue
             drawn = np.array([values[name] for values in designs], float)
-            outside = (drawn < variable.least) | (drawn > variable.greatest)
+            bounds = [default if bound is None else float(bound) for bound, default in zip(variable.range, (-np.inf, np.inf))]
+            outside = (drawn < bounds[0]) | (drawn > bounds[1])
             if np.any(outside):
-                numbers = (variable.least, variable.greatest, drawn[outside][0])
-                least, greatest, worst = (_shown(variable, number) for number in numbers)
+                least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))
                 raise DifferentialError(f"{name}: {np.sum(outside)} of {len(drawn)} draws are outside {least} to {greatest}, "
                                         f"such as {worst}: make the tolerance narrower, or give a law that ends there, such as "
                                         "uniform(A, B)")
@@ -108,7 +108,7 @@ class _Reading:
     def __init__(self, scene, found):
         self.reader, self.problems = Reader(scene, found.get("capability", 1.0)), []
         self.factors = {name: self.attempt("[factors]", self.reader.read, name, given)
-                        for name, given in _flat(found["factors"]).items()}
+                        for name, given in flat(found["factors"]).items()}
         self.alternatives = [self.alternative(dict(entry)) for entry in found.get("alternative", [])]
         if self.problems:
             raise DifferentialError("\n".join(self.problems))
@@ -125,7 +125,7 @@ class _Reading:
         place = "[[alternative]]"
         if cost is not None and (isinstance(cost, bool) or not isinstance(cost, (int, float)) or not -1.0 < cost < 100.0):
             self.problems.append(f"{place} cost = {cost!r}: it is a part of the price of a differential, such as 0.02")
-        given = _flat(entry)
+        given = flat(entry)
         if not given:
             self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
         others = {variable: self.attempt(place, self.other, variable, text) for variable, text in given.items()}

@@ -5,6 +5,7 @@ import math
 from collections import Counter
 from pathlib import Path
 
+from ..text import aligned
 from .figures import Estimate, Spread, proportion
 from .plan import Plan
 from .study import Indices, Result
@@ -127,5 +128,4 @@ def _interval(estimate):
 
 
 def _table(lines):
-    widths = [max(map(len, column)) for column in zip(*lines)]
-    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines)
+    return "\n".join(aligned(lines, len(lines[0])))

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..extras import needed
 from ..values import DifferentialError
 
 
@@ -18,8 +19,7 @@ def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
     AB_i is A with the share of factor i from B. A and B are points of one scrambled Sobol sequence."""
     if not factors:
         return np.empty((runs, 0))
-    from SALib.sample import sobol
-
+    sobol = needed("SALib.sample.sobol", "design")
     problem = _problem(factors)
     return sobol.sample(problem, check_runs(runs) // 2, calc_second_order=False, seed=seed)
 
@@ -37,8 +37,7 @@ def _problem(factors):
 def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> dict[str, np.ndarray]:
     """Sobol indices of figures at `crossed`, shape (rows,): "S1", "ST" and the half widths "S1_conf", "ST_conf" of their
     intervals, shape (factors,)."""
-    from SALib.analyze import sobol
-
+    sobol = needed("SALib.analyze.sobol", "design")
     # SALib takes a seed of 0 for none
     found = sobol.analyze(_problem(factors), figures, calc_second_order=False, num_resamples=500, conf_level=level, seed=seed + 1)
     return {name: np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")}
