@@ -40,7 +40,9 @@ class Plan:
         file, fmu = Path(file), Fmu.of(fmu)
         try:
             found = tomllib.loads(file.read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        except OSError as error:
+            raise DifferentialError(f"{file}: {error.strerror}; the example is examples/design/tolerances.toml") from None
+        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
             raise DifferentialError(f"{file}: {error}") from None
         problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(found.keys() - KEYS)]
         problems += [f"{key} is missing" for key in NEEDED if key not in found]
