@@ -225,6 +225,12 @@ def test_failed_runs_are_out_of_limits_and_leave_no_indices():
     assert Spread.of(result.base.figures["y:final"]).runs == 64 - failed
 
 
+def test_a_figure_that_is_no_number_is_out_of_limits():
+    study = Study([factor("a", "uniform", -1.0, 1.0)], [want()], [Condition(want(), "<", 9.0)], runs=64)
+    result = result_of(study, Formula(lambda x: math.sqrt(x["a"]) if x["a"] > 0.0 else math.nan))
+    assert result.base.good.sum() == 32 and "runs failed" in result.indices["y:final"]
+
+
 def test_without_tolerances_all_are_the_nominal_one(turn):
     reader = Reader(turn)
     factors = [reader.read("geometry.backlash", "0.12 mm +- 0 mm"), reader.read("tooth_errors.side_runout", "20 um")]

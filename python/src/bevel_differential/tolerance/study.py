@@ -130,10 +130,10 @@ class Study:
     def _analysed(self, rows, want):
         if not self.indices:
             return "not asked for"
-        failed = sum(bool(row.message) for row in rows)
-        if failed:
-            return f"none, as {failed} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
         figures = _figures(rows, want)
+        missing = np.sum(~np.isfinite(figures))
+        if missing:
+            return f"none, as {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
         if np.ptp(figures) <= 1e-10 * np.abs(figures).max():
             return "none, as the figure does not vary"
         found = sample.analyse(len(self.names), figures, self.seed)
