@@ -14,8 +14,8 @@ from .study import Indices, Result
 from .verdict import verdicts
 
 BLUE, PALE, RED, GREY = "#1f6fb4", "#9bbfe0", "#d1495b", "#6b7280"
-# inches: width, a row of panels, what a factor or an alternative adds to it, the caption; letters of a line of the caption
-WIDTH, ROW, LINE, CAPTION, LETTERS = 12.0, 1.4, 0.13, 0.95, 170
+# inches: width, a row of panels, what a factor or an alternative adds to it, a line of the caption; letters of such a line
+WIDTH, ROW, LINE, CAPTION, LETTERS = 12.0, 1.4, 0.13, 0.19, 170
 STYLE = {"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True, "axes.spines.top": False,
          "axes.spines.right": False, "legend.frameon": False}
 
@@ -28,16 +28,17 @@ def draw(plan: Plan, result: Result, file) -> Path:
     found = verdicts(plan.study, result)
     figures = len(plan.study.wants) * (ROW + LINE * len(result.names))
     yields = (ROW + LINE * len(found)) if found else 0.0
+    lines = textwrap.wrap(_caption(plan, result, found), LETTERS)
+    heights = [figures, *([yields] if found else []), CAPTION * (len(lines) + 1)]
     with matplotlib.rc_context(STYLE):
-        picture = Figure(figsize=(WIDTH, figures + yields + CAPTION), layout="constrained")
-        parts = iter(picture.subfigures(2 + bool(found), 1, height_ratios=[figures, *([yields] if found else []), CAPTION]))
+        picture = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
+        parts = iter(picture.subfigures(len(heights), 1, height_ratios=heights))
         panels = next(parts).subplots(len(plan.study.wants), 2, squeeze=False)
         for i, want in enumerate(plan.study.wants):
             _histogram(panels[i, 0], plan, result, want)
             _bars(panels[i, 1], result, want, i == 0)
         if found:
             _yields(next(parts).subplots(), result, found)
-        lines = textwrap.wrap(_caption(plan, result, found), LETTERS)
         next(parts).text(0.01, 0.95, "\n".join(lines), va="top", color="#333333")
         try:
             picture.savefig(file, dpi=90)
