@@ -12,7 +12,7 @@ from bevel_differential.designs import Dimension, Farm, Row, Task
 from bevel_differential.statistic import Statistic
 from bevel_differential.tolerance import command
 from bevel_differential.tolerance.factor import Factor, Reader
-from bevel_differential.tolerance.figures import Spread, proportion
+from bevel_differential.tolerance.figures import Spread, gain, proportion
 from bevel_differential.tolerance.grade import Gear, gears
 from bevel_differential.tolerance.laws import Given, RunoutGrade, band
 from bevel_differential.tolerance.plan import Plan
@@ -179,6 +179,25 @@ def test_intervals_of_the_yield_contain_it_as_often_as_they_say():
     # 95 % of 60: 53 or more but for one case in a thousand
     assert sum(each.low <= 0.9 <= each.high for each in found) >= stats.binom.ppf(1e-3, 60, 0.95)
     assert np.mean([each.value for each in found]) == pytest.approx(0.9, abs=3.0 * 0.3 / math.sqrt(60 * 128))
+
+
+@pytest.mark.parametrize("better, worse, cost", [(0.08, 0.03, 0.02), (0.02, 0.0, 0.0), (0.005, 0.005, -0.1), (0.3, 0.1, 0.5)])
+def test_intervals_of_the_gain_contain_it_as_often_as_they_say(better, worse, cost):
+    always, inside = 0.6, 0
+    exact = better - worse - cost * (always + worse)
+    for share in np.random.default_rng(3).random((1000, 128)):
+        before, after = share < always + worse, (share < always) | (share >= 1.0 - better)
+        found = gain(before, after, cost)
+        inside += found.low <= exact <= found.high
+    # 950 of 1000 but for one case in a thousand
+    assert inside >= stats.binom.ppf(1e-3, 1000, 0.95)
+
+
+def test_where_no_run_changes_a_gain_remains_possible():
+    good = np.arange(64) < 50
+    found = gain(good, good, 0.0)
+    # rule of three: 3/64 at 95 % on one side
+    assert found.value == 0.0 and -found.low == found.high > 3.0 / 64.0
 
 
 def alternatives_of_a_sum(cost):

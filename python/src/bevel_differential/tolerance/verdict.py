@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .figures import Estimate, mean_of_pairs, proportion
+from .figures import Estimate, gain, proportion
 from .study import Alternative, Draws, Indices, Result, Study
 
 
@@ -13,8 +13,8 @@ class Verdict:
     """Judgement on an alternative.
 
     `word`: "worth its money", "not worth its money" or "undecided"; without costs "raises the yield", "lowers the yield" or
-    "no change seen". `yield_`: its yield. `gain`: mean over the runs of good − (1 + cost)·(good before): above 0 where a good
-    differential becomes cheaper, (1 + cost)/yield being its price if the others are scrapped. `why`: the factor's part in the
+    "no change seen". `yield_`: its yield. `gain`: this less (1 + cost) times the yield before: above 0 where a good
+    differential becomes cheaper, (1 + cost)/yield being its price if the others are scrapped. `why`: the factor's part in a
     variance."""
 
     alternative: Alternative
@@ -41,13 +41,13 @@ def verdicts(study: Study, result: Result) -> list[Verdict]:
 
 def _verdict(study, result, one: Alternative, draws: Draws):
     cost = one.cost or 0.0
-    gain = mean_of_pairs(draws.good - (1.0 + cost) * result.base.good, study.seed)
+    change = gain(result.base.good, draws.good, cost)
     if one.cost is None:
         words = "raises the yield", "lowers the yield", "no change seen"
     else:
         words = "worth its money", "not worth its money", "undecided"
-    word = words[0] if gain.low > 0.0 else words[1] if gain.high < 0.0 else words[2]
-    return Verdict(one, word, proportion(draws.good), gain, _why(study, result, one))
+    word = words[0] if change.low > 0.0 else words[1] if change.high < 0.0 else words[2]
+    return Verdict(one, word, proportion(draws.good), change, _why(study, result, one))
 
 
 def _why(study, result, one):
