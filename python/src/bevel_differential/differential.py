@@ -42,8 +42,8 @@ class Differential:
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError`
-        with the FMU's message."""
+        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
+        `DifferentialError` with the FMU's message."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
@@ -91,7 +91,7 @@ class Differential:
         start.update((variable.name, (variable, value)) for variable, value in signals.start())
         instance = self._instance()
         instance.start(list(start.values()), steps.points[-1])
-        batches = Batches(variables)
+        batches = Batches.of(tuple(variables))
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
@@ -124,7 +124,7 @@ def as_frame(record):
 def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records; sets what changes before each step."""
     readers = batches.readers(instance, record)
-    driven = Batches([table.variable for table in signals.tables])
+    driven = Batches.of(tuple(table.variable for table in signals.tables))
     changes = list(signals.changes)
     sizes = np.diff(steps.points).tolist()
     for row, (begin, size) in enumerate([(0.0, 0.0), *zip(steps.begins.tolist(), sizes)]):
@@ -139,7 +139,7 @@ def _advance(instance, batches, record, steps, signals):
 
 
 def _set(instance, pairs):
-    Batches([variable for variable, _ in pairs]).set(instance, [value for _, value in pairs])
+    Batches.of(tuple(variable for variable, _ in pairs)).set(instance, [value for _, value in pairs])
 
 
 def _structured(points, variables, batches, record):

@@ -45,7 +45,7 @@ class Signals:
         self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
         times = [table.jumps() for table in self.tables] + [np.array([time for time, _ in self.changes])]
-        self.jumps = np.unique(np.concatenate(times))
+        self.jumps = np.unique(np.concatenate(times)) if self.tables or self.changes else np.empty(0)
 
     @classmethod
     def of(cls, fmu, inputs):

@@ -1,6 +1,7 @@
 """An instance of the FMU. fmpy loads and instantiates; what is called in every step is called without its wrappers."""
 
 import ctypes
+from functools import lru_cache
 
 import numpy as np
 from fmpy.fmi2 import FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
@@ -36,7 +37,11 @@ class Instance:
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
                                  for call in ("Real", "Integer", "Boolean")} for verb in ("Get", "Set"))
         self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
-        self._reset = self._function("fmi2Reset", ctypes.c_void_p)
+        self._setup = self._function("fmi2SetupExperiment", ctypes.c_void_p, ctypes.c_int, ctypes.c_double, ctypes.c_double,
+                                     ctypes.c_int, ctypes.c_double)
+        self._reset, self._enter, self._exit = (
+            self._function(name, ctypes.c_void_p)
+            for name in ("fmi2Reset", "fmi2EnterInitializationMode", "fmi2ExitInitializationMode"))
         self._is_fresh = True
 
     def _function(self, name, *types):
@@ -61,16 +66,10 @@ class Instance:
             self.check(self._reset(self._component), "fmi2Reset")
         self._is_fresh = False
         self.messages.clear()
-        slave = self._slave
-        try:
-            slave.setupExperiment(startTime=0.0, stopTime=stop)
-            Batches([variable for variable, _ in values]).set(self, [value for _, value in values])
-            slave.enterInitializationMode()
-            slave.exitInitializationMode()
-        except DifferentialError:
-            raise
-        except Exception as failure:
-            raise DifferentialError(self.messages[-1] if self.messages else str(failure)) from None
+        self.check(self._setup(self._component, 0, 0.0, 0.0, 1, stop), "fmi2SetupExperiment")
+        Batches.of(tuple(variable for variable, _ in values)).set(self, [value for _, value in values])
+        self.check(self._enter(self._component), "fmi2EnterInitializationMode")
+        self.check(self._exit(self._component), "fmi2ExitInitializationMode")
 
     def do_step(self, time, size):
         """A communication step, s."""
@@ -84,6 +83,11 @@ class Instance:
             self._slave.fmi2FreeInstance(self._slave.component)
             self._component = None
 
+    def __del__(self):
+        # of a thread that has ended, or where nobody has closed it
+        if getattr(self, "_component", None):
+            self.close()
+
 
 class Batches:
     """Variables in groups of their kinds, so that one call sets or gets a group. Order is kept within a kind."""
@@ -96,6 +100,12 @@ class Batches:
                 references = np.array([variables[place].reference for place in places], np.uint32)
                 dtype = np.float64 if call == "Real" else np.int32
                 self.groups.append((call, places, references, dtype))
+
+    @staticmethod
+    @lru_cache(256)
+    def of(variables: tuple) -> "Batches":
+        """Those of these variables, kept: designs of a sweep share them."""
+        return Batches(variables)
 
     def set(self, instance, values):
         """Sets all."""

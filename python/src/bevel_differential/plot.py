@@ -1,5 +1,6 @@
 """Pictures of a record: a panel for each unit."""
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -24,14 +25,15 @@ def plot(fmu, record: np.ndarray, title: str = "", caption: str = "", file=None)
         raise DifferentialError("the record has no outputs to draw")
     panels = {}
     for name in names:
-        unit, values = fmu.variable(name).shown(record[name].astype(float))
-        panels.setdefault(unit, []).append((name, values))
+        variable = fmu.variable(name)
+        unit, values = variable.shown(record[name].astype(float))
+        panels.setdefault((unit, variable.kind), []).append((name, values))
     with matplotlib.rc_context({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
                                 "axes.axisbelow": True}):
         figure = Figure(figsize=(WIDTH, PANEL * len(panels) + REST), layout="constrained")
         axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for panel, (unit, curves) in zip(axes, panels.items()):
-            _draw(panel, record["time"], unit, curves, fmu)
+        for panel, ((unit, kind), curves) in zip(axes, panels.items()):
+            _draw(panel, record["time"], unit, kind, curves)
         axes[-1].set_xlabel("time, s")
         figure.align_ylabels(axes)
         if title:
@@ -42,21 +44,24 @@ def plot(fmu, record: np.ndarray, title: str = "", caption: str = "", file=None)
     return figure
 
 
-def _draw(panel, times, unit, curves, fmu):
-    for name, values in curves:
-        # numbers of literals and truths hold until the next one
-        held = fmu.variable(name).kind != "Real"
-        panel.plot(times, values, label=name, linewidth=1.3, drawstyle="steps-post" if held else "default")
-    panel.set_ylabel(_quantity(curves, unit))
+def _draw(panel, times, unit, kind, curves):
+    for place, (name, values) in enumerate(curves):
+        # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
+        panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
+                   drawstyle="default" if kind == "Real" else "steps-post")
+    panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     panel.ticklabel_format(axis="y", useOffset=False)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
 
 
-def _quantity(curves, unit):
-    """The last part of the names, if all have the same, and the unit."""
-    words = {name.rpartition(".")[2].removeprefix("left_").removeprefix("right_").replace("_", " ") for name, _ in curves}
-    word = words.pop() if len(words) == 1 else ""
-    return ", ".join(filter(None, [word, unit.replace(".", "·")])) or "value"
+def _quantity(names, unit):
+    """The last words that all names share, and the unit."""
+    shared = []
+    for words in zip(*(reversed(re.split(r"[._]", name)) for name in names)):
+        if len(set(words)) > 1 or words[0] in ("left", "right"):
+            break
+        shared.insert(0, words[0])
+    return ", ".join(filter(None, [" ".join(shared), unit.replace(".", "·")])) or "values without unit"
 
 
 def _caption(record):

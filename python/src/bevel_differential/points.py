@@ -1,6 +1,7 @@
 """Times as a user writes them, and the communication points of a run."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -54,14 +55,30 @@ class Steps:
 
         Hosts begin a step where the one before was asked to end. With `exact` beginning and size add up to the end to the last
         bit, as in the command `scene`."""
+        if len(jumps) == 0:
+            return _regular_steps(stop, step, exact)
         slack = SLACK * (step or stop)
-        if step is None:
-            regular = np.array([0.0])
-        else:
-            regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
-            regular = regular[regular < stop - slack]
-        regular = np.append(regular, stop)
+        regular = _regular(stop, step, slack)
         inner = jumps[(jumps > 0.0) & (jumps < stop)]
         near = np.abs(inner[:, None] - regular).min(axis=1, initial=np.inf) < slack
-        points = np.union1d(regular, inner[~near])
+        return cls._between(np.union1d(regular, inner[~near]), slack, exact)
+
+    @classmethod
+    def _between(cls, points, slack, exact):
         return cls(points, points[1:] - np.diff(points) if exact else points[:-1], slack)
+
+
+@lru_cache(64)
+def _regular_steps(stop, step, exact):
+    """Steps without jumps, kept: designs of a sweep share them."""
+    slack = SLACK * (step or stop)
+    steps = Steps._between(_regular(stop, step, slack), slack, exact)
+    steps.points.flags.writeable = steps.begins.flags.writeable = False
+    return steps
+
+
+def _regular(stop, step, slack):
+    if step is None:
+        return np.array([0.0, stop])
+    regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
+    return np.append(regular[regular < stop - slack], stop)

@@ -100,7 +100,8 @@ class Scene:
         """Writes a record in SI as Parquet; fields name their units."""
         pa = needed("pyarrow", "sweep")
         units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in record.dtype.names[1:]}}
-        fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit}) for name, unit in units.items()]
+        fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})
+                  for name, unit in units.items()]
         table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
         needed("pyarrow.parquet", "sweep").write_table(table, file)
         return Path(file)

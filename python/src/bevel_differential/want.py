@@ -56,7 +56,8 @@ class Condition:
         """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
         parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
         if len(parts) != 3:
-            raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of {', '.join(RELATIONS)}")
+            raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of "
+                                    f"{', '.join(RELATIONS)}")
         want = Want.parse(fmu, parts[0])
         return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
 

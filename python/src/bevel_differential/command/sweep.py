@@ -16,11 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser):
     """Adds what the command takes."""
     parser.add_argument("--scene", help="a scene file (TOML), or the name of a shipped scene")
     parser.add_argument("--vary", metavar="NAME=VALUES", type=assignment, action="append", default=[],
-                        help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
-                             "lognormal(MEDIAN, FACTOR) or seed")
+                        help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), "
+                             "triangular(A, PEAK, B), lognormal(MEDIAN, FACTOR) or seed")
     add_set(parser)
     parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (start value: random)")
-    parser.add_argument("--runs", type=int, metavar="N", help="how many; a grid has as many as it has, Sobol takes a power of two")
+    parser.add_argument("--runs", type=int, metavar="N", help="how many; not for a grid, and Sobol takes a power of two")
     parser.add_argument("--seed", type=int, metavar="N", help="what all draws follow from (start value: 0)")
     parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
                         help="a figure to record, such as left.speed:mean; the final value without a statistic")
@@ -31,7 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser):
     parser.add_argument("--out", metavar="FILE", help="results as Parquet")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="start over where there are results")
-    parser.add_argument("--workers", type=int, metavar="N", help="how many work at once (start value: one per core; 0: no others)")
+    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (start value: one per core; 0: this process)")
     parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
     add_fmu(parser)
@@ -83,7 +83,8 @@ def _read(file):
     for key in found:
         if key not in KEYS:
             raise DifferentialError(f"{file}: {key}: there is no such key{suggestion(key, KEYS)}; known: {', '.join(KEYS)}")
-    for key, kind, written in [("set", dict, "a table"), ("vary", dict, "a table"), ("want", list, "a list"), ("condition", list, "a list")]:
+    for key, kind, written in [("set", dict, "a table"), ("vary", dict, "a table"), ("want", list, "a list"),
+                               ("condition", list, "a list")]:
         if not isinstance(found.get(key, kind()), kind):
             raise DifferentialError(f"{file}: {key} is {written}")
     return {KEYS[key]: flat(value) if key in ("set", "vary") else value for key, value in found.items()}

@@ -1,16 +1,20 @@
 """Workers: dask.distributed, quiet, without a dashboard."""
 
-import asyncio
 import logging
 import multiprocessing
 import os
+import signal
+import warnings
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 
 from ..extras import needed
 from ..values import DifferentialError
 
+# no message has this level
+SILENT = logging.CRITICAL + 1
 # a scheduler or its workers that do not answer so soon are not there, s
-PATIENCE = 10.0
+PATIENCE = 5.0
 # a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
 ALLOWED_FAILURES = 0
 # a worker that takes longer to start again is given up for good
@@ -27,18 +31,12 @@ def client(workers: int | None, processes: bool, scheduler: str | None):
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
                                 "if __name__ == \"__main__\":")
-    log = logging.getLogger("distributed")
-    level = log.level
-    log.setLevel(logging.CRITICAL + 1)
-    try:
-        with dask.config.set(SETTINGS):
-            opened = _connected(distributed, scheduler) if scheduler else _started(distributed, workers, processes)
-            try:
-                yield opened
-            finally:
-                _closed(opened, own=not scheduler)
-    finally:
-        log.setLevel(level)
+    with _quiet(), dask.config.set(SETTINGS):
+        opened = _connected(distributed, scheduler) if scheduler else _started(distributed, workers, processes)
+        try:
+            yield opened
+        finally:
+            _closed(opened, own=not scheduler)
 
 
 def usual_workers() -> int:
@@ -49,22 +47,60 @@ def usual_workers() -> int:
 def _started(distributed, workers, processes):
     count = workers or usual_workers()
     sizes = {"n_workers": count, "threads_per_worker": 1} if processes else {"n_workers": 1, "threads_per_worker": count}
-    cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=logging.CRITICAL + 1,
-                                       memory_limit=0, host="127.0.0.1" if processes else None)
+    with _interrupts_for_this_process_alone(), warnings.catch_warnings():
+        # where another cluster has its port for browsers
+        warnings.simplefilter("ignore", UserWarning)
+        try:
+            cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=SILENT,
+                                               memory_limit=0, host="127.0.0.1" if processes else None)
+        except RuntimeError as error:
+            raise DifferentialError(f"the workers do not start ({error}); a script starts them below "
+                                    "if __name__ == \"__main__\": alone, as each worker reads it") from None
     # it listens for browsers even so
     cluster.loop.add_callback(cluster.scheduler.http_server.stop)
     return distributed.Client(cluster, set_as_default=False)
 
 
+@contextmanager
+def _quiet():
+    """No log of dask: what matters is said by errors."""
+    logs = [logging.getLogger(name) for name in ("distributed", *logging.root.manager.loggerDict)
+            if name.partition(".")[0] == "distributed"]
+    levels = [log.level for log in logs]
+    for log in logs:
+        log.setLevel(SILENT)
+    try:
+        yield
+    finally:
+        for log, level in zip(logs, levels):
+            log.setLevel(level)
+
+
+@contextmanager
+def _interrupts_for_this_process_alone():
+    """Threads and processes that are started meanwhile, and what these start, never see a Ctrl-C. One that comes meanwhile waits
+    for the end."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    # the process that it starts with the first worker would end the blocking
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _connected(distributed, scheduler):
     try:
         client = distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False)
-    except (OSError, ValueError, asyncio.TimeoutError):
-        raise DifferentialError(f"scheduler {scheduler}: nothing answers there; start one by dask scheduler, or leave it out to use "
-                                "the cores of this machine") from None
+    except (OSError, ValueError, TimeoutError):
+        raise DifferentialError(f"scheduler {scheduler}: nothing answers there; start one by dask scheduler, or leave it out to "
+                                "use the cores of this machine") from None
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
-    except asyncio.TimeoutError:
+    except TimeoutError:
         client.close()
         raise DifferentialError(f"scheduler {scheduler}: it has no workers; start some by dask worker {scheduler}") from None
     return client

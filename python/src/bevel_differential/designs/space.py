@@ -91,8 +91,8 @@ class Dimension:
             numbers = (variable.number(parts[0]), _plain(variable, parts[1], text))
         else:
             numbers = tuple(variable.number(part) for part in parts)
-        sane = {"uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0, "triangular": lambda a, c, b: a <= c <= b and a < b,
-                "lognormal": lambda m, f: m > 0.0 and f > 1.0}[kind]
+        sane = {"uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
+                "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}[kind]
         if not sane(*numbers):
             raise DifferentialError(f"{variable.name} = {text}: these numbers make no distribution; {_USAGE}")
         return cls(variable.name, kind, numbers)
@@ -116,7 +116,7 @@ class Dimension:
         low, high = self.numbers
         if self.whole:
             step = 1 if self.count is None else (high - low) / (self.count - 1)
-            return [int(round(value)) for value in np.arange(low, high + 0.5 * step, step)]
+            return [round(value) for value in np.arange(low, high + 0.5 * step, step)]
         if self.count is None:
             raise DifferentialError(f"{self.variable}: a grid needs the number of values, such as FROM..TO:11")
         return np.linspace(low, high, self.count).tolist()

@@ -21,7 +21,8 @@ PLAN = "plan.json"
 class Store:
     """Results on their way to `file`, with what they are results of as `metadata`; `metadata["hash"]` names it.
 
-    A context: what has been added is kept, whatever ends it. `resume` goes on with the parts that are there, `force` starts over."""
+    A context: what has been added is kept, whatever ends it. `resume` goes on with the parts
+    that are there, `force` starts over."""
 
     def __init__(self, file, columns, metadata: dict, resume: bool = False, force: bool = False):
         self.file, self.columns, self.metadata = Path(file), columns, metadata
@@ -108,11 +109,11 @@ class Store:
         except (OSError, ValueError, KeyError):
             found = None
         if found != self.metadata["hash"]:
-            raise DifferentialError(f"{self.folder}: it holds parts of another plan; name another file, or remove them with --force "
-                                    "(force=True)")
+            raise DifferentialError(f"{self.folder}: it holds parts of another plan; name another file, or remove them with "
+                                    "--force (force=True)")
         if not resume:
-            raise DifferentialError(f"{self.folder}: it holds parts of this plan; go on with --resume (resume=True), or start over "
-                                    "with --force (force=True)")
+            raise DifferentialError(f"{self.folder}: it holds parts of this plan; go on with --resume (resume=True), or start "
+                                    "over with --force (force=True)")
 
     def _begin(self):
         try:

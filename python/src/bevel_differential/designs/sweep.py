@@ -5,7 +5,7 @@ import importlib.metadata
 import json
 import time
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,7 +19,7 @@ from ..values import DifferentialError
 from .farm import Farm
 from .plan import Plan
 from .space import Space
-from .store import Store
+from .store import Store, StoreError
 from .table import Columns, digest, metadata_of, with_metadata
 from .task import Task
 
@@ -33,7 +33,8 @@ class SweepResult:
     """All runs of a plan.
 
     `table`: run, what varied, figures, feasible, message, seconds; SI, fields name their units; in order of run.
-    `metadata`: what they are results of. `seconds`: what this sweep took; `new`: runs of it, others were kept from before."""
+    `metadata`: what they are results of. `seconds`: what the runs of this sweep took, without the start of workers;
+    `new`: how many these were, as others were kept from before."""
 
     table: pa.Table
     metadata: dict
@@ -76,30 +77,39 @@ def sweep(scene, vary, plan: str = "random", runs: int | None = None, seed: int 
     """Runs a scene (a `Scene`, or what `Scene.load` takes) for all designs of a plan.
 
     `vary`: values by variable, see `Dimension.parse`. `plan`, `runs`, `seed`: see `Plan`. `wants`, `conditions`, `start`: see
-    `Task`. `out`: a Parquet file; see `Store`. `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
+    `Task`. `out`: a Parquet file; see `Store`. `farm`: what `Farm` takes. An interrupt keeps what is done and raises
+    `Stopped`."""
     scene = scene if isinstance(scene, Scene) else Scene.load(scene)
     space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
     task = Task(scene, wants, conditions, seconds("from", start))
     plan = plan if isinstance(plan, Plan) else Plan.parse(space, plan, runs, seed)
     columns, metadata = Columns(task, space), describe(task, plan)
-    begun = time.perf_counter()
     if out is None:
         with Farm(**farm) as workers:
+            begun = time.perf_counter()
             table = with_metadata(columns.table(list(workers.rows(task, plan.designs()))), metadata)
-        return SweepResult(table, metadata, None, time.perf_counter() - begun, plan.runs)
+            return SweepResult(table, metadata, None, time.perf_counter() - begun, plan.runs)
     with Store(out, columns, metadata, resume, force) as store:
         done = store.runs()
         missing = [design for design in plan.designs() if design[0] not in done]
+        taken = 0.0
         try:
             if missing:
                 with Farm(**farm) as workers, closing(workers.rows(task, missing)) as rows:
+                    begun = time.perf_counter()
                     for row in rows:
                         store.add(row)
+                    taken = time.perf_counter() - begun
         except KeyboardInterrupt:
             store.flush()
             raise Stopped(f"stopped; {store.progress()}") from None
+        except StoreError:
+            raise
+        except DifferentialError as error:
+            store.flush()
+            raise DifferentialError(f"{error}; {store.progress()}") from None
         table = store.finish() if store.finished is None else store.finished
-    return SweepResult(table, metadata, Path(out), time.perf_counter() - begun, len(missing))
+    return SweepResult(table, metadata, Path(out), taken, len(missing))
 
 
 def describe(task: Task, plan: Plan) -> dict:

@@ -33,7 +33,8 @@ class Task:
     """A scene and what is wanted of each of its designs. It can be sent to other processes.
 
     `wants` and `conditions` as text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures are taken from after
-    `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one long step."""
+    `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one
+    long step."""
 
     def __init__(self, scene: Scene, wants: Sequence, conditions: Sequence = (), start: float = 0.0):
         self.scene, self.start = scene, start

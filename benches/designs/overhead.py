@@ -1,0 +1,160 @@
+"""What the Python package costs over the FMU's calls, and what designs cost on workers.
+
+    python benches/designs/overhead.py [--runs N] [--designs N]
+
+Needs the package with its extra [sweep], the FMU (BEVEL_DIFFERENTIAL_FMU) and a C compiler. Runs with and without the package
+alternate, so that other work of the machine weighs on both; medians are compared."""
+
+import argparse
+import statistics
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+from bevel_differential import Differential, Fmu, Scene
+from bevel_differential.designs import Farm, Space, Task
+from bevel_differential.designs.cluster import usual_workers
+from bevel_differential.designs.plan import Plan
+from bevel_differential.instance import CALLS
+from bevel_differential.text import aligned
+
+TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
+        "scene.start": "rolling"}
+TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
+       "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
+STOP = 0.5
+# most that Python may take over the calls
+LIMIT_FINAL, LIMIT_RECORD, LIMIT_DRAWN, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0
+LOADS = {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_torque": "normal(835 N.m, 40 N.m)",
+         "geometry.backlash": "uniform(0.05 mm, 0.15 mm)", "tooth_friction.coefficient": "uniform(0.03, 0.08)"}
+DRAWN = {"drawn tooth errors": ({"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7},
+                                {"tooth_errors.seed": "seed", "tooth_errors.crowning": "uniform(2 um, 10 um)"}),
+         "drawn geometry": ({}, {"geometry.face_width": "normal(20 mm, 0.05 mm)", "geometry.module": "normal(4.5 mm, 0.01 mm)"})}
+
+
+class Calls:
+    """The C program, compiled."""
+
+    def __init__(self, folder, fmu):
+        self.folder, self.fmu = Path(folder), fmu
+        self.program = self.folder / "calls"
+        subprocess.run(["cc", "-O2", "-o", self.program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
+        self.library = next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
+
+    def seconds(self, values, outputs, step, runs):
+        """Seconds of each run, the first left out: it makes what follows from the gears."""
+        lines = []
+        for name, value in values.items():
+            variable = self.fmu.variable(name)
+            lines.append(f"{CALLS[variable.kind][0]} {variable.reference} {float(variable.number(value))!r}")
+        (self.folder / "set").write_text("\n".join(lines))
+        references = [str(self.fmu.variable(name).reference) for name in outputs]
+        command = [self.program, self.library, self.fmu.description.guid, self.folder / "set", str(STOP), str(step or 0.0),
+                   str(runs + 1), *references]
+        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        return [float(line) for line in printed.split()][1:]
+
+
+def timed(action, *arguments):
+    begun = time.perf_counter()
+    action(*arguments)
+    return time.perf_counter() - begun
+
+
+def overhead(calls, runs):
+    """Rows: a turn through the package over the calls in C."""
+    with Differential(TURN, fmu=calls.fmu.file) as turn:
+        for what, step, use, limit in [
+                ("0.5 s turn, final values", None, lambda: turn.final(TEN, stop=STOP), LIMIT_FINAL),
+                ("0.5 s turn, ten outputs every 1 ms", 1e-3, lambda: turn.run(outputs=TEN, stop=STOP, step=1e-3), LIMIT_RECORD)]:
+            use()
+            package, bare = [], []
+            for _ in range(max(1, runs // 20)):
+                bare += calls.seconds(TURN, TEN, step, 20)
+                package += [timed(use) for _ in range(20)]
+            yield row(what, statistics.median(package) * 1e3, statistics.median(bare) * 1e3, "ms", limit)
+
+
+def row(what, package, bare, unit, limit):
+    """A row of the table; without calls to compare with the limit is of the package's time itself."""
+    ratio = package / bare if bare else None
+    kept = (ratio if bare else package) <= limit
+    return (what, f"{package:.3f} {unit}", f"{bare:.3f} {unit}" if bare else "-", f"{ratio:.2f}" if bare else "-",
+            f"{limit:g}" if bare else f"{limit:g} {unit}", "yes" if kept else "no")
+
+
+def monte_carlo(fmu, designs, workers):
+    """Rows: plain turns with drawn loads, backlash and friction, by workers of all cores."""
+    with Farm(workers) as farm:
+        for what, friction in [("friction off", False), ("friction on", True)]:
+            with Scene("turn", stop=STOP, set={**TURN, "effects.tooth_friction": friction}, fmu=fmu.file) as scene:
+                task = Task(scene, ["left.speed", "right.speed", "efficiency"])
+                plan = Plan.parse(Space.parse(fmu, LOADS), "random", designs, 1).designs()
+                farm.evaluate(task, plan[:200])
+                taken = timed(farm.evaluate, task, plan) * 10_000 / designs
+            yield row(f"10 000 turns, {workers} workers, {what}", taken, None, "s", LIMIT_MONTE_CARLO)
+
+
+def drawn(calls, designs, workers):
+    """Rows: designs with drawn errors or geometry on workers over the calls of the same designs in C, shared by the workers."""
+    fmu = calls.fmu
+    for what, (values, vary) in DRAWN.items():
+        with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene, Farm(workers) as farm:
+            task = Task(scene, ["left.speed", "right.speed", "efficiency"])
+            plan = Plan.parse(Space.parse(fmu, vary), "random", designs, 1).designs()
+            farm.evaluate(task, plan[:50])
+            taken = timed(farm.evaluate, task, plan)
+        yield row(f"{designs} designs, {what}", taken, bare_designs(fmu, {**TURN, **values}, plan) / workers, "s", LIMIT_DRAWN)
+
+
+def bare_designs(fmu, values, plan):
+    """Seconds of the calls of all designs, one after the other: those of `Instance`, with arrays that are ready."""
+    from bevel_differential.instance import Batches, Instance
+    instance, batches = Instance(fmu), Batches([fmu.variable(name) for name in ("left.speed", "right.speed", "efficiency")])
+    record, taken = batches.record(2), 0.0
+    readers = batches.readers(instance, record)
+    fixed = {name: fmu.variable(name).number(value) for name, value in values.items()}
+    for _, design in plan:
+        pairs = [(fmu.variable(name), value) for name, value in {**fixed, **design}.items()]
+        begun = time.perf_counter()
+        instance.start(pairs, STOP)
+        instance.do_step(0.0, STOP)
+        for get, component, references, count, address, _ in readers:
+            get(component, references, count, address)
+        taken += time.perf_counter() - begun
+    instance.close()
+    return taken
+
+
+def scaling(fmu, designs):
+    """Rows: designs/s by workers."""
+    with Scene("turn", stop=STOP, set=TURN, fmu=fmu.file) as scene:
+        task, first = Task(scene, ["left.speed:mean"]), None
+        plan = Plan.parse(Space.parse(fmu, LOADS), "random", designs, 1).designs()
+        for processes in (True, False):
+            for workers in sorted({1, 2, usual_workers()}):
+                with Farm(workers, processes) as farm:
+                    farm.evaluate(task, plan[:50])
+                    rate = designs / timed(farm.evaluate, task, plan)
+                first = first or rate
+                yield f"{workers} {'processes' if processes else 'threads'}", f"{rate:.0f}", f"{rate / first:.2f}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--runs", type=int, default=200, help="runs of a turn")
+    parser.add_argument("--designs", type=int, default=10_000, help="designs of the Monte Carlo; a tenth for the others")
+    given = parser.parse_args()
+    fmu, workers = Fmu.of(), min(2, usual_workers())
+    with tempfile.TemporaryDirectory() as folder:
+        calls = Calls(folder, fmu)
+        rows = [("what", "package", "calls", "ratio", "limit", "kept"), *overhead(calls, given.runs),
+                *monte_carlo(fmu, given.designs, workers), *drawn(calls, max(50, given.designs // 10), workers)]
+        print("\n".join(aligned(rows, left=1)), "\n")
+        rows = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
+        print("\n".join(aligned(rows, left=1)))
+
+
+if __name__ == "__main__":
+    main()

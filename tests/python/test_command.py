@@ -1,0 +1,141 @@
+"""The command `bevel-differential`: what it prints, what it writes, and how it says what is wrong."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from bevel_differential import Differential, DifferentialError, Scene, extras
+from bevel_differential.command import COMMANDS, main
+from bevel_differential.designs.sweep import SweepResult, sweep
+
+SWEEP = ["sweep", "--scene", "study_turning", "--vary", "left.load_torque=700 N.m..900 N.m", "--vary",
+         "contact.law=line, line_weber", "--want", "left.speed:mean", "--condition", "efficiency >= 0.9", "--from", "0.14 s",
+         "--workers", "0"]
+
+
+@pytest.fixture(autouse=True)
+def with_fmu(fmu_file, monkeypatch):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+
+
+def test_run_writes_what_the_scene_gives(tmp_path, capsys):
+    csv, parquet, picture = (tmp_path / f"turn.{kind}" for kind in ("csv", "parquet", "png"))
+    assert main(["run", "study_turning", "--set", "left.load_torque=700 N.m", "--stop", "50 ms", "--output", "left.speed",
+                 "--output", "planet[1].left_pairs", "--csv", str(csv), "--parquet", str(parquet), "--plot", str(picture)]) == 0
+    printed = capsys.readouterr().out
+    with Scene.load("study_turning") as scene:
+        record = scene.set({"left.load_torque": 700.0}).run(["left.speed", "planet[1].left_pairs"], stop=0.05)
+    assert "left.speed" in printed and f"{np.degrees(record['left.speed'][-1]):.6g}" in printed
+    table = pq.read_table(parquet)
+    assert all(np.array_equal(table[name].to_numpy(), record[name]) for name in record.dtype.names)
+    assert table.schema.field("left.speed").metadata == {b"unit": b"rad/s"}
+    assert csv.read_text().splitlines()[2] == "time,left.speed,planet[1].left_pairs"
+    assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_picture_has_a_panel_for_each_unit_with_the_usual_one(fmu_file):
+    with Differential(fmu=fmu_file) as straight:
+        record = straight.run(outputs=["left.speed", "carrier.speed", "left.shaft_torque", "planet[1].left_pairs"], stop=0.01)
+        figure = straight.plot(record)
+    assert [axes.get_ylabel() for axes in figure.axes] == ["speed, deg/s", "shaft torque, N·m", "pairs"]
+    assert figure.axes[-1].get_xlabel() == "time, s"
+    speed = figure.axes[0].lines[0].get_ydata()
+    assert np.allclose(speed, np.degrees(record["left.speed"]), rtol=1e-15)
+    assert [text.get_text() for text in figure.axes[0].get_legend().texts] == ["left.speed", "carrier.speed"]
+
+
+def test_a_frame_is_the_record_by_time(fmu_file):
+    with Differential(fmu=fmu_file) as straight:
+        record, frame = (straight.run(stop=0.01, frame=as_frame) for as_frame in (False, True))
+    assert frame.index.name == "time" and np.array_equal(frame.index, record["time"])
+    assert all(np.array_equal(frame[name], record[name]) for name in record.dtype.names[1:])
+
+
+def test_a_missing_package_is_said_with_its_extra(fmu_file, monkeypatch):
+    def missing(name):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    monkeypatch.setattr(extras.importlib, "import_module", missing)
+    with Differential(fmu=fmu_file) as straight:
+        with pytest.raises(DifferentialError, match=r"pandas.*bevel-differential\[sweep\]"):
+            straight.run(stop=0.01, frame=True)
+        with pytest.raises(DifferentialError, match=r"matplotlib.*bevel-differential\[plot\]"):
+            straight.plot(straight.run(stop=0.01))
+
+
+def test_sweep_prints_what_it_found_and_does_what_the_package_does(tmp_path, capsys):
+    out = tmp_path / "found.parquet"
+    assert main([*SWEEP, "--plan", "sobol", "--runs", "5", "--seed", "1", "--set", "right.load_torque=800",
+                 "--out", str(out)]) == 0
+    printed = capsys.readouterr().out
+    with Scene.load("study_turning") as scene:
+        scene.set({"right.load_torque": 800.0})
+        expected = sweep(scene, {"left.load_torque": "700 N.m..900 N.m", "contact.law": "line, line_weber"}, "sobol", 5, 1,
+                         ["left.speed:mean"], ["efficiency >= 0.9"], "0.14 s", workers=0)
+    assert SweepResult.load(out).digest() == expected.digest()
+    assert "8 (5 asked for" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
+
+
+def test_a_plan_file_says_the_same_as_options_and_options_come_first(tmp_path):
+    file, out, again = tmp_path / "plan.toml", tmp_path / "a.parquet", tmp_path / "b.parquet"
+    file.write_text('scene = "study_turning"\nplan = "lhs"\nruns = 3\nseed = 1\nwant = ["left.speed:mean"]\n'
+                    'condition = ["efficiency >= 0.9"]\nfrom = "0.14 s"\n[vary]\nleft.load_torque = "700 N.m..900 N.m"\n'
+                    '"contact.law" = "line, line_weber"\n')
+    assert main(["sweep", "--plan-file", str(file), "--runs", "4", "--workers", "0", "--out", str(out)]) == 0
+    assert main([*SWEEP, "--plan", "lhs", "--runs", "4", "--seed", "1", "--out", str(again)]) == 0
+    assert SweepResult.load(out).digest() == SweepResult.load(again).digest()
+    file.write_text("scen = 1\n")
+    assert main(["sweep", "--plan-file", str(file)]) == 1
+
+
+def test_failures_are_listed_by_message_the_most_frequent_first(capsys):
+    assert main(["sweep", "--scene", "study_turning", "--vary", "geometry.module=-1 mm, -2 mm, 4.5 mm", "--vary",
+                 "left.load_torque=1, 2", "--plan", "grid", "--want", "left.speed", "--workers", "0"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[:2] == ["runs      6", "failed    4"]
+    assert [line.split()[0] for line in lines[2:4]] == ["2", "2"] and all("geometry.module" in line for line in lines[2:4])
+
+
+@pytest.mark.parametrize("arguments, status, parts", [
+    (["swep"], 2, ["swep", "did you mean sweep"]),
+    (["run"], 2, ["scene", "run --help"]),
+    (["run", "study_turning", "--set", "left.load_torque"], 2, ["--set", "NAME=VALUE"]),
+    (["sweep", "--plan", "all"], 2, ["--plan", "all"]),
+    (["run", "study_turnin"], 1, ["study_turnin", "did you mean study_turning"]),
+    (["run", "study_turning", "--set", "geometry.module=4 ft"], 1, ["geometry.module", "ft"]),
+    (["run", "study_turning", "--stop", "soon"], 1, ["stop", "soon"]),
+    (["run", "study_turning", "--stop", "1 ms", "--plot", "/nowhere/a.png"], 1, ["/nowhere/a.png"]),
+    (["run", "study_turning", "--stop", "1 ms", "--csv", "/nowhere/a.csv"], 1, ["/nowhere/a.csv"]),
+    (["run", "study_turning", "--fmu", "/nowhere.fmu"], 1, ["/nowhere.fmu", "no such FMU"]),
+    (["sweep", "--vary", "left.load_torque=1..2"], 1, ["--scene"]),
+    (["sweep", "--scene", "study_turning", "--want", "left.speed", "--runs", "2"], 1, ["nothing varies"]),
+    (["sweep", "--scene", "study_turning", "--vary", "left.load_torque=1..2", "--runs", "2"], 1, ["nothing is wanted"]),
+    ([*SWEEP, "--runs", "2", "--from", "0.7 s"], 1, ["from", "0.7"]),
+    ([*SWEEP, "--runs", "2", "--workers", "-1"], 1, ["workers", "-1"]),
+    ([*SWEEP, "--runs", "2", "--out", "/nowhere/a.parquet"], 1, ["/nowhere"]),
+    (["sweep", "--plan-file", "/nowhere.toml"], 1, ["/nowhere.toml"]),
+])
+def test_wrong_use_is_one_line_and_a_status(capsys, arguments, status, parts):
+    assert main(arguments) == status
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.startswith("bevel-differential") and all(part in said for part in parts), said
+
+
+def test_help_lists_all_commands(capsys):
+    assert main(["--help"]) == 0
+    printed = capsys.readouterr().out
+    assert all(f"\n  {name} " in printed for name in COMMANDS)
+
+
+def test_help_of_run_and_sweep_imports_no_engine():
+    script = ("import sys; from bevel_differential.command import main; main(['--help']); main(['sweep', '--help']);"
+              "print([name for name in ('dask', 'pyarrow', 'pandas', 'matplotlib', 'scipy') if name in sys.modules])")
+    source = Path(__file__).resolve().parents[2] / "python" / "src"
+    done = subprocess.run([sys.executable, "-c", script], env={**os.environ, "PYTHONPATH": str(source)}, capture_output=True,
+                          text=True, timeout=120)
+    assert done.stdout.splitlines()[-1] == "[]" and "Monte Carlo" in done.stdout, done

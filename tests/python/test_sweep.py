@@ -1,0 +1,249 @@
+"""Sweeps: the same rows whatever evaluates them, and nothing lost by a killed worker, an interrupt, a crash or a full disk."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pyarrow.parquet as pq
+import pytest
+
+from bevel_differential import DifferentialError, Scene
+from bevel_differential.designs import Farm, Row, Space, Task, store
+from bevel_differential.designs.plan import Plan
+from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
+from bevel_differential.designs.table import Columns, digest
+
+PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src"
+RUNS = 1000
+# a third of these gears cannot be assembled
+VARY = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "impact, line_weber", "geometry.planet_teeth": "8..11",
+        "geometry.side_teeth": "14, 15, 16", "geometry.planet_count": "2, 3, 4", "tooth_errors.seed": "seed"}
+WANTS, CONDITIONS = ["left.speed", "efficiency"], ["efficiency >= 0.99999"]
+PLAN = {"vary": VARY, "plan": "lhs", "runs": RUNS, "seed": 1, "wants": WANTS, "conditions": CONDITIONS}
+
+
+@pytest.fixture(scope="module")
+def scene(fmu_file):
+    with Scene.load("study_turning", fmu=fmu_file) as loaded:
+        yield loaded
+
+
+@pytest.fixture(scope="module")
+def expected(scene):
+    return sweep(scene, **PLAN, workers=0)
+
+
+def few(**changed):
+    return {**PLAN, "runs": 20, "workers": 0, **changed}
+
+
+def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
+    rows = expected.table.to_pylist()
+    failed = [row for row in rows if row["message"]]
+    assert [row["run"] for row in rows] == list(range(RUNS)) and 100 < len(failed) < 900
+    for row in rows:
+        # planets evenly spaced: both side gears have the same number of teeth, so twice that number is a multiple of planets
+        assembles = 2 * row["geometry.side_teeth"] % row["geometry.planet_count"] == 0
+        assert assembles == (row["message"] == ""), row
+        assert assembles or ("geometry.planet_count" in row["message"] and row["left.speed:final"] is None)
+        assert row["feasible"] == (assembles and row["efficiency:final"] >= 0.99999)
+
+
+@pytest.mark.parametrize("farm", [{"workers": 1}, {"workers": 2}, {"workers": 4}, {"workers": 2, "processes": False}],
+                         ids=["1 process", "2 processes", "4 processes", "2 threads"])
+def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
+    assert sweep(scene, **PLAN, **farm).digest() == expected.digest()
+
+
+def workers_of_this_process():
+    children = psutil.Process().children(recursive=True)
+    return [child for child in children if "multiprocessing.spawn" in " ".join(child.cmdline())]
+
+
+def test_chunks_of_a_killed_worker_run_again(scene, expected):
+    task, space = Task(scene, WANTS, CONDITIONS), Space.parse(scene.fmu, VARY)
+    rows, killed = [], None
+    with Farm(workers=2) as farm:
+        for row in farm.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs()):
+            rows.append(row)
+            if killed is None and len(rows) > RUNS // 4:
+                killed = workers_of_this_process()[0]
+                killed.send_signal(signal.SIGKILL)
+    assert killed is not None and digest(Columns(task, space).table(rows)) == expected.digest()
+
+
+class Deadly:
+    """A task of which one design ends its process."""
+
+    def evaluate(self, run, values):
+        if values["deadly"]:
+            os.kill(os.getpid(), signal.SIGKILL)
+        return Row(run, values, {"figure": 1.0}, True)
+
+    def close(self):
+        pass
+
+
+def test_a_design_that_kills_its_worker_each_time_is_a_failed_row():
+    with Farm(workers=2) as farm:
+        rows = farm.evaluate(Deadly(), [(run, {"deadly": run == 30}) for run in range(60)])
+    assert [row.run for row in rows] == list(range(60))
+    assert [row.run for row in rows if row.message] == [30] and "worker process died" in rows[30].message
+
+
+def test_a_scheduler_that_is_not_there_is_said_within_seconds():
+    begun = time.monotonic()
+    with pytest.raises(DifferentialError, match="tcp://127.0.0.1:9: nothing answers"), Farm(scheduler="tcp://127.0.0.1:9"):
+        pass
+    assert time.monotonic() - begun < 20.0
+
+
+# results on disk
+
+def test_a_file_says_what_it_holds(scene, tmp_path):
+    file = tmp_path / "found.parquet"
+    result = sweep(scene, **few(), out=file)
+    read = SweepResult.load(file)
+    assert read.digest() == result.digest() and not (tmp_path / "found.parquet.parts").exists()
+    assert read.metadata["plan"] == "lhs" and read.metadata["seed"] == 1 and read.metadata["runs"] == 20
+    assert read.metadata["scene"]["set"]["left.load_torque"] == 835.0 and len(read.metadata["fmu"]) == 64
+    assert read.metadata["conditions"] == ["efficiency:final >= 0.99999"]
+    units = {"left.load_torque": "N.m", "left.speed:final": "rad/s", "contact.law": "1", "seconds": "s"}
+    assert {name: read.unit(name) for name in units} == units
+    assert set(read.table["contact.law"].to_pylist()) == {"impact", "line_weber"}
+    assert read.frame().index.tolist() == list(range(20))
+
+
+def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
+    file = tmp_path / "found.parquet"
+    first = sweep(scene, **few(), out=file)
+    before = file.read_bytes()
+    other = "something else"
+    for changed, options, message in [({}, {}, "--resume"), ({"seed": 2}, {}, other), ({"seed": 2}, {"resume": True}, other),
+                                      ({"wants": ["right.speed"]}, {"resume": True}, other)]:
+        with pytest.raises(DifferentialError, match=message):
+            sweep(scene, **few(**changed), out=file, **options)
+        assert file.read_bytes() == before
+    again = sweep(scene, **few(), out=file, resume=True)
+    assert again.new == 0 and again.digest() == first.digest() and file.read_bytes() == before
+    assert sweep(scene, **few(seed=2), out=file, force=True).digest() != first.digest()
+    (tmp_path / "text.parquet").write_text("mine")
+    with pytest.raises(DifferentialError, match="something else"):
+        sweep(scene, **few(), out=tmp_path / "text.parquet", resume=True)
+    with pytest.raises(DifferentialError, match="no folder"):
+        sweep(scene, **few(), out=tmp_path / "nowhere" / "found.parquet")
+
+
+def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, monkeypatch):
+    file, evaluate = tmp_path / "found.parquet", Task.evaluate
+    for ends, caught in [(300, KeyboardInterrupt), (600, RuntimeError)]:
+
+        def failing(task, run, values, ends=ends, caught=caught):
+            if run == ends:
+                raise caught("an end")
+            return evaluate(task, run, values)
+
+        monkeypatch.setattr(Task, "evaluate", failing)
+        with pytest.raises(Stopped if caught is KeyboardInterrupt else caught) as stop:
+            sweep(scene, **PLAN, out=file, workers=0, resume=ends == 600)
+        assert caught is RuntimeError or f"300 of {RUNS} runs are kept" in str(stop.value)
+    monkeypatch.undo()
+    with pytest.raises(DifferentialError, match="--resume"):
+        sweep(scene, **PLAN, out=file, workers=0)
+    with pytest.raises(DifferentialError, match="another plan"):
+        sweep(scene, **{**PLAN, "seed": 2}, out=file, workers=0, resume=True)
+    rest = sweep(scene, **PLAN, out=file, workers=0, resume=True)
+    assert rest.new == RUNS - 600 and rest.digest() == expected.digest() == SweepResult.load(file).digest()
+
+
+def command(scene, out, wants, *more):
+    vary = [part for name, values in VARY.items() for part in ("--vary", f"{name}={values}")]
+    wants = [part for want in wants for part in ("--want", want)]
+    return [sys.executable, "-m", "bevel_differential", "sweep", "--scene", str(scene), *vary, *wants, "--plan", "lhs",
+            "--runs", str(RUNS), "--seed", "1", "--out", str(out), "--workers", "2", *more]
+
+
+def environment(fmu_file):
+    return {**os.environ, "PYTHONPATH": str(PACKAGE), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
+
+
+def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path):
+    # a mean over two thousand steps, so that the interrupt comes in the middle
+    scene = tmp_path / "turn.toml"
+    scene.write_text((PACKAGE.parents[1] / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
+    wants = ["left.speed:mean"]
+    out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
+    running = subprocess.Popen(command(scene, out, wants), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                               text=True, start_new_session=True)
+    while running.poll() is None and not list(parts.glob("part-*")):
+        time.sleep(0.02)
+    # to all processes of it, as a terminal does
+    os.killpg(running.pid, signal.SIGINT)
+    said = running.communicate(timeout=60)
+    assert running.returncode == 130 and said[1].count("\n") == 1 and "--resume" in said[1], said
+    kept = sum(pq.read_metadata(part).num_rows for part in parts.glob("part-*.parquet"))
+    assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
+    done = subprocess.run(command(scene, out, wants, "--resume"), env=environment(fmu_file), capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0 and done.stderr == "" and f"{kept} runs were kept from before" in done.stdout, done
+    with Scene.load(scene, fmu=fmu_file) as loaded:
+        whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=2)
+    assert SweepResult.load(out).digest() == whole.digest()
+
+
+FULL_DISK = """
+import resource, sys
+from bevel_differential import Fmu
+from bevel_differential.command import main
+from bevel_differential.designs import store
+Fmu.of()
+store.INTERVAL = 0.0
+# no file may be longer: the parts fit, the whole does not
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[1]), resource.RLIM_INFINITY))
+sys.exit(main(sys.argv[2:]))
+"""
+
+
+def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_file, scene, tmp_path):
+    out = tmp_path / "found.parquet"
+    arguments = command("study_turning", out, WANTS)[3:]
+    arguments[arguments.index("--runs") + 1], arguments[arguments.index("--workers") + 1] = "50", "0"
+    full = subprocess.run([sys.executable, "-c", FULL_DISK, "7000", *arguments], env=environment(fmu_file), capture_output=True,
+                          text=True, timeout=120)
+    assert full.returncode == 1 and full.stderr.count("\n") == 1, full.stderr
+    assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
+    rest = subprocess.run([sys.executable, "-m", "bevel_differential", *arguments, "--resume"], env=environment(fmu_file),
+                          capture_output=True, text=True, timeout=120)
+    assert rest.returncode == 0, rest.stderr
+    assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
+
+
+def test_a_disk_that_fills_on_the_way_keeps_the_parts_before(scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(store, "INTERVAL", 0.0)
+    write, written = pq.write_table, []
+
+    def filling(table, to):
+        if len(written) == 7:
+            raise OSError(28, "No space left on device")
+        written.append(to)
+        write(table, to)
+
+    monkeypatch.setattr(store.pq, "write_table", filling)
+    file = tmp_path / "found.parquet"
+    with pytest.raises(DifferentialError, match="No space left on device; 7 of 20 runs are kept"):
+        sweep(scene, **few(), out=file)
+    monkeypatch.undo()
+    assert sorted(path.name[:4] for path in file.with_name("found.parquet.parts").iterdir()) == ["part"] * 7 + ["plan"]
+    rest = sweep(scene, **few(), out=file, resume=True)
+    assert rest.new == 13 and rest.digest() == sweep(scene, **few()).digest()
+
+
+def test_plan_json_of_the_parts_is_the_metadata(scene, tmp_path, monkeypatch):
+    monkeypatch.setattr(Task, "evaluate", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(Stopped, match="0 of 20"):
+        sweep(scene, **few(), out=tmp_path / "found.parquet")
+    assert json.loads((tmp_path / "found.parquet.parts" / "plan.json").read_text())["plan"] == "lhs"
