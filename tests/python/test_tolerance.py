@@ -351,6 +351,13 @@ def test_errors_in_a_file_are_named(old, new, parts, files, fmu_file):
     assert all(part in str(error.value) for part in [files.name, *parts]), error.value
 
 
+def test_a_wrong_factor_is_one_error_also_where_an_alternative_names_it(files, fmu_file):
+    files.write_text(FILE.replace("accuracy_grade = \"grade 7\"", "accuracy_grade = \"grade 12\""), encoding="utf-8")
+    with pytest.raises(DifferentialError) as error:
+        Plan.load(files, fmu=fmu_file)
+    assert len(str(error.value).splitlines()) == 1
+
+
 def test_gears_that_do_not_vary_are_noted(files, fmu_file):
     files.write_text(FILE.replace("tooth_errors.seed = \"seed\"", ""), encoding="utf-8")
     assert "all gears have the same teeth" in Plan.load(files, fmu=fmu_file).notes[0]

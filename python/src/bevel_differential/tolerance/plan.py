@@ -130,12 +130,14 @@ class _Reading:
         given = flat(entry)
         if not given:
             self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
-        others = {variable: self.attempt(place, self.other, variable, text) for variable, text in given.items()}
+        # a factor that is wrong itself has been reported
+        sound = {variable: text for variable, text in given.items() if self.factors.get(variable, True) is not None}
+        others = {variable: self.attempt(place, self.other, variable, text) for variable, text in sound.items()}
         written = ", ".join(f"{variable} = {other.text}" for variable, other in others.items() if other)
         return Alternative(str(name or written), others, cost)
 
     def other(self, variable, text) -> Factor:
-        if self.factors.get(variable) is None:
+        if variable not in self.factors:
             raise DifferentialError(f"{variable}: it is none of the factors{suggestion(variable, self.factors)}")
         return self.reader.other(self.factors[variable], text)
 
