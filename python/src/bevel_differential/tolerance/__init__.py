@@ -1,0 +1,3 @@
+"""What manufacturing tolerances do: spread of figures, yield, the part of each tolerance, and which is worth its money.
+
+`plan` reads tolerance files, `study` draws and runs, `verdict` judges alternatives, `report` and `picture` show results."""

@@ -1,0 +1,90 @@
+"""Distribution of a figure, and yield, with intervals of 95 % confidence."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+
+LEVEL = 0.95
+QUANTILES = (0.05, 0.5, 0.95, 0.99)
+RESAMPLES = 2000
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A value and the ends of its interval; an end is nan where the runs are too few for one."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """How a figure is spread, SI. `quantiles`: by share of probability. `runs`: how many it is from."""
+
+    runs: int
+    mean: Estimate
+    deviation: Estimate
+    quantiles: dict[float, Estimate]
+
+    @classmethod
+    def of(cls, figures: np.ndarray, seed: int = 1) -> "Spread | None":
+        """Of figures of runs, shape (runs,), nan where a run failed; None with fewer than two."""
+        sound = figures[np.isfinite(figures)]
+        if len(sound) < 2:
+            return None
+        return cls(len(sound), _resampled(sound, np.mean, seed), _resampled(sound, _deviation, seed),
+                   {share: _quantile(sound, share) for share in QUANTILES})
+
+
+def proportion(good: np.ndarray) -> Estimate:
+    """Part of runs that are good, shape (runs,), with the interval of Wilson."""
+    count, runs = int(np.sum(good)), len(good)
+    between = stats.binomtest(count, runs).proportion_ci(LEVEL, method="wilson")
+    return Estimate(count / runs, between.low, between.high)
+
+
+def gain(before: np.ndarray, after: np.ndarray, cost: float) -> Estimate:
+    """Y′ − (1 + cost) Y for yields Y before and Y′ after of runs in pairs, shape (runs,), with an interval.
+
+    It follows from the parts that become good, become bad and stay good: p − (1 + cost) q − cost g. Their Wilson intervals are
+    put together by the method of variance estimates recovery (Donner and Zou 2012). Where no run changes, p and q may still be
+    above 0, and the interval says so."""
+    parts = [proportion(each) for each in (after & ~before, before & ~after, before & after)]
+    weight = np.array([1.0, -(1.0 + cost), -cost])
+    value, low, high = (np.array([getattr(part, end) for part in parts]) for end in ("value", "low", "high"))
+    rises = weight > 0.0
+    middle = float(weight @ value)
+    return Estimate(middle, middle - _together(value, weight * np.where(rises, value - low, value - high), weight),
+                    middle + _together(value, weight * np.where(rises, high - value, low - value), weight))
+
+
+def _together(value, reaches, weight):
+    """How far the weighted sum of parts that exclude each other reaches, from how far each term does, shape (parts,)."""
+    odds = np.sqrt(value / np.maximum(1.0 - value, 1e-300))
+    correlation = -np.outer(odds, odds)
+    np.fill_diagonal(correlation, 1.0)
+    signed = np.sign(weight) * reaches
+    return float(np.sqrt(max(0.0, signed @ correlation @ signed)))
+
+
+def _deviation(values, axis=-1):
+    return np.std(values, axis=axis, ddof=1)
+
+
+def _resampled(values, statistic, seed):
+    value = float(statistic(values))
+    # figures that differ by rounding alone have no spread
+    if np.ptp(values) <= 1e-12 * np.abs(values).max():
+        value = float(values[0]) if statistic is np.mean else 0.0
+        return Estimate(value, value, value)
+    found = stats.bootstrap((values,), statistic, confidence_level=LEVEL, n_resamples=RESAMPLES, method="percentile",
+                            vectorized=True, random_state=np.random.default_rng(seed)).confidence_interval
+    return Estimate(value, float(found.low), float(found.high))
+
+
+def _quantile(values, share):
+    # by order statistics, which need no distribution
+    between = stats.quantile_test(values, p=share).confidence_interval(LEVEL)
+    return Estimate(float(np.quantile(values, share)), float(between.low), float(between.high))

@@ -1,0 +1,155 @@
+"""Tolerance files: a scene, the tolerances of what is made, what is wanted, limits and alternatives."""
+
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from ..designs import Task
+from ..fmu import Fmu
+from ..points import seconds
+from ..scene import Scene
+from ..scene_file import flat
+from ..values import DifferentialError, suggestion
+from ..want import Condition, Want
+from .factor import PITCH, RUNOUT, Factor, Reader
+from .study import Alternative, Result, Study
+
+KEYS = {"description", "scene", "set", "from", "factors", "capability", "wants", "limits", "runs", "seed", "alternative"}
+NEEDED = ("description", "scene", "factors", "wants")
+KINDS = {str: ("text", ("description", "scene")), dict: ("a table", ("set", "factors")),
+         list: ("a list", ("wants", "limits", "alternative"))}
+BY_GRADE = "tooth_errors.runout_by_grade"
+INDIVIDUAL = "tooth_errors.seed"
+
+
+class Plan:
+    """A tolerance file that has been read.
+
+    `scene`, `task` and `study` are what it says; `notes` what a reader of the results should know."""
+
+    def __init__(self, name: str, description: str, scene: Scene, task: Task, study: Study):
+        self.name, self.description, self.scene, self.task, self.study = name, description, scene, task, study
+        self._check_effects()
+        self._check_ranges()
+        self.notes = self._remarks()
+
+    @classmethod
+    def load(cls, file, fmu=None, runs: int | None = None, seed: int | None = None, indices: bool = True) -> "Plan":
+        """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
+        file, fmu = Path(file), Fmu.of(fmu)
+        try:
+            found = tomllib.loads(file.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise DifferentialError(f"{file}: {error.strerror}; the example is examples/design/tolerances.toml") from None
+        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise DifferentialError(f"{file}: {error}") from None
+        problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(found.keys() - KEYS)]
+        problems += [f"{key} is missing" for key in NEEDED if key not in found]
+        problems += [f"{key} = {found[key]!r}: it is {what}" for kind, (what, keys) in KINDS.items() for key in keys
+                     if key in found and not isinstance(found[key], kind)]
+        problems += [f"{key}: it has text alone, such as \"torque_bias_ratio:mean\"" for key in ("wants", "limits")
+                     if not all(isinstance(entry, str) for entry in found.get(key, []))]
+        if problems:
+            raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
+        near = file.parent / str(found["scene"])
+        scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu.file)
+        try:
+            scene.set(flat(found.get("set", {})))
+            study = _study(_Reading(scene, found), found, runs, seed, indices)
+            task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))
+            return cls(file.stem, found["description"], scene, task, study)
+        except DifferentialError as error:
+            raise DifferentialError("\n".join(f"{file}: {line}" for line in str(error).splitlines())) from None
+
+    def run(self, farm) -> Result:
+        """The result, its runs made by a `Farm`."""
+        return self.study.run(lambda designs: farm.evaluate(self.task, designs))
+
+    def _check_effects(self):
+        """Factors of effects that are off would change nothing."""
+        switches = {name: f"effects.{name.partition('.')[0]}" for name in self.study.factors}
+        switches = {name: switch for name, switch in switches.items() if switch in self.scene.fmu.variables}
+        asked = sorted({*switches.values(), BY_GRADE})
+        state = self.scene.run(asked, stop=self.scene.step)[0]
+        for name, switch in switches.items():
+            if not state[switch]:
+                raise DifferentialError(f"{name} has a tolerance, but {switch} is off: set it in the scene or in [set]")
+        for name in RUNOUT:
+            if name in self.study.factors and state[BY_GRADE]:
+                raise DifferentialError(f"{name} has a tolerance, but {BY_GRADE} gives all gears the same runout: leave one of "
+                                        "them out")
+
+    def _remarks(self):
+        factors = self.study.factors
+        individual = [name for name in (PITCH, *RUNOUT) if name in factors]
+        if individual and INDIVIDUAL not in factors:
+            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it \"seed\""]
+        return []
+
+    def _check_ranges(self):
+        """Draws that the FMU would refuse are an error of the tolerances."""
+        designs = [values for _, values in self.study.designs()]
+        for name in self.study.factors:
+            variable = self.scene.fmu.variable(name)
+            if variable.kind not in ("Real", "Integer"):
+                continue
+            drawn = np.array([values[name] for values in designs], float)
+            bounds = [default if bound is None else float(bound) for bound, default in zip(variable.range, (-np.inf, np.inf))]
+            outside = (drawn < bounds[0]) | (drawn > bounds[1])
+            if np.any(outside):
+                least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))
+                raise DifferentialError(f"{name}: {np.sum(outside)} of {len(drawn)} draws are outside {least} to {greatest}, "
+                                        f"such as {worst}: make the tolerance narrower, or give a law that ends there, such as "
+                                        "uniform(A, B)")
+
+
+class _Reading:
+    """Reads factors and collects what is wrong with them."""
+
+    def __init__(self, scene, found):
+        self.reader, self.problems = Reader(scene, found.get("capability", 1.0)), []
+        self.factors = {name: self.attempt("[factors]", self.reader.read, name, given)
+                        for name, given in flat(found["factors"]).items()}
+        self.alternatives = [self.alternative(dict(entry)) for entry in found.get("alternative", [])]
+        if self.problems:
+            raise DifferentialError("\n".join(self.problems))
+
+    def attempt(self, place, function, *arguments):
+        try:
+            return function(*arguments)
+        except DifferentialError as error:
+            self.problems.append(f"{place} {error}")
+            return None
+
+    def alternative(self, entry):
+        name, cost = entry.pop("name", None), entry.pop("cost", None)
+        place = "[[alternative]]"
+        if cost is not None and (isinstance(cost, bool) or not isinstance(cost, (int, float)) or not -1.0 < cost < 100.0):
+            self.problems.append(f"{place} cost = {cost!r}: it is a part of the price of a differential, such as 0.02")
+        given = flat(entry)
+        if not given:
+            self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
+        # a factor that is wrong itself has been reported
+        sound = {variable: text for variable, text in given.items() if self.factors.get(variable, True) is not None}
+        others = {variable: self.attempt(place, self.other, variable, text) for variable, text in sound.items()}
+        written = ", ".join(f"{variable} = {other.text}" for variable, other in others.items() if other)
+        return Alternative(str(name or written), others, cost)
+
+    def other(self, variable, text) -> Factor:
+        if variable not in self.factors:
+            raise DifferentialError(f"{variable}: it is none of the factors{suggestion(variable, self.factors)}")
+        return self.reader.other(self.factors[variable], text)
+
+
+def _study(reading, found, runs, seed, indices):
+    fmu = reading.reader.fmu
+    wants = [Want.parse(fmu, text) for text in found["wants"]]
+    limits = [Condition.parse(fmu, text) for text in found.get("limits", [])]
+    return Study(list(reading.factors.values()), wants, limits, reading.alternatives,
+                 found.get("runs", 512) if runs is None else runs, found.get("seed", 1) if seed is None else seed, indices)
+
+
+def _shown(variable, value):
+    unit, shown = variable.shown(value)
+    return f"{shown:.6g} {unit}".strip()

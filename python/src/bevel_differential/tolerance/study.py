@@ -1,0 +1,144 @@
+"""Which differentials are drawn and run, and what they give."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ..designs import Row
+from ..values import DifferentialError
+from ..want import Condition, Want
+from . import sample
+from .factor import Factor
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """Other tolerances of some factors, by variable. `cost`: what they add to the price of a differential, as a part of it;
+    None if it is not known."""
+
+    name: str
+    factors: dict[str, Factor]
+    cost: float | None = None
+
+
+@dataclass(frozen=True)
+class Draws:
+    """What drawn differentials gave.
+
+    `figures`: by want, SI, shape (runs,), nan where a run failed. `good`: those that ran and are within all limits, shape
+    (runs,). `failures`: messages of those that failed."""
+
+    figures: dict[str, np.ndarray]
+    good: np.ndarray
+    failures: list[str]
+
+
+@dataclass(frozen=True)
+class Indices:
+    """Sobol indices of a figure for each factor that varies, with the half widths of their intervals; shape (factors,).
+
+    `first`: part of the variance that the factor causes by itself; `total`: part that it takes part in."""
+
+    first: np.ndarray
+    first_half: np.ndarray
+    total: np.ndarray
+    total_half: np.ndarray
+
+
+@dataclass(frozen=True)
+class Result:
+    """Result of a study.
+
+    `names`: factors that vary, in the order of the indices. `indices`: by want; text says why there are none. `others`: draws
+    of each alternative, in their order. `rows`: all runs, in order of run."""
+
+    names: list[str]
+    base: Draws
+    indices: dict[str, Indices | str]
+    others: list[Draws]
+    rows: list[Row] = field(repr=False)
+
+
+class Study:
+    """Tolerances, what is wanted under them, and what else could be made.
+
+    `runs`: draws of all factors together, a power of two; indices take half of it more for each factor that varies. `limits`
+    are for figures that are wanted. Alternatives are drawn at the same shares of probability: where a factor keeps its
+    tolerance, its values are the same, run by run."""
+
+    def __init__(self, factors: Sequence[Factor], wants: Sequence[Want], limits: Sequence[Condition] = (),
+                 alternatives: Sequence[Alternative] = (), runs: int = 512, seed: int = 1, indices: bool = True):
+        self.factors, self.wants, self.limits = {factor.variable: factor for factor in factors}, list(wants), list(limits)
+        self.alternatives, self.runs, self.indices = list(alternatives), sample.check_runs(runs), indices
+        if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+            raise DifferentialError(f"seed = {seed!r}: it is a whole number from 0 on")
+        self.seed = seed
+        if not self.factors:
+            raise DifferentialError("nothing has a tolerance: name factors, such as geometry.backlash = \"0.1 mm +- 0.02 mm\"")
+        if not self.wants:
+            raise DifferentialError("nothing is wanted: name an output and a statistic, such as torque_bias_ratio:mean")
+        for limit in self.limits:
+            if limit.want not in self.wants:
+                known = ", ".join(map(str, self.wants))
+                raise DifferentialError(f"limit {limit}: {limit.want} is not wanted; wanted are {known}")
+        for one in self.alternatives:
+            for name in one.factors.keys() - self.factors.keys():
+                raise DifferentialError(f"alternative {one.name!r}: {name} is none of the factors {', '.join(self.factors)}")
+
+    @property
+    def names(self) -> list[str]:
+        """Factors that vary, here or in an alternative."""
+        sets = [self.factors, *(one.factors for one in self.alternatives)]
+        return [name for name in self.factors if any(name in each and each[name].law.varies for each in sets)]
+
+    def designs(self) -> list[tuple[int, dict]]:
+        """All runs, numbered: the scheme of `sample.crossed`, then the draws of each alternative."""
+        shares, drawn = self._shares()
+        kept = shares if self.indices else shares[drawn]
+        designs = self._values(self.factors, kept)
+        for one in self.alternatives:
+            designs += self._values({**self.factors, **one.factors}, shares[drawn])
+        return list(enumerate(designs))
+
+    def run(self, evaluate: Callable[[list], list[Row]]) -> Result:
+        """The result. `evaluate` takes numbered designs [(run, values)] and gives a row for each, in order of run."""
+        rows = list(evaluate(self.designs()))
+        _, drawn = self._shares()
+        first = len(drawn) if self.indices else self.runs
+        scheme = rows[:first]
+        base = self._draws([row for row, is_draw in zip(scheme, drawn) if is_draw] if self.indices else scheme)
+        others = [self._draws(rows[begin:begin + self.runs]) for begin in range(first, len(rows), self.runs)]
+        indices = {str(want): self._analysed(scheme, str(want)) for want in self.wants}
+        return Result(self.names, base, indices, others, rows)
+
+    def _shares(self):
+        shares = sample.crossed(len(self.names), self.runs, self.seed)
+        return shares, sample.is_drawn(len(self.names), len(shares))
+
+    def _values(self, factors, shares):
+        column = {name: shares[:, i] for i, name in enumerate(self.names)}
+        nowhere = np.full(len(shares), 0.5)
+        values = {name: factor.at(column.get(name, nowhere)) for name, factor in factors.items()}
+        return [dict(zip(values, row)) for row in zip(*values.values())]
+
+    def _draws(self, rows):
+        figures = {str(want): _figures(rows, str(want)) for want in self.wants}
+        good = [not row.message and all(limit.holds(row.figures[str(limit.want)]) for limit in self.limits) for row in rows]
+        return Draws(figures, np.array(good), [row.message for row in rows if row.message])
+
+    def _analysed(self, rows, want):
+        if not self.indices:
+            return "not asked for"
+        figures = _figures(rows, want)
+        missing = np.sum(~np.isfinite(figures))
+        if missing:
+            return f"none, as {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
+        if np.ptp(figures) <= 1e-10 * np.abs(figures).max():
+            return "none, as the figure does not vary"
+        found = sample.analyse(len(self.names), figures, self.seed)
+        return Indices(found["S1"], found["S1_conf"], found["ST"], found["ST_conf"])
+
+
+def _figures(rows, want):
+    return np.array([row.figures.get(want, np.nan) if not row.message else np.nan for row in rows], float)
