@@ -19,9 +19,13 @@ PATIENCE = 5.0
 ALLOWED_FAILURES = 0
 # a worker that takes longer to start again is given up for good
 RESTART = 300.0
-SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
-            "distributed.worker.multiprocessing-method": "spawn",
-            "distributed.comm.timeouts.connect": f"{PATIENCE:g}s", "distributed.admin.log-length": 0}
+SETTINGS = {
+    "distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
+    "distributed.worker.multiprocessing-method": "spawn", "distributed.comm.timeouts.connect": f"{PATIENCE:g}s",
+    # nobody looks at what dask measures of itself
+    "distributed.worker.profile.enabled": False, "distributed.admin.system-monitor.interval": "10s",
+    "distributed.admin.tick.interval": "500ms", "distributed.admin.log-length": 0,
+}
 
 
 @contextmanager
