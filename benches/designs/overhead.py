@@ -16,7 +16,7 @@ from bevel_differential import Differential, Fmu, Scene
 from bevel_differential.designs import Farm, Space, Task
 from bevel_differential.designs.cluster import usual_workers
 from bevel_differential.designs.plan import Plan
-from bevel_differential.instance import CALLS
+from bevel_differential.batches import CALLS
 from bevel_differential.text import aligned
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
@@ -47,7 +47,7 @@ class Calls:
         lines = []
         for name, value in values.items():
             variable = self.fmu.variable(name)
-            lines.append(f"{CALLS[variable.kind][0]} {variable.reference} {float(variable.number(value))!r}")
+            lines.append(f"{CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
         (self.folder / "set").write_text("\n".join(lines))
         references = [str(self.fmu.variable(name).reference) for name in outputs]
         command = [self.program, self.library, self.fmu.description.guid, self.folder / "set", str(STOP), str(step or 0.0),
