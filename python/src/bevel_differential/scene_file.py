@@ -43,7 +43,7 @@ def read_scene(file: Path, fmu) -> dict:
     problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in found.keys() - KEYS]
     problems += [f"{key} is missing" for key in NEEDED if key not in found]
     checked = _Checked(fmu, problems)
-    settings = checked.values("[set]", _flat(found.get("set", {})))
+    settings = checked.values("[set]", flat(found.get("set", {})))
     changes = [checked.change(entry) for entry in found.get("at", [])]
     tables = [checked.table(entry) for entry in found.get("table", [])]
     for entry in found.get("inputs", []):
@@ -85,7 +85,7 @@ class _Checked:
     def change(self, entry):
         entry = dict(entry)
         time = self.attempt("[[at]]", seconds, "time", entry.pop("time", None))
-        return time, self.values(f"[[at]] time = {time}:", _flat(entry))
+        return time, self.values(f"[[at]] time = {time}:", flat(entry))
 
     def table(self, entry):
         name = entry.get("input", "")
@@ -135,10 +135,10 @@ def read_inputs(file: Path, fmu) -> list:
     return [(name, times, values) for name, values in columns.items()]
 
 
-def _flat(table, prefix=""):
+def flat(table, prefix=""):
     """Values by their dotted names."""
-    flat = {}
+    found = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
-        flat.update(_flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
-    return flat
+        found.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
+    return found

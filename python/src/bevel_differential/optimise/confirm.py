@@ -1,0 +1,41 @@
+"""Designs of a front once more, with richer models of the same scene."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .design_task import DesignRow, DesignTask
+from .problem import Problem
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """A design and its rows by model: names of [[confirm]]."""
+
+    row: DesignRow
+    models: dict[str, DesignRow]
+
+    def difference(self, model: str, want: str) -> float:
+        """What the model changes of a figure, relative to the search's own; NaN where the model failed."""
+        first, other = self.row.figures[want], self.models[model].figures.get(want, float("nan"))
+        return other / first - 1.0 if first else float("nan")
+
+    def flat(self, problem: Problem) -> dict:
+        """As a row of a table: the design, the parameters that follow, and for each model figures, differences, and what it breaks."""
+        told = {**self.row.flat(), **problem.complete(self.row.values)}
+        for model, row in self.models.items():
+            for each in problem.objectives:
+                want = str(each.want)
+                told[f"{want} | {model}"] = row.figures.get(want, float("nan"))
+                told[f"{want} | {model}, difference"] = self.difference(model, want)
+            told[f"breaks | {model}"] = "; ".join(row.refused)
+        return told
+
+
+def confirm(rows: Sequence[DesignRow], problem: Problem, farm) -> list[Confirmed]:
+    """Runs all rows with each model of the problem."""
+    rows, found = list(rows), [{} for _ in rows]
+    for model, settings in problem.confirm.items():
+        task = DesignTask(problem.at(settings), thorough=True)
+        for k, row in enumerate(farm.evaluate(task, [(k, row.values) for k, row in enumerate(rows)])):
+            found[k][model] = row
+    return [Confirmed(row, models) for row, models in zip(rows, found)]
