@@ -18,7 +18,7 @@ class Variable:
     """A variable of the FMU, with its units and literals.
 
     Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
-    `unit` (SI) and `description`."""
+    `unit` (SI), `range` (least and greatest value, None where there is none) and `description`."""
 
     def __init__(self, described, units):
         self.name = described.name
@@ -29,6 +29,7 @@ class Variable:
         self.description = described.description
         declared = described.declaredType
         self.unit = described.unit or (declared.unit if declared is not None else None)
+        self.range = described.min, described.max
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
         shown = units.get(self.unit)

@@ -31,6 +31,10 @@ class Want:
     def __str__(self):
         return f"{self.name}:{self.statistic.word}"
 
+    def unit(self, fmu) -> str:
+        """SI unit of the figure; "1" where it has none."""
+        return "s" if self.statistic.word == "time_of_peak" else fmu.variable(self.name).unit or "1"
+
     def of(self, record: np.ndarray, planet_teeth: int) -> float:
         """The figure of a record (structured array with this output and, for orders, the angle that they are counted by)."""
         angle = self.statistic.angle

@@ -1,5 +1,6 @@
 """Parameters and inputs that vary, each by a distribution."""
 
+import itertools
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,15 +11,19 @@ from scipy import stats
 from ..values import DifferentialError
 
 _CALL = re.compile(r"(uniform|normal|triangular|lognormal)\((.*)\)$")
-_USAGE = "write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B) or lognormal(MEDIAN, FACTOR)"
+_USAGE = ("write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
+          "lognormal(MEDIAN, FACTOR) or, for whole numbers, seed")
+# the least share of a distribution without bounds: share 0 would be an infinite value
+_LEAST = 2.0**-53
 
 
 @dataclass(frozen=True)
 class Dimension:
     """A variable and its values.
 
-    `variable`: its name. `kind`: "list", "range" or a distribution. `numbers`: what the kind takes, in SI: the values of a list;
-    both ends of a range; the numbers of a distribution. `count`: values of a range on a grid, or None."""
+    `variable`: its name. `kind`: "list", "range", a distribution, or "seed" (each run draws its own, whatever the plan).
+    `numbers`: what the kind takes, in SI: the values of a list; both ends of a range or of seeds; the numbers of a distribution.
+    `count`: values of a range on a grid, or None. `whole`: only whole numbers."""
 
     variable: str
     kind: str
@@ -35,6 +40,8 @@ class Dimension:
         text = given.strip() if isinstance(given, str) else None
         if text is None:
             return cls._list(variable, given if isinstance(given, Iterable) else [given])
+        if text == "seed":
+            return cls._seed(variable)
         call = _CALL.match(text)
         if call:
             return cls._distribution(variable, call[1], [part.strip() for part in call[2].split(",")], text)
@@ -66,16 +73,24 @@ class Dimension:
         return cls(variable.name, "range", (low, high), number, variable.kind == "Integer")
 
     @classmethod
+    def _seed(cls, variable):
+        if variable.kind != "Integer":
+            raise DifferentialError(f"{variable.name}: only whole numbers can be seeds")
+        low, high = (default if bound is None else int(bound) for bound, default in zip(variable.range, (0, 2**31 - 1)))
+        return cls(variable.name, "seed", (low, high), whole=True)
+
+    @classmethod
     def _distribution(cls, variable, kind, parts, text):
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name}: only real variables have distributions")
         wanted = {"uniform": 2, "normal": 2, "triangular": 3, "lognormal": 2}[kind]
         if len(parts) != wanted:
             raise DifferentialError(f"{variable.name} = {text}: {kind} takes {wanted} numbers; {_USAGE}")
-        # the factor of a lognormal distribution has no unit
-        plain = float(parts[1]) if kind == "lognormal" else None
-        numbers = tuple(variable.number(part) for part in (parts[:1] if kind == "lognormal" else parts))
-        numbers += (plain,) if plain is not None else ()
+        if kind == "lognormal":
+            # the factor has no unit
+            numbers = (variable.number(parts[0]), _plain(variable, parts[1], text))
+        else:
+            numbers = tuple(variable.number(part) for part in parts)
         sane = {"uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0, "triangular": lambda a, c, b: a <= c <= b and a < b,
                 "lognormal": lambda m, f: m > 0.0 and f > 1.0}[kind]
         if not sane(*numbers):
@@ -87,7 +102,7 @@ class Dimension:
         share, numbers = np.asarray(share, float), self.numbers
         if self.kind == "list":
             return [numbers[i] for i in np.minimum((share * len(numbers)).astype(int), len(numbers) - 1)]
-        if self.kind == "range" and self.whole:
+        if self.whole:
             low, high = int(numbers[0]), int(numbers[1])
             return [low + int(i) for i in np.minimum(share * (high - low + 1), high - low)]
         return _quantile(self.kind, numbers, share).tolist()
@@ -111,9 +126,17 @@ class Dimension:
         return f"{self.kind}({', '.join(map(repr, self.numbers))}){count}"
 
 
+def _plain(variable, number, text):
+    try:
+        return float(number)
+    except ValueError:
+        raise DifferentialError(f"{variable.name} = {text}: {number!r} is not a plain number") from None
+
+
 def _quantile(kind, numbers, share):
     if kind in ("range", "uniform"):
         return numbers[0] + share * (numbers[1] - numbers[0])
+    share = np.maximum(share, _LEAST)
     if kind == "normal":
         return stats.norm.ppf(share, *numbers)
     if kind == "lognormal":
@@ -144,6 +167,10 @@ class Space:
         """Designs at points of the unit cube, shape (runs, dimensions)."""
         columns = [dimension.at(column) for dimension, column in zip(self.dimensions, np.asarray(shares, float).T)]
         return self.designs(zip(*columns))
+
+    def grid(self) -> list[dict]:
+        """All combinations of the levels of all dimensions; the last one changes fastest."""
+        return self.designs(itertools.product(*(dimension.levels() for dimension in self.dimensions)))
 
     def designs(self, rows: Iterable[Sequence]) -> list[dict]:
         """Designs from rows of values, SI."""

@@ -58,9 +58,9 @@ class Task:
         row.seconds = time.perf_counter() - begun
         return row
 
-    def evaluate_all(self, designs: Sequence[tuple[int, Mapping]]) -> list[Row]:
-        """Rows of numbered designs, one after the other."""
-        return [self.evaluate(run, values) for run, values in designs]
+    def close(self):
+        """Frees the scene's instances."""
+        self.scene.close()
 
     def _figures(self, values):
         if all(want.statistic.word == "final" for want in self._all):
