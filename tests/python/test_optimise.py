@@ -16,13 +16,15 @@ from bevel_differential import DifferentialError, Fmu, Scene
 from bevel_differential.designs.farm import Farm
 from bevel_differential.optimise import cad, confirm, front
 from bevel_differential.optimise.checks import tool_room, violations
-from bevel_differential.optimise.design_task import DesignTask
+from bevel_differential.optimise.design_task import DesignRow, DesignTask
 from bevel_differential.optimise.pair import Pair
-from bevel_differential.optimise.problem import Problem
+from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
 from bevel_differential.optimise.report import standing
 from bevel_differential.optimise.search import search
 from bevel_differential.optimise.store import Store
+from bevel_differential.statistic import Statistic
+from bevel_differential.want import Want
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SCENE = """description = "one spring per mesh, loaded"
@@ -156,8 +158,8 @@ def test_the_front_is_that_of_a_fine_grid(two, folder):
     best, rows = found(two, folder / "out")
     task = DesignTask(two)
     modules, widths = np.meshgrid(np.linspace(3.5e-3, 6e-3, 51), np.linspace(6e-3, 20e-3, 71))
-    grid = task.evaluate_grid = [task.evaluate(k, {"geometry.module": m, "geometry.face_width": b})
-                                 for k, (m, b) in enumerate(zip(modules.flat, widths.flat))]
+    grid = [task.evaluate(k, {"geometry.module": m, "geometry.face_width": b})
+            for k, (m, b) in enumerate(zip(modules.flat, widths.flat))]
     task.close()
     truth = front.front(grid, two.objectives)
     assert 20 < len(truth) < sum(row.feasible for row in grid) < len(grid)
@@ -222,23 +224,18 @@ def test_the_study_s_gears_stand_where_their_figures_say(two, folder):
 
 
 def test_dominance_and_knee_of_a_known_front():
-    class Named:
-        def __init__(self, sign, want):
-            self.sign, self.want = sign, want
+    final = Statistic("final")
 
-    class Plain:
-        feasible = True
-
-        def __init__(self, run, x, y):
-            self.run, self.figures = run, {"x": x, "y": y}
+    def row(run, x, y):
+        return DesignRow(run, {}, {"x:final": x, "y:final": y}, feasible=True)
 
     # y is to be large; the quarter circle x² + y² = 1 and points behind it
     angles = np.linspace(0.0, 0.5 * np.pi, 9)
-    rows = [Plain(k, 1.0 - math.cos(a), math.sin(a)) for k, a in enumerate(angles)]
-    rows += [Plain(20 + k, 1.3 - math.cos(a), 0.9 * math.sin(a)) for k, a in enumerate(angles)]
-    objectives = [Named(1.0, "x"), Named(-1.0, "y")]
+    rows = [row(k, 1.0 - math.cos(a), math.sin(a)) for k, a in enumerate(angles)]
+    rows += [row(20 + k, 1.3 - math.cos(a), 0.9 * math.sin(a)) for k, a in enumerate(angles)]
+    objectives = [Objective(Want("x", final), 1.0), Objective(Want("y", final), -1.0)]
     best = front.front(rows, objectives)
-    assert [row.run for row in best] == list(range(9))
+    assert [each.run for each in best] == list(range(9))
     knee = front.choice(best, objectives, None)[0]
     assert knee[1].run == 4 and knee[0].startswith("knee")
     thin = front.thinned(best, objectives, 5)

@@ -57,7 +57,8 @@ class DesignTask(Task):
         try:
             self._judge(row)
         except DifferentialError as error:
-            row.message, row.refused, row.violation = str(error), (*row.refused, _refusal(str(error))), row.violation or self._stage(1)
+            row.message = str(error)
+            self._fails(row, {_refusal(row.message): 1.0}, 1)
         row.feasible = not row.refused
         row.seconds = time.perf_counter() - begun
         return row
@@ -125,6 +126,5 @@ def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
 
 
 def _refusal(message: str) -> str:
-    """The check that a message of the FMU is about: its text before the first figure of this design."""
-    head, _, rest = message.partition(": ")
-    return f"FMU: {head}" if rest else f"FMU: {message}"
+    """What a message is about: the parameter at its beginning, without the figures of this design."""
+    return message.partition(": ")[0].partition(" = ")[0]

@@ -105,9 +105,10 @@ class Problem:
         return {**followed, **values}
 
     def at(self, settings: Mapping) -> "Problem":
-        """The same problem with other settings of the scene."""
+        """The same problem with other settings of the scene. A parameter that is set follows no other one any more."""
         state = self.scene.__getstate__()
-        return replace(self, scene=Scene(**{**state, "set": {**state["set"], **settings}}))
+        return replace(self, scene=Scene(**{**state, "set": {**state["set"], **settings}}),
+                       followers=[each for each in self.followers if each.name not in settings])
 
     def sized(self, population: int | None = None, generations: int | None = None, seed: int | None = None) -> "Problem":
         """The same problem with another effort."""

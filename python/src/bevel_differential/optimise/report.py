@@ -7,6 +7,7 @@ import pandas as pd
 from .confirm import Confirmed
 from .design_task import DesignRow
 from .front import costs, dominates
+from .pair import heights
 from .problem import Problem
 from .quantities import Catalogue
 
@@ -23,7 +24,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     columns = [each.row for _, each in chosen] + list(compared.values())
     lines = [["", *(LETTERS[k] for k in range(len(chosen))), *compared]]
     catalogue = Catalogue(problem.scene.fmu)
-    known = [{**catalogue.starts(), **problem.scene.values, **problem.complete(row.values)} for row in columns]
+    known = [_with_heights({**catalogue.starts(), **problem.scene.values, **problem.complete(row.values)}) for row in columns]
     for name in problem.space.names:
         lines.append(_line(catalogue, name, name, [each[name] for each in known]))
     wants = dict.fromkeys(str(each.want) for each in [*problem.objectives, *problem.conditions])
@@ -54,6 +55,14 @@ def standing(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Prob
         numbers = ", ".join(str(each.run) for each in better[:8])
         return f"{name}: {len(better)} of {len(best)} designs of the front are better in all objectives (run {numbers}){checks}."
     return f"{name}: no design of the front is better in all objectives{checks}."
+
+
+def _with_heights(values):
+    """Parameters with the addenda and dedenda that the addendum system makes, in modules."""
+    addenda, dedenda = heights({name.removeprefix("geometry."): value for name, value in values.items()})
+    told = {f"geometry.{gear}_{what}": height / values["geometry.module"]
+            for what, pair in (("addendum", addenda), ("dedendum", dedenda)) for gear, height in zip(("planet", "side"), pair)}
+    return {**values, **told}
 
 
 def _line(catalogue, label, name, values):
