@@ -62,8 +62,7 @@ def _optimise(arguments, problem, out, store, farm):
     rows = thinned(best, problem.objectives, problem.population)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
-    confirmed = {row.run: row for row in (chosen if arguments.quick else rows)}
-    confirmed = {each.row.run: each for each in confirm(confirmed.values(), problem, farm)}
+    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, farm)}
     to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
     told = [standing(name, row, best, problem) for name, row in compared.items()]
@@ -83,12 +82,13 @@ def _compared(problem, task):
 def _held(confirmed, problem):
     """How the confirmation went, a line for each model."""
     for model in problem.confirm:
-        broken = [each for each in confirmed if each.models[model].refused]
+        ran = [each for each in confirmed if model in each.models]
+        broken = [each for each in ran if each.models[model].refused]
         spans = []
         for objective in problem.objectives:
-            changes = [100.0 * each.difference(model, str(objective.want)) for each in confirmed]
+            changes = [100.0 * each.difference(model, str(objective.want)) for each in ran]
             spans.append(f"{objective.want} by {min(changes):+.1f} to {max(changes):+.1f} %")
-        yield (f"with {model}: {len(confirmed) - len(broken)} of {len(confirmed)} designs meet all conditions; it changes "
+        yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
                f"{', '.join(spans)}")
 
 

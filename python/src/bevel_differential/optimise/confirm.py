@@ -15,8 +15,9 @@ class Confirmed:
     models: dict[str, DesignRow]
 
     def difference(self, model: str, want: str) -> float:
-        """What the model changes of a figure, relative to the search's own; NaN where the model failed."""
-        first, other = self.row.figures[want], self.models[model].figures.get(want, float("nan"))
+        """What the model changes of a figure, relative to the search's own; NaN where the model did not run."""
+        first = self.row.figures[want]
+        other = self.models[model].figures.get(want, float("nan")) if model in self.models else float("nan")
         return other / first - 1.0 if first else float("nan")
 
     def flat(self, problem: Problem) -> dict:
@@ -31,11 +32,12 @@ class Confirmed:
         return told
 
 
-def confirm(rows: Sequence[DesignRow], problem: Problem, farm) -> list[Confirmed]:
-    """Runs all rows with each model of the problem."""
-    rows, found = list(rows), [{} for _ in rows]
+def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm) -> list[Confirmed]:
+    """Runs rows with each model of the problem; with models for chosen designs alone only those."""
+    found = {row.run: {} for row in rows}
     for model, settings in problem.confirm.items():
         task = DesignTask(problem.at(settings), thorough=True)
-        for k, row in enumerate(farm.evaluate(task, [(k, row.values) for k, row in enumerate(rows)])):
-            found[k][model] = row
-    return [Confirmed(row, models) for row, models in zip(rows, found)]
+        wanted = chosen if model in problem.only_chosen else rows
+        for row in farm.evaluate(task, [(row.run, row.values) for row in wanted]):
+            found[row.run][model] = row
+    return [Confirmed(row, found[row.run]) for row in rows]

@@ -77,7 +77,8 @@ class Follower:
 
 @dataclass(frozen=True)
 class Problem:
-    """What a problem file says. `compare` and `confirm`: settings by name."""
+    """What a problem file says. `compare` and `confirm`: settings by name. `only_chosen`: names of `confirm` for the designs to
+    choose from alone, not for the whole front."""
 
     description: str
     scene: Scene
@@ -87,6 +88,7 @@ class Problem:
     followers: list[Follower] = field(default_factory=list)
     compare: dict = field(default_factory=dict)
     confirm: dict = field(default_factory=dict)
+    only_chosen: frozenset = frozenset()
     population: int = 96
     generations: int = 100
     seed: int = 1
@@ -157,12 +159,13 @@ class _Reader:
         self.problems += [f"[follow] {each.name}: it varies as well; remove one of them" for each in followers
                           if each and each.name in vary]
         compare, confirm = (self.named(key) for key in ("compare", "confirm"))
+        only_chosen = frozenset(entry.get("name") for entry in self.found.get("confirm", []) if entry.get("only_chosen"))
         effort = {key: self.found[key] for key in ("population", "generations", "seed") if key in self.found}
         self.problems += [f"{key} = {value!r}: it is a whole number" for key, value in effort.items() if type(value) is not int]
         if self.problems:
             raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))
         problem = Problem(self.found["description"], scene, Space(tuple(dimensions)), objectives, conditions, followers, compare,
-                          confirm)
+                          confirm, only_chosen)
         return problem.sized(**effort)
 
     def attempt(self, function, *arguments):
@@ -191,6 +194,7 @@ class _Reader:
         for entry in self.found.get(key, []):
             values = flat(entry)
             name = values.pop("name", None)
+            values.pop("only_chosen", None)
             if not name or name in found:
                 self.problems.append(f"[[{key}]] name = {name!r}: each entry needs a name of its own")
             numbers = {each: self.attempt(self.number, each, value) for each, value in values.items()}
