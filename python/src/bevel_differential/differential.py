@@ -4,9 +4,11 @@ import threading
 
 import numpy as np
 
+from .extras import needed
 from .fmu import Fmu
 from .inputs import Signals
 from .instance import Batches, Instance
+from .plot import plot
 from .points import Steps, span
 from .values import DifferentialError
 
@@ -35,20 +37,26 @@ class Differential:
         self._values.update(self._read({**(parameters or {}), **named}))
         return self
 
-    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None):
+    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None, frame=False):
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. Raises `DifferentialError` with the FMU's message."""
+        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError`
+        with the FMU's message."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
-        return self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        return as_frame(record) if frame else record
 
     def final(self, outputs, inputs=None, stop=0.5, values=None):
         """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
+
+    def plot(self, record, file=None):
+        """Draws a record; see `plot.plot`."""
+        return plot(self.fmu, record, file=file)
 
     @property
     def values(self):
@@ -106,6 +114,11 @@ class Differential:
 
     def __setstate__(self, state):
         self.__init__(state["values"], fmu=state["file"])
+
+
+def as_frame(record):
+    """A record as a pandas DataFrame, by time."""
+    return needed("pandas", "sweep").DataFrame(record).set_index("time")
 
 
 def _advance(instance, batches, record, steps, signals):

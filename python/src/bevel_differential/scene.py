@@ -6,11 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from .differential import Differential
+from .differential import Differential, as_frame
+from .extras import needed
 from .fmu import Fmu
 from .inputs import Signals, Table, input_variable
+from .plot import plot
 from .points import Steps, seconds, span
 from .scene_file import find, read_scene
+from .text import aligned
 from .values import DifferentialError
 
 
@@ -50,13 +53,15 @@ class Scene:
         """What is set at the start, as the FMU takes it."""
         return self._differential.values
 
-    def run(self, outputs: Sequence[str] | None = None, values: Mapping | None = None, stop=None) -> np.ndarray:
+    def run(self, outputs: Sequence[str] | None = None, values: Mapping | None = None, stop=None, frame: bool = False):
         """Simulates; `values` change parameters for this run, `stop` the end.
 
-        Returns a structured array: field "time" (s), one of each output in SI; shape (points,)."""
+        Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
+        DataFrame, by time."""
         stop = self.stop if stop is None else span("stop", stop)
         steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
-        return self._differential._simulate(steps, self._signals, self._named(outputs), values)
+        record = self._differential._simulate(steps, self._signals, self._named(outputs), values)
+        return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping | None = None) -> dict:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
@@ -79,9 +84,7 @@ class Scene:
             unit, values = self.fmu.variable(name).shown(record[name])
             mean = np.trapezoid(values, record["time"]) / span_of_time
             lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
-        widths = [max(map(len, column)) for column in zip(*lines)]
-        return "\n".join("  ".join(cell.ljust(width) if i < 2 else cell.rjust(width)
-                                   for i, (cell, width) in enumerate(zip(line, widths))) for line in lines)
+        return "\n".join(aligned(lines))
 
     def to_csv(self, record: np.ndarray, file) -> Path:
         """Writes a record in SI, with the units in a comment; numbers read back to the same bits."""
@@ -92,6 +95,19 @@ class Scene:
             writer.writerow(record.dtype.names)
             writer.writerows(record.tolist())
         return Path(file)
+
+    def to_parquet(self, record: np.ndarray, file) -> Path:
+        """Writes a record in SI as Parquet; fields name their units."""
+        pa = needed("pyarrow", "sweep")
+        units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in record.dtype.names[1:]}}
+        fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit}) for name, unit in units.items()]
+        table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
+        needed("pyarrow.parquet", "sweep").write_table(table, file)
+        return Path(file)
+
+    def plot(self, record: np.ndarray, file=None):
+        """Draws a record; see `plot.plot`."""
+        return plot(self.fmu, record, self.name, self.description, file)
 
     def close(self):
         """Frees all instances."""

@@ -135,10 +135,10 @@ def read_inputs(file: Path, fmu) -> list:
     return [(name, times, values) for name, values in columns.items()]
 
 
-def flat(table, prefix=""):
+def flat(table: dict, prefix: str = "") -> dict:
     """Values by their dotted names."""
-    found = {}
+    values = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
-        found.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
-    return found
+        values.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
+    return values

@@ -6,6 +6,7 @@ import multiprocessing
 import os
 from contextlib import contextmanager
 
+from ..extras import needed
 from ..values import DifferentialError
 
 # a scheduler or its workers that do not answer so soon are not there, s
@@ -22,12 +23,7 @@ SETTINGS = {"distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distrib
 @contextmanager
 def client(workers: int | None, processes: bool, scheduler: str | None):
     """A dask client: of the scheduler at an address, or of an own cluster with one thread per worker."""
-    try:
-        import dask
-        import distributed
-    except ImportError as missing:
-        raise DifferentialError(f"{missing.name} is missing; install it by pip install \"bevel-differential[sweep]\", or take "
-                                "workers=0") from None
+    dask, distributed = needed("dask", "sweep"), needed("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
                                 "if __name__ == \"__main__\":")

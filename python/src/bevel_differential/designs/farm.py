@@ -4,12 +4,13 @@ import hashlib
 import pickle
 import queue
 import sys
-import threading
 import time
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
+from contextlib import suppress
 
+from ..extras import needed
 from ..values import DifferentialError
 from . import cluster
 from .task import Row, Task
@@ -68,15 +69,18 @@ class _Run:
     """Designs of one task on their way through the workers."""
 
     def __init__(self, client, task, designs):
+        from .worker import Delivery
         self.client, self.left = client, deque(designs)
         packed = pickle.dumps(task)
         self.key = hashlib.sha256(packed).hexdigest()
-        # a result that dask makes again where the worker that held it has died
-        self.task = client.submit(_kept, packed, key=f"task-{self.key}", pure=True)
-        self.under_way, self.suspects, self.seconds, self.ended = {}, [], None, queue.SimpleQueue()
+        self.delivery = Delivery(self.key, packed)
+        self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
+        # of chunks whose worker died, to be tried one by one; and what died even so, to be tried alone
+        self.singles, self.suspects = deque(), []
 
     def rows(self):
         try:
+            self.client.register_plugin(self.delivery)
             self._fill()
             while self.under_way:
                 future = self._next()
@@ -86,6 +90,8 @@ class _Run:
             raise DifferentialError("the scheduler is gone; start it again and go on") from None
         finally:
             self.client.cancel(list(self.under_way))
+            with suppress(ValueError, OSError):
+                self.client.unregister_worker_plugin(self.delivery.name)
 
     def _next(self):
         """A future that has ended."""
@@ -102,15 +108,17 @@ class _Run:
     def _fill(self):
         """Hands out chunks until all workers have enough."""
         workers = max(1, sum(self.client.nthreads().values()))
-        while self.left and len(self.under_way) < AT_HAND * workers:
-            size = self._size(workers)
-            self._submit([self.left.popleft() for _ in range(min(size, len(self.left)))])
-        if self.suspects and not self.left and not self.under_way:
+        while (self.left or self.singles) and len(self.under_way) < AT_HAND * workers:
+            size = 1 if self.singles else min(self._size(workers), len(self.left))
+            source = self.singles or self.left
+            self._submit([source.popleft() for _ in range(size)])
+        if self.suspects and not self.under_way:
             # alone, so that no other design can be what the worker dies of
             self._submit([self.suspects.pop()], alone=True)
 
     def _submit(self, chunk, alone=False):
-        future = self.client.submit(_evaluated, self.key, self.task, chunk, pure=False)
+        from .worker import evaluated
+        future = self.client.submit(evaluated, self.key, chunk, pure=False)
         self.under_way[future] = chunk, alone
         future.add_done_callback(self.ended.put)
 
@@ -130,35 +138,13 @@ class _Run:
         except KilledWorker:
             if alone:
                 return [Row(run, dict(values), message="its worker process died each time") for run, values in chunk]
-            if len(chunk) == 1:
-                self.suspects += chunk
             # one by one, to find the design that does it
-            for design in chunk if len(chunk) > 1 else []:
-                self.left.appendleft(design)
-            self.seconds = None
+            (self.suspects if len(chunk) == 1 else self.singles).extend(chunk)
             return []
         recent = sum(row.seconds for row in rows) / len(rows)
         self.seconds = max(1e-6, recent if self.seconds is None else 0.5 * (self.seconds + recent))
         return rows
 
 
-# of this thread, as an instance belongs to one: the last task and its key
-_own = threading.local()
-
-
-def _kept(packed: bytes) -> bytes:
-    return packed
-
-
-def _evaluated(key: str, packed: bytes, chunk: Sequence) -> list[Row]:
-    """Rows of a chunk, on a worker. The task is kept, and with it the FMU's instance."""
-    if getattr(_own, "key", None) != key:
-        if hasattr(_own, "task"):
-            _own.task.close()
-        _own.task, _own.key = pickle.loads(packed), key
-    return [_own.task.evaluate(run, values) for run, values in chunk]
-
-
 def _with_bar(rows, total):
-    from tqdm import tqdm
-    return tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+    return needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)

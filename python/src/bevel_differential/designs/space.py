@@ -165,8 +165,9 @@ class Space:
 
     def at(self, shares: np.ndarray) -> list[dict]:
         """Designs at points of the unit cube, shape (runs, dimensions)."""
-        columns = [dimension.at(column) for dimension, column in zip(self.dimensions, np.asarray(shares, float).T)]
-        return self.designs(zip(*columns))
+        shares = np.asarray(shares, float)
+        columns = [dimension.at(column) for dimension, column in zip(self.dimensions, shares.T)]
+        return self.designs(zip(*columns) if columns else [()] * len(shares))
 
     def grid(self) -> list[dict]:
         """All combinations of the levels of all dimensions; the last one changes fastest."""

@@ -33,15 +33,15 @@ class Task:
     """A scene and what is wanted of each of its designs. It can be sent to other processes.
 
     `wants` and `conditions` as text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures are taken from after
-    `start` (s) on. Where only final values are wanted the scene takes one long step."""
+    `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one long step."""
 
     def __init__(self, scene: Scene, wants: Sequence, conditions: Sequence = (), start: float = 0.0):
         self.scene, self.start = scene, start
         fmu = scene.fmu
         self.wants = [want if isinstance(want, Want) else Want.parse(fmu, want) for want in wants]
         self.conditions = [one if isinstance(one, Condition) else Condition.parse(fmu, one) for one in conditions]
-        self._all = list(dict.fromkeys([*self.wants, *(condition.want for condition in self.conditions)]))
-        if not self._all:
+        self.figures = list(dict.fromkeys([*self.wants, *(condition.want for condition in self.conditions)]))
+        if not self.figures:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
         if not 0.0 <= start < scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
@@ -63,13 +63,13 @@ class Task:
         self.scene.close()
 
     def _figures(self, values):
-        if all(want.statistic.word == "final" for want in self._all):
-            last = self.scene.final([want.name for want in self._all], values)
-            return {str(want): float(last[want.name]) for want in self._all}
-        angles = {want.statistic.angle for want in self._all} - {None}
-        outputs = list(dict.fromkeys([*(want.name for want in self._all), *sorted(angles), "geometry.planet_teeth"]))
+        if all(want.statistic.word == "final" for want in self.figures):
+            last = self.scene.final([want.name for want in self.figures], values)
+            return {str(want): float(last[want.name]) for want in self.figures}
+        angles = {want.statistic.angle for want in self.figures} - {None}
+        outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
         record = self.scene.run(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
         # half a step, as communication points are rounded; the start itself is not counted
         record = record[record["time"] > self.start + 0.5 * self.scene.step]
-        return {str(want): want.of(record, teeth) for want in self._all}
+        return {str(want): want.of(record, teeth) for want in self.figures}

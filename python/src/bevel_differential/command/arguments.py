@@ -1,0 +1,22 @@
+"""Arguments that several sub-commands take."""
+
+import argparse
+
+
+def assignment(text: str) -> tuple[str, str]:
+    """Of NAME=VALUE."""
+    name, sign, value = text.partition("=")
+    if not (name.strip() and sign and value.strip()):
+        raise argparse.ArgumentTypeError(f"{text!r}: write NAME=VALUE")
+    return name.strip(), value.strip()
+
+
+def add_fmu(parser: argparse.ArgumentParser):
+    """The FMU to use."""
+    parser.add_argument("--fmu", metavar="FILE", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
+
+
+def add_set(parser: argparse.ArgumentParser):
+    """Values that differ from the scene's."""
+    parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],
+                        help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")

@@ -1,0 +1,36 @@
+"""The command `run`: simulates a scene."""
+
+import argparse
+
+from .arguments import add_fmu, add_set
+
+HELP = "simulate a scene"
+EXTRA = None
+
+
+def add_arguments(parser: argparse.ArgumentParser):
+    """Adds what the command takes."""
+    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
+    add_set(parser)
+    parser.add_argument("--stop", metavar="TIME", help="another end, such as \"0.2 s\"")
+    parser.add_argument("--output", metavar="NAME", action="append", help="what to record, instead of the scene's outputs")
+    parser.add_argument("--csv", metavar="FILE", help="write the record as CSV, in SI")
+    parser.add_argument("--parquet", metavar="FILE", help="write the record as Parquet, in SI")
+    parser.add_argument("--plot", metavar="FILE", help="write a picture (PNG, SVG or PDF)")
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulates, prints a summary and writes files. Returns 0."""
+    from ..scene import Scene
+
+    with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
+        record = scene.set(dict(arguments.set)).run(arguments.output, stop=arguments.stop)
+        for warning in scene.warnings:
+            print(f"warning: {warning}")
+        print(scene.summary(record))
+        for write, file in [(scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet), (scene.plot, arguments.plot)]:
+            if file:
+                write(record, file)
+                print(f"written: {file}")
+    return 0

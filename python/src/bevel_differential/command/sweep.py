@@ -1,0 +1,89 @@
+"""The command `sweep`: runs a scene for all designs of a plan."""
+
+import argparse
+
+from .arguments import add_fmu, add_set, assignment
+
+HELP = "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"
+EXTRA = "sweep"
+# what a plan file may have, and what each option is called
+KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
+        "condition": "condition", "from": "start"}
+USUAL = {"plan": "random", "seed": 0, "start": 0.0}
+
+
+def add_arguments(parser: argparse.ArgumentParser):
+    """Adds what the command takes."""
+    parser.add_argument("--scene", help="a scene file (TOML), or the name of a shipped scene")
+    parser.add_argument("--vary", metavar="NAME=VALUES", type=assignment, action="append", default=[],
+                        help="FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
+                             "lognormal(MEDIAN, FACTOR) or seed")
+    add_set(parser)
+    parser.add_argument("--plan", choices=["grid", "lhs", "sobol", "random"], help="which designs to try (start value: random)")
+    parser.add_argument("--runs", type=int, metavar="N", help="how many; a grid has as many as it has, Sobol takes a power of two")
+    parser.add_argument("--seed", type=int, metavar="N", help="what all draws follow from (start value: 0)")
+    parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
+                        help="a figure to record, such as left.speed:mean; the final value without a statistic")
+    parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],
+                        help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
+    parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
+    parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
+    parser.add_argument("--out", metavar="FILE", help="results as Parquet")
+    parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
+    parser.add_argument("--force", action="store_true", help="start over where there are results")
+    parser.add_argument("--workers", type=int, metavar="N", help="how many work at once (start value: one per core; 0: no others)")
+    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    from ..designs.report import text
+    from ..designs.sweep import sweep
+    from ..scene import Scene
+    from ..values import DifferentialError
+
+    given = _merged(arguments)
+    if not given.get("scene"):
+        raise DifferentialError("name a scene: --scene NAME")
+    with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
+        scene.set(given["set"])
+        result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
+                       given["start"], arguments.out, arguments.resume, arguments.force, workers=arguments.workers,
+                       processes=not arguments.threads, scheduler=arguments.scheduler, progress=True)
+        print(text(result, asked=given.get("runs")))
+    return 0
+
+
+def _merged(arguments):
+    """What the plan file says, and what the command line says instead or adds."""
+    given = {**USUAL, **(_read(arguments.plan_file) if arguments.plan_file else {})}
+    for name in ("scene", "plan", "runs", "seed", "start"):
+        if getattr(arguments, name) is not None:
+            given[name] = getattr(arguments, name)
+    for name in ("set", "vary"):
+        given[name] = {**given.get(name, {}), **dict(getattr(arguments, name))}
+    for name in ("want", "condition"):
+        given[name] = [*given.get(name, []), *getattr(arguments, name)]
+    return given
+
+
+def _read(file):
+    import tomllib
+
+    from ..scene_file import flat
+    from ..values import DifferentialError, suggestion
+
+    try:
+        with open(file, "rb") as opened:
+            found = tomllib.load(opened)
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+        raise DifferentialError(f"{file}: {error}") from None
+    for key in found:
+        if key not in KEYS:
+            raise DifferentialError(f"{file}: {key}: there is no such key{suggestion(key, KEYS)}; known: {', '.join(KEYS)}")
+    for key, kind, written in [("set", dict, "a table"), ("vary", dict, "a table"), ("want", list, "a list"), ("condition", list, "a list")]:
+        if not isinstance(found.get(key, kind()), kind):
+            raise DifferentialError(f"{file}: {key} is {written}")
+    return {KEYS[key]: flat(value) if key in ("set", "vary") else value for key, value in found.items()}

@@ -1,0 +1,157 @@
+"""Results in a Parquet file. While they arrive they are kept in parts next to it, so that little is lost by an interrupt, a crash
+or a full disk."""
+
+import json
+import os
+import shutil
+import time
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from ..values import DifferentialError
+from .table import metadata_of, with_metadata
+
+# time between two parts, s
+INTERVAL = 1.0
+PLAN = "plan.json"
+
+
+class Store:
+    """Results on their way to `file`, with what they are results of as `metadata`; `metadata["hash"]` names it.
+
+    A context: what has been added is kept, whatever ends it. `resume` goes on with the parts that are there, `force` starts over."""
+
+    def __init__(self, file, columns, metadata: dict, resume: bool = False, force: bool = False):
+        self.file, self.columns, self.metadata = Path(file), columns, metadata
+        self.folder = self.file.with_name(self.file.name + ".parts")
+        self._rows, self._flushed = [], time.monotonic()
+        self.finished = None
+        if force:
+            self._check_place()
+            shutil.rmtree(self.folder, ignore_errors=True)
+        elif self.file.exists():
+            self.finished = self._finished(resume)
+        elif self.folder.exists():
+            self._check_parts(resume)
+        else:
+            self._check_place()
+        if self.finished is None:
+            self._begin()
+        self.kept = self._read_parts() if self.finished is None else self.finished
+        self._count = len(self.kept)
+
+    def runs(self) -> set[int]:
+        """Runs that are kept."""
+        return set(self.kept["run"].to_pylist())
+
+    def add(self, row):
+        """Keeps a row."""
+        self._rows.append(row)
+        if time.monotonic() - self._flushed > INTERVAL:
+            self.flush()
+
+    def flush(self):
+        """Writes what has been added into a part."""
+        if self._rows:
+            number = len(list(self.folder.glob("part-*.parquet")))
+            self._write(self.columns.table(self._rows), self.folder / f"part-{number:06d}-{os.getpid()}.parquet")
+            self._count += len(self._rows)
+            self._rows = []
+        self._flushed = time.monotonic()
+
+    def finish(self) -> pa.Table:
+        """Writes the file and removes the parts. Returns the table, in order of run."""
+        self.flush()
+        table = with_metadata(self._read_parts(), self.metadata)
+        self._write(table, self.file)
+        shutil.rmtree(self.folder, ignore_errors=True)
+        return table
+
+    def progress(self) -> str:
+        """What is kept, and how to go on."""
+        return (f"{self._count} of {self.metadata['runs']} runs are kept in {self.folder}; "
+                "the same command with --resume (resume=True) goes on")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, *_):
+        # a disk that could not be written to is not tried again
+        if kind is not None and not issubclass(kind, StoreError):
+            self.flush()
+
+    def _check_place(self):
+        if not self.file.absolute().parent.is_dir():
+            raise DifferentialError(f"{self.file}: there is no folder {self.file.absolute().parent}; make it first")
+        if self.file.is_dir():
+            raise DifferentialError(f"{self.file}: it is a folder; name a file")
+
+    def _finished(self, resume):
+        try:
+            table = pq.read_table(self.file)
+            found = metadata_of(table.schema) or {}
+        except (OSError, pa.ArrowException):
+            found = {}
+        if found.get("hash") != self.metadata["hash"]:
+            raise DifferentialError(f"{self.file}: it is there and holds something else; name another file, or overwrite it with "
+                                    "--force (force=True)")
+        if not resume:
+            raise DifferentialError(f"{self.file}: it is there and holds the results of this plan; --resume (resume=True) shows "
+                                    "them, --force (force=True) starts over")
+        return table
+
+    def _check_parts(self, resume):
+        try:
+            found = json.loads((self.folder / PLAN).read_text(encoding="utf-8"))["hash"]
+        except (OSError, ValueError, KeyError):
+            found = None
+        if found != self.metadata["hash"]:
+            raise DifferentialError(f"{self.folder}: it holds parts of another plan; name another file, or remove them with --force "
+                                    "(force=True)")
+        if not resume:
+            raise DifferentialError(f"{self.folder}: it holds parts of this plan; go on with --resume (resume=True), or start over "
+                                    "with --force (force=True)")
+
+    def _begin(self):
+        try:
+            self.folder.mkdir(exist_ok=True)
+            if not (self.folder / PLAN).exists():
+                _replace(self.folder / PLAN, lambda to: to.write_text(json.dumps(self.metadata, indent=1), encoding="utf-8"))
+        except OSError as error:
+            raise StoreError(f"{self.folder}: {error.strerror or error}") from None
+
+    def _read_parts(self):
+        """All parts as one table, in order of run. A run that is there twice counts once."""
+        tables = [pq.read_table(part, schema=self.columns.schema) for part in sorted(self.folder.glob("part-*.parquet"))]
+        table = pa.concat_tables(tables) if tables else self.columns.schema.empty_table()
+        places = {run: place for place, run in enumerate(table["run"].to_pylist())}
+        return table.take(pa.array([places[run] for run in sorted(places)], pa.int64()))
+
+    def _write(self, table, file):
+        try:
+            _replace(file, lambda to: pq.write_table(table, to))
+        except OSError as error:
+            raise StoreError(f"{file}: {error.strerror or error}; {self.progress()}, once there is room") from None
+
+
+class StoreError(DifferentialError):
+    """Results cannot be written."""
+
+
+def _replace(file, write):
+    """Writes under another name, and renames only what has reached the disk."""
+    temporary = file.with_name(f".{file.name}.{os.getpid()}")
+    try:
+        write(temporary)
+        for path in (temporary, file.parent):
+            handle = os.open(path, os.O_RDONLY)
+            try:
+                os.fsync(handle)
+            finally:
+                os.close(handle)
+            if path is temporary:
+                os.replace(temporary, file)
+    finally:
+        temporary.unlink(missing_ok=True)

@@ -1,0 +1,128 @@
+"""Sweeps: all designs of a plan."""
+
+import hashlib
+import importlib.metadata
+import json
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from ..points import seconds
+from ..scene import Scene
+from ..values import DifferentialError
+from .farm import Farm
+from .plan import Plan
+from .space import Space
+from .store import Store
+from .table import Columns, digest, metadata_of, with_metadata
+from .task import Task
+
+
+class Stopped(KeyboardInterrupt):
+    """An interrupt; the message says what is kept and how to go on."""
+
+
+@dataclass(frozen=True)
+class SweepResult:
+    """All runs of a plan.
+
+    `table`: run, what varied, figures, feasible, message, seconds; SI, fields name their units; in order of run.
+    `metadata`: what they are results of. `seconds`: what this sweep took; `new`: runs of it, others were kept from before."""
+
+    table: pa.Table
+    metadata: dict
+    file: Path | None = None
+    seconds: float = 0.0
+    new: int = 0
+
+    @classmethod
+    def load(cls, file) -> "SweepResult":
+        """Of a file."""
+        try:
+            table = pq.read_table(file)
+        except (OSError, pa.ArrowException) as error:
+            raise DifferentialError(f"{file}: {error}") from None
+        metadata = metadata_of(table.schema)
+        if metadata is None:
+            raise DifferentialError(f"{file}: it holds no sweep")
+        return cls(table, metadata, Path(file))
+
+    def frame(self):
+        """As a pandas DataFrame, by run."""
+        return self.table.to_pandas().set_index("run")
+
+    def digest(self) -> str:
+        """A hash of all rows without the times they took."""
+        return digest(self.table)
+
+    def failures(self) -> Counter:
+        """How many designs failed, by message."""
+        return Counter(message for message in self.table["message"].to_pylist() if message)
+
+    def unit(self, column: str) -> str:
+        """SI unit of a column."""
+        return self.table.schema.field(column).metadata[b"unit"].decode()
+
+
+def sweep(scene, vary, plan: str = "random", runs: int | None = None, seed: int = 0, wants: Sequence = (),
+          conditions: Sequence = (), start=0.0, out=None, resume: bool = False, force: bool = False,
+          **farm) -> SweepResult:
+    """Runs a scene (a `Scene`, or what `Scene.load` takes) for all designs of a plan.
+
+    `vary`: values by variable, see `Dimension.parse`. `plan`, `runs`, `seed`: see `Plan`. `wants`, `conditions`, `start`: see
+    `Task`. `out`: a Parquet file; see `Store`. `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
+    scene = scene if isinstance(scene, Scene) else Scene.load(scene)
+    space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
+    task = Task(scene, wants, conditions, seconds("from", start))
+    plan = plan if isinstance(plan, Plan) else Plan.parse(space, plan, runs, seed)
+    columns, metadata = Columns(task, space), describe(task, plan)
+    begun = time.perf_counter()
+    if out is None:
+        with Farm(**farm) as workers:
+            table = with_metadata(columns.table(list(workers.rows(task, plan.designs()))), metadata)
+        return SweepResult(table, metadata, None, time.perf_counter() - begun, plan.runs)
+    with Store(out, columns, metadata, resume, force) as store:
+        done = store.runs()
+        missing = [design for design in plan.designs() if design[0] not in done]
+        try:
+            if missing:
+                with Farm(**farm) as workers, closing(workers.rows(task, missing)) as rows:
+                    for row in rows:
+                        store.add(row)
+        except KeyboardInterrupt:
+            store.flush()
+            raise Stopped(f"stopped; {store.progress()}") from None
+        table = store.finish() if store.finished is None else store.finished
+    return SweepResult(table, metadata, Path(out), time.perf_counter() - begun, len(missing))
+
+
+def describe(task: Task, plan: Plan) -> dict:
+    """What results follow from, for their metadata; "hash" is the hash of it all."""
+    scene = {key: value for key, value in task.scene.__getstate__().items() if key != "fmu"}
+    from_all = {
+        "version": _version(),
+        "fmu": hashlib.sha256(task.scene.fmu.file.read_bytes()).hexdigest(),
+        "scene": scene,
+        "vary": {one.variable: str(one) for one in plan.space.dimensions},
+        "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,
+        "wants": [str(want) for want in task.wants],
+        "figures": [str(want) for want in task.figures],
+        "conditions": [f"{one.want} {one.relation} {one.limit!r}" for one in task.conditions],
+        "from": task.start,
+    }
+    # numbers of numpy as plain ones
+    plain = json.loads(json.dumps(from_all, default=lambda value: value.tolist()))
+    return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
+
+
+def _version():
+    try:
+        return importlib.metadata.version("bevel-differential")
+    except importlib.metadata.PackageNotFoundError:
+        return "not installed"

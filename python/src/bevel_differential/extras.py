@@ -1,0 +1,18 @@
+"""Packages that only some uses need."""
+
+import importlib
+
+from .values import DifferentialError
+
+
+def install(module: str, extra: str) -> str:
+    """What to say where a package is missing."""
+    return f"{module.partition('.')[0]} is missing; install it by: pip install \"bevel-differential[{extra}]\""
+
+
+def needed(module: str, extra: str):
+    """The module, or an error that says which extra of this package brings it."""
+    try:
+        return importlib.import_module(module)
+    except ModuleNotFoundError as missing:
+        raise DifferentialError(install(missing.name or module, extra)) from None
