@@ -1,5 +1,4 @@
-"""Planets and side gears for the study's car: searches, confirms, and with --write renews table and picture of
-docs/optimisation.md. See README.md."""
+"""Planets and side gears for the study's car: see README.md. With --write it renews table and picture of docs/optimisation.md."""
 
 import argparse
 import re
@@ -7,36 +6,28 @@ import shutil
 import sys
 from pathlib import Path
 
-from bevel_differential import DifferentialError
-from bevel_differential.optimise import command
+from bevel_differential.command import main
 
 HERE = Path(__file__).resolve().parent
-PAGE = HERE.parents[1] / "docs/optimisation.md"
-PICTURE = HERE.parents[1] / "docs/figures/optimisation.png"
+DOCS = HERE.parents[1] / "docs"
 BEGIN, END = "<!-- choice begin -->", "<!-- choice end -->"
 
 
-def main() -> int:
-    """Runs the command with the problem file of this folder."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    command.add_arguments(parser)
+def run() -> int:
+    """Runs the command `optimise` with the problem file of this folder. Returns its exit status."""
+    parser = argparse.ArgumentParser(description=__doc__, epilog="Other arguments are those of the command optimise.")
     parser.add_argument("--write", action="store_true", help="renew table and picture of docs/optimisation.md")
-    words = sys.argv[1:]
-    arguments = parser.parse_args([str(HERE / "study_gears.toml"), *words])
-    arguments.out = arguments.out or Path("target/optimise/study_gears")
-    try:
-        status = command.run(arguments)
-    except DifferentialError as error:
-        print(error, file=sys.stderr)
-        return 2
-    if arguments.write and status == 0:
-        table = (arguments.out / "choice.md").read_text(encoding="utf-8")
-        page = PAGE.read_text(encoding="utf-8")
-        page = re.sub(f"{BEGIN}.*{END}", lambda _: f"{BEGIN}\n{table}{END}", page, flags=re.DOTALL)
-        PAGE.write_text(page, encoding="utf-8")
-        shutil.copy(arguments.out / "front.png", PICTURE)
+    parser.add_argument("--out", type=Path, default=Path("target/optimise/study_gears"), help="folder of the results")
+    given, others = parser.parse_known_args()
+    status = main(["optimise", str(HERE / "study_gears.toml"), "--out", str(given.out), *others])
+    if given.write and status == 0:
+        page = DOCS / "optimisation.md"
+        table = (given.out / "choice.md").read_text(encoding="utf-8")
+        text = re.sub(f"{BEGIN}.*{END}", lambda _: f"{BEGIN}\n{table}{END}", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+        page.write_text(text, encoding="utf-8")
+        shutil.copy(given.out / "front.png", DOCS / "figures/optimisation.png")
     return status
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(run())

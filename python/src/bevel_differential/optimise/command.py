@@ -1,8 +1,9 @@
 """The command `optimise`: from a problem file to a front, a choice and files for CAD."""
 
 import argparse
-import sys
 from pathlib import Path
+
+from ..command.arguments import add_fmu
 
 HELP = "optimise gears by several objectives at once"
 EXTRA = "design"
@@ -23,11 +24,11 @@ def add_arguments(parser: argparse.ArgumentParser):
     parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
     parser.add_argument("--scheduler", help="address of a dask scheduler")
     parser.add_argument("--program", type=Path, help="fmu-build, which writes curves and solids of the chosen gears")
-    parser.add_argument("--fmu", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
+    add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Optimises. Returns 0; 130 where it was interrupted. Raises `DifferentialError`."""
+    """Optimises. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
     from .store import Store
@@ -39,9 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
         with Farm(arguments.workers, scheduler=arguments.scheduler) as farm:
             _optimise(arguments, problem, out, store, farm)
     except KeyboardInterrupt:
-        print(f"\ninterrupted: {len(store.rows)} designs are in {out}, the front of the last generation in {out / 'front.csv'}; "
-              "go on by --resume", file=sys.stderr)
-        return 130
+        raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
+                                f"{out / 'front.csv'}; go on by --resume") from None
     return 0
 
 
