@@ -13,7 +13,7 @@ LEAST_INNER_CONE, LEAST_ROOT_ANGLE = 0.1, 0.02
 
 
 def violations(pair: Pair) -> dict[str, float]:
-    """Excess over each limit that is broken, relative to it or to the module, by the name of the check; empty for a sound pair."""
+    """Excess over each limit that is broken, relative to it or to the module, by name of the check; empty for a sound pair."""
     module, found = pair.module, {}
     if 2 * pair.gears[1].teeth % pair.planets:
         # whole numbers have no near miss

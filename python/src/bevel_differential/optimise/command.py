@@ -18,8 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser):
     parser.add_argument("--population", type=int, help="designs of a generation")
     parser.add_argument("--generations", type=int, help="how many generations")
     parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
-    parser.add_argument("--quick", action="store_true", help="a small population and few generations, and only the chosen designs "
-                                                             "are confirmed")
+    parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
     parser.add_argument("--scheduler", help="address of a dask scheduler")
@@ -32,7 +31,8 @@ def run(arguments: argparse.Namespace) -> int:
     from ..designs.farm import Farm
     from .problem import Problem
     from .store import Store
-    effort = {key: getattr(arguments, key) for key in ("population", "generations", "seed") if getattr(arguments, key) is not None}
+    given = {key: getattr(arguments, key) for key in ("population", "generations", "seed")}
+    effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
@@ -54,12 +54,13 @@ def _optimise(arguments, problem, out, store, farm):
     from .search import search
 
     def each(generation, best):
-        print(f"generation {generation} of {problem.generations}: {len(store.rows)} designs, {len(best)} on the front", flush=True)
+        print(f"generation {generation} of {problem.generations}: {len(store.rows)} designs, {len(best)} on the front",
+              flush=True)
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 
     compared = _compared(problem, DesignTask(problem, thorough=True))
     best = search(problem, farm, store, each)
-    rows = thinned(best, problem.objectives, problem.population)
+    rows = thinned(best, problem.objectives, problem.front)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
     confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, farm)}

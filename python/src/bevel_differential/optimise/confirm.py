@@ -21,7 +21,7 @@ class Confirmed:
         return other / first - 1.0 if first else float("nan")
 
     def flat(self, problem: Problem) -> dict:
-        """As a row of a table: the design, the parameters that follow, and for each model figures, differences, and what it breaks."""
+        """As a row of a table: the design, what follows from it, and for each model figures, differences and what it breaks."""
         told = {**self.row.flat(), **problem.complete(self.row.values)}
         for model, row in self.models.items():
             for each in problem.objectives:

@@ -86,7 +86,8 @@ class DesignTask(Task):
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
         if without:
-            raise DifferentialError(f"{without[0].partition(':')[0]}: no whole mesh cycle passes; let the scene run longer, or faster")
+            raise DifferentialError(f"{without[0].partition(':')[0]}: no whole mesh cycle passes; let the scene run longer, or "
+                                    "faster")
         warned = [text for text in self.scene.warnings if text.startswith(REFUSED_WARNINGS) and not self._told(row, text)]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
         return {name.rpartition(":")[0]: value for name, value in figures.items()}

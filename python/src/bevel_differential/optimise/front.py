@@ -15,7 +15,8 @@ CHOICES = 5
 
 def costs(rows: Sequence[DesignRow], objectives: Sequence[Objective]) -> np.ndarray:
     """Figures with signs so that less is better, shape (rows, objectives)."""
-    return np.array([[each.sign * row.figures[str(each.want)] for each in objectives] for row in rows]).reshape(-1, len(objectives))
+    figures = [[each.sign * row.figures[str(each.want)] for each in objectives] for row in rows]
+    return np.array(figures, float).reshape(-1, len(objectives))
 
 
 def front(rows: Sequence[DesignRow], objectives: Sequence[Objective]) -> list[DesignRow]:

@@ -15,7 +15,7 @@ from ..values import DifferentialError, suggestion
 from ..want import Condition, Want
 from .quantities import QUANTITIES, Catalogue
 
-KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "seed", "set", "vary", "follow",
+KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "seed", "front", "set", "vary", "follow",
         "compare", "confirm"}
 NEEDED = ("description", "scene", "objectives", "vary")
 SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
@@ -54,7 +54,7 @@ class Follower:
 
     @classmethod
     def parse(cls, fmu, name: str, given) -> "Follower":
-        """Of { from = "geometry.module", factor = 4.0, plus = 0.0 } or { from = "geometry.planet_count", table = { 2 = 1.0 } }."""
+        """Of { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
         unknown = set(given) - {"from", "factor", "plus", "table"} if isinstance(given, Mapping) else {"?"}
         if unknown or "from" not in given or ("table" in given and len(given) > 2):
             raise DifferentialError(f"[follow] {name}: write {{ from = \"NAME\", factor = 1.0, plus = 0.0 }} or "
@@ -78,7 +78,7 @@ class Follower:
 @dataclass(frozen=True)
 class Problem:
     """What a problem file says. `compare` and `confirm`: settings by name. `only_chosen`: names of `confirm` for the designs to
-    choose from alone, not for the whole front."""
+    choose from alone, not for the whole front. `front`: designs of the front that are confirmed and shown, spread over it."""
 
     description: str
     scene: Scene
@@ -92,6 +92,7 @@ class Problem:
     population: int = 96
     generations: int = 100
     seed: int = 1
+    front: int = 64
 
     @classmethod
     def load(cls, file, fmu=None) -> "Problem":
@@ -112,11 +113,12 @@ class Problem:
         return replace(self, scene=Scene(**{**state, "set": {**state["set"], **settings}}),
                        followers=[each for each in self.followers if each.name not in settings])
 
-    def sized(self, population: int | None = None, generations: int | None = None, seed: int | None = None) -> "Problem":
+    def sized(self, population: int | None = None, generations: int | None = None, seed: int | None = None,
+              front: int | None = None) -> "Problem":
         """The same problem with another effort."""
-        given = {"population": population, "generations": generations, "seed": seed}
+        given = {"population": population, "generations": generations, "seed": seed, "front": front}
         problem = replace(self, **{key: value for key, value in given.items() if value is not None})
-        for key, least in (("population", LEAST_POPULATION), ("generations", 1), ("seed", 0)):
+        for key, least in (("population", LEAST_POPULATION), ("generations", 1), ("seed", 0), ("front", 1)):
             if getattr(problem, key) < least:
                 raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
         return problem
@@ -148,7 +150,8 @@ class _Reader:
         scene = self.attempt(self.scene)
         vary = flat(self.found.get("vary", {}))
         dimensions = [self.attempt(self.dimension, name, given) for name, given in vary.items()]
-        followers = [self.attempt(Follower.parse, self.fmu, name, given) for name, given in _entries(self.found.get("follow", {}))]
+        followers = [self.attempt(Follower.parse, self.fmu, name, given)
+                     for name, given in _entries(self.found.get("follow", {}))]
         objectives = [self.attempt(Objective.parse, self.catalogue, text) for text in self.found.get("objectives", [])]
         if len(objectives) == 1:
             self.problems.append("objectives: name two or more; one alone has no front")
@@ -160,7 +163,7 @@ class _Reader:
                           if each and each.name in vary]
         compare, confirm = (self.named(key) for key in ("compare", "confirm"))
         only_chosen = frozenset(entry.get("name") for entry in self.found.get("confirm", []) if entry.get("only_chosen"))
-        effort = {key: self.found[key] for key in ("population", "generations", "seed") if key in self.found}
+        effort = {key: self.found[key] for key in ("population", "generations", "seed", "front") if key in self.found}
         self.problems += [f"{key} = {value!r}: it is a whole number" for key, value in effort.items() if type(value) is not int]
         if self.problems:
             raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))

@@ -29,7 +29,8 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
         lines.append(_line(catalogue, name, name, [each[name] for each in known]))
     wants = dict.fromkeys(str(each.want) for each in [*problem.objectives, *problem.conditions])
     for want in wants:
-        lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0], [row.figures.get(want) for row in columns]))
+        lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
+                           [row.figures.get(want) for row in columns]))
         for model in problem.confirm if want in {str(each.want) for each in problem.objectives} else ():
             changes = [each.difference(model, want) for _, each in chosen]
             lines.append([f"… with {model}", *(f"{100.0 * change:+.1f} %" for change in changes), *("" for _ in compared)])

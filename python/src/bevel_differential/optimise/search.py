@@ -8,6 +8,7 @@ from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.evaluator import Evaluator
 from pymoo.core.problem import Problem as PymooProblem
 from pymoo.core.repair import Repair
+from pymoo.operators.mutation.pm import PM
 from pymoo.operators.sampling.lhs import LHS
 from pymoo.problems.static import StaticProblem
 
@@ -17,6 +18,9 @@ from .design_task import DesignRow, DesignTask
 from .front import costs, front
 from .problem import Problem
 from .store import Store
+
+# index of the distribution of mutations, less is wider: whole numbers need steps as wide as their cells
+WIDTH = 8
 
 
 class _Cells(Repair):
@@ -40,7 +44,8 @@ def _cells(dimension: Dimension) -> float:
     return dimension.numbers[1] - dimension.numbers[0] + 1.0 if dimension.whole else np.inf
 
 
-def search(problem: Problem, farm, store: Store, each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
+def search(problem: Problem, farm, store: Store,
+           each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
     """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
 
     `each(generation, rows)` is told of the front so far. What the store knows is not evaluated again. Raises where no design is
@@ -48,8 +53,7 @@ def search(problem: Problem, farm, store: Store, each: Callable[[int, list[Desig
     space, objectives = problem.space, problem.objectives
     task = DesignTask(problem)
     cube = PymooProblem(n_var=len(space.dimensions), n_obj=len(objectives), n_ieq_constr=1, xl=0.0, xu=1.0)
-    # LHS is one draw for all; the repair follows at once, as it does after mating
-    algorithm = NSGA2(pop_size=problem.population, sampling=LHS(), repair=_Cells(space))
+    algorithm = NSGA2(pop_size=problem.population, sampling=LHS(), mutation=PM(eta=WIDTH), repair=_Cells(space))
     algorithm.setup(cube, termination=("n_gen", problem.generations), seed=problem.seed, verbose=False)
     best: list[DesignRow] = []
     generation = 0
