@@ -255,8 +255,8 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
     assert row.feasible, row
     with Farm(0) as farm:
         told = confirm.confirm([row], [], problem, farm)[0]
-    model = "elastic bodies and pins"
-    settings = {**problem.scene.values, **problem.complete(good), **problem.confirm[model]}
+    model = "elastic bodies"
+    settings = {**problem.scene.values, **problem.complete(good), **problem.confirm[model].settings}
     scene = problem.scene.__getstate__()
     with Scene(**{**scene, "set": settings}) as richest:
         figures = richest.final([want.name for want in (each.want for each in problem.objectives) if want.name not in QUANTITIES])
@@ -299,6 +299,8 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     ("population = 40", "population = 2", ["population = 2", "4 or more"]),
     ("seed = 3", "sead = 3", ["sead", "did you mean seed"]),
     ("[vary]", "[follow]\ngeometry.module = { from = \"geometry.face_width\" }\n[vary]", ["geometry.module", "varies as well"]),
+    ("[vary]", "[[confirm]]\nname = \"a\"\nconditions = [\"left.speed < 1\"]\n[vary]", ["left.speed", "replaces no condition"]),
+    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "a name of its own"]),
     ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
 ])
 def test_errors_in_a_file_name_what_is_wrong(folder, fmu_file, old, new, parts):

@@ -35,9 +35,9 @@ class Confirmed:
 def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm) -> list[Confirmed]:
     """Runs rows with each model of the problem; with models for chosen designs alone only those."""
     found = {row.run: {} for row in rows}
-    for model, settings in problem.confirm.items():
-        task = DesignTask(problem.at(settings), thorough=True)
-        wanted = chosen if model in problem.only_chosen else rows
+    for name, model in problem.confirm.items():
+        task = DesignTask(problem.at(model), thorough=True)
+        wanted = chosen if model.only_chosen else rows
         for row in farm.evaluate(task, [(row.run, row.values) for row in wanted]):
-            found[row.run][model] = row
+            found[row.run][name] = row
     return [Confirmed(row, found[row.run]) for row in rows]

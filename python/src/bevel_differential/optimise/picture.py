@@ -49,7 +49,7 @@ def _label(catalogue, objective: Objective) -> str:
     unit = catalogue.variable(objective.want.name).shown(0.0)[0]
     better = "less" if objective.sign > 0.0 else "more"
     name = str(objective.want).removesuffix(":final").replace("_transmission_error", "\n_transmission_error")
-    return f"{name}{f', {unit}' if unit else ''} ({better} is better)"
+    return f"{name}{f', {unit}' if unit else ''}\n({better} is better)"
 
 
 def _dominating(front, compared, objectives):

@@ -76,9 +76,19 @@ class Follower:
 
 
 @dataclass(frozen=True)
+class Model:
+    """A richer model: settings of the scene, and conditions in the place of those on the same figure. `only_chosen`: it runs for
+    the designs to choose from alone, not for the whole front."""
+
+    settings: dict
+    conditions: list[Condition] = field(default_factory=list)
+    only_chosen: bool = False
+
+
+@dataclass(frozen=True)
 class Problem:
-    """What a problem file says. `compare` and `confirm`: settings by name. `only_chosen`: names of `confirm` for the designs to
-    choose from alone, not for the whole front. `front`: designs of the front that are confirmed and shown, spread over it."""
+    """What a problem file says. `compare`: settings by name; `confirm`: models by name. `front`: designs of the front that are
+    confirmed and shown, spread over it."""
 
     description: str
     scene: Scene
@@ -88,7 +98,6 @@ class Problem:
     followers: list[Follower] = field(default_factory=list)
     compare: dict = field(default_factory=dict)
     confirm: dict = field(default_factory=dict)
-    only_chosen: frozenset = frozenset()
     population: int = 96
     generations: int = 100
     seed: int = 1
@@ -107,11 +116,13 @@ class Problem:
             followed[follower.name] = known[follower.name] = follower.of(known)
         return {**followed, **values}
 
-    def at(self, settings: Mapping) -> "Problem":
-        """The same problem with other settings of the scene. A parameter that is set follows no other one any more."""
+    def at(self, model: Model) -> "Problem":
+        """The same problem with a richer model. A parameter that the model sets follows no other one any more."""
         state = self.scene.__getstate__()
-        return replace(self, scene=Scene(**{**state, "set": {**state["set"], **settings}}),
-                       followers=[each for each in self.followers if each.name not in settings])
+        instead = {(each.want, each.relation): each for each in model.conditions}
+        return replace(self, scene=Scene(**{**state, "set": {**state["set"], **model.settings}}),
+                       followers=[each for each in self.followers if each.name not in model.settings],
+                       conditions=[instead.get((each.want, each.relation), each) for each in self.conditions])
 
     def sized(self, population: int | None = None, generations: int | None = None, seed: int | None = None,
               front: int | None = None) -> "Problem":
@@ -161,14 +172,13 @@ class _Reader:
                           if want.name in QUANTITIES and want.statistic.word != "final"]
         self.problems += [f"[follow] {each.name}: it varies as well; remove one of them" for each in followers
                           if each and each.name in vary]
-        compare, confirm = (self.named(key) for key in ("compare", "confirm"))
-        only_chosen = frozenset(entry.get("name") for entry in self.found.get("confirm", []) if entry.get("only_chosen"))
+        compare, confirm = self.named("compare"), self.models(conditions)
         effort = {key: self.found[key] for key in ("population", "generations", "seed", "front") if key in self.found}
         self.problems += [f"{key} = {value!r}: it is a whole number" for key, value in effort.items() if type(value) is not int]
         if self.problems:
             raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))
         problem = Problem(self.found["description"], scene, Space(tuple(dimensions)), objectives, conditions, followers, compare,
-                          confirm, only_chosen)
+                          confirm)
         return problem.sized(**effort)
 
     def attempt(self, function, *arguments):
@@ -191,17 +201,27 @@ class _Reader:
             raise DifferentialError(f"{name} = {given}: an optimisation varies over FROM..TO or a list, not over a distribution")
         return found
 
-    def named(self, key):
-        """Settings of [[compare]] or [[confirm]] by name, SI."""
+    def named(self, key, others=()):
+        """Settings of the entries of a key by name, SI; `others`: keys of an entry that are no settings."""
         found = {}
         for entry in self.found.get(key, []):
-            values = flat(entry)
+            values = {each: value for each, value in flat(entry).items() if each not in others}
             name = values.pop("name", None)
-            values.pop("only_chosen", None)
             if not name or name in found:
                 self.problems.append(f"[[{key}]] name = {name!r}: each entry needs a name of its own")
-            numbers = {each: self.attempt(self.number, each, value) for each, value in values.items()}
-            found[name] = numbers
+            found[name] = {each: self.attempt(self.number, each, value) for each, value in values.items()}
+        return found
+
+    def models(self, conditions):
+        """Models of [[confirm]] by name."""
+        found, all_settings = {}, self.named("confirm", ("conditions", "only_chosen"))
+        known = {(each.want, each.relation) for each in conditions if each}
+        for entry in self.found.get("confirm", []):
+            name = entry.get("name")
+            instead = [self.attempt(Condition.parse, self.catalogue, text) for text in entry.get("conditions", [])]
+            self.problems += [f"[[confirm]] {name}: {each} replaces no condition of the problem" for each in instead
+                              if each and (each.want, each.relation) not in known]
+            found[name] = Model(all_settings[name], instead, bool(entry.get("only_chosen")))
         return found
 
     def number(self, name, value):

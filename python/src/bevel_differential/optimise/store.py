@@ -40,8 +40,8 @@ class Store:
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise DifferentialError(f"{self.folder} has no results to go on from ({error}); leave out --resume") from None
         if key != self.problem.key:
-            raise DifferentialError(f"{self.folder} has the results of another problem, scene, seed or FMU; name another folder by "
-                                    "--out")
+            raise DifferentialError(f"{self.folder} has the results of another problem, scene, seed or FMU; name another "
+                                    "folder by --out")
         for row in rows_of(table, self.problem.space):
             self.rows[tuple(row.values.values())] = row
 
