@@ -177,13 +177,15 @@ def test_the_front_is_that_of_a_fine_grid(two, folder):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_the_same_seed_gives_the_same_front_however_many_workers(two, folder, workers):
-    small = two.sized(population=12, generations=4)
+    small = two.sized(population=12, generations=3, starts=2)
     alone, rows = found(small, folder / "alone")
     many, other_rows = found(small, folder / f"workers_{workers}", workers)
     assert [(row.run, row.values, row.figures) for row in alone] == [(row.run, row.values, row.figures) for row in many]
     assert [(row.values, row.violation) for row in rows] == [(row.values, row.violation) for row in other_rows]
     other, _ = found(small.sized(seed=4), folder / "seed")
     assert [row.values for row in alone] != [row.values for row in other]
+    # two starts and one that goes on from the best of both
+    assert len(rows) > 12 * 3 * 2
 
 
 def test_a_search_that_goes_on_gives_the_front_of_one_that_was_not_interrupted(two, folder):

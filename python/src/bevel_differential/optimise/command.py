@@ -8,7 +8,7 @@ from ..command.arguments import add_fmu
 HELP = "optimise gears by several objectives at once"
 EXTRA = "design"
 # effort of --quick: enough for a front, not for a good one
-QUICK = {"population": 32, "generations": 12}
+QUICK = {"population": 32, "generations": 12, "starts": 1}
 
 
 def add_arguments(parser: argparse.ArgumentParser):
@@ -17,6 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser):
     parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")
     parser.add_argument("--population", type=int, help="designs of a generation")
     parser.add_argument("--generations", type=int, help="how many generations")
+    parser.add_argument("--starts", type=int, help="how many searches begin anew; one more goes on from the best of all")
     parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
     parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
@@ -31,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..designs.farm import Farm
     from .problem import Problem
     from .store import Store
-    given = {key: getattr(arguments, key) for key in ("population", "generations", "seed")}
+    given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
@@ -53,8 +54,10 @@ def _optimise(arguments, problem, out, store, farm):
     from .report import choice_table, standing, to_csv
     from .search import search
 
+    total = problem.generations * (problem.starts + (problem.starts > 1))
+
     def each(generation, best):
-        print(f"generation {generation} of {problem.generations}: {len(store.rows)} designs, {len(best)} on the front",
+        print(f"generation {generation} of {total}: {len(store.rows)} designs, {len(best)} on the front",
               flush=True)
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 

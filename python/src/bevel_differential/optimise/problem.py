@@ -15,12 +15,12 @@ from ..values import DifferentialError, suggestion
 from ..want import Condition, Want
 from .quantities import QUANTITIES, Catalogue
 
-KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "seed", "front", "set", "vary", "follow",
-        "compare", "confirm"}
+KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "starts", "seed", "front", "set", "vary",
+        "follow", "compare", "confirm"}
 NEEDED = ("description", "scene", "objectives", "vary")
 SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
-# fewer designs do not make a generation with parents to choose from
-LEAST_POPULATION = 4
+# least effort; fewer than four designs do not make a generation with parents to choose from
+EFFORT = {"population": 4, "generations": 1, "starts": 1, "seed": 0, "front": 1}
 
 
 @dataclass(frozen=True)
@@ -100,6 +100,7 @@ class Problem:
     confirm: dict = field(default_factory=dict)
     population: int = 96
     generations: int = 100
+    starts: int = 1
     seed: int = 1
     front: int = 64
 
@@ -124,12 +125,10 @@ class Problem:
                        followers=[each for each in self.followers if each.name not in model.settings],
                        conditions=[instead.get((each.want, each.relation), each) for each in self.conditions])
 
-    def sized(self, population: int | None = None, generations: int | None = None, seed: int | None = None,
-              front: int | None = None) -> "Problem":
-        """The same problem with another effort."""
-        given = {"population": population, "generations": generations, "seed": seed, "front": front}
-        problem = replace(self, **{key: value for key, value in given.items() if value is not None})
-        for key, least in (("population", LEAST_POPULATION), ("generations", 1), ("seed", 0), ("front", 1)):
+    def sized(self, **effort: int) -> "Problem":
+        """The same problem with another population, generations, starts, seed or front."""
+        problem = replace(self, **effort)
+        for key, least in EFFORT.items():
             if getattr(problem, key) < least:
                 raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
         return problem
@@ -140,7 +139,7 @@ class Problem:
         state = self.scene.__getstate__()
         state["fmu"] = self.scene.fmu.description.guid
         told = [state, *map(str, self.objectives), *map(str, self.conditions), *map(repr, self.space.dimensions),
-                *map(repr, self.followers), self.population, self.seed]
+                *map(repr, self.followers), self.population, self.starts, self.seed]
         return hashlib.sha256(json.dumps(told, default=str, sort_keys=True).encode()).hexdigest()
 
 
@@ -173,7 +172,7 @@ class _Reader:
         self.problems += [f"[follow] {each.name}: it varies as well; remove one of them" for each in followers
                           if each and each.name in vary]
         compare, confirm = self.named("compare"), self.models(conditions)
-        effort = {key: self.found[key] for key in ("population", "generations", "seed", "front") if key in self.found}
+        effort = {key: self.found[key] for key in EFFORT if key in self.found}
         self.problems += [f"{key} = {value!r}: it is a whole number" for key, value in effort.items() if type(value) is not int]
         if self.problems:
             raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))

@@ -15,12 +15,14 @@ from pymoo.problems.static import StaticProblem
 from ..designs.space import Dimension, Space
 from ..values import DifferentialError
 from .design_task import DesignRow, DesignTask
-from .front import costs, front
+from .front import costs, front, thinned
 from .problem import Problem
 from .store import Store
 
 # index of the distribution of mutations, less is wider: whole numbers need steps as wide as their cells
 WIDTH = 8
+# cost of a design that is not feasible
+OUT_OF_REACH = 1e30
 
 
 class _Cells(Repair):
@@ -48,31 +50,59 @@ def search(problem: Problem, farm, store: Store,
            each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
     """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
 
+    With several starts each begins anew, as a population settles on few numbers of teeth; a last one begins with the best of all.
     `each(generation, rows)` is told of the front so far. What the store knows is not evaluated again. Raises where no design is
     feasible."""
-    space, objectives = problem.space, problem.objectives
-    task = DesignTask(problem)
-    cube = PymooProblem(n_var=len(space.dimensions), n_obj=len(objectives), n_ieq_constr=1, xl=0.0, xu=1.0)
-    algorithm = NSGA2(pop_size=problem.population, sampling=LHS(), mutation=PM(eta=WIDTH), repair=_Cells(space))
-    algorithm.setup(cube, termination=("n_gen", problem.generations), seed=problem.seed, verbose=False)
-    best: list[DesignRow] = []
-    generation = 0
-    while algorithm.has_next():
-        generation += 1
-        asked = algorithm.ask()
-        rows = _evaluated(space.at(asked.get("X")), task, farm, store)
-        cost = np.full((len(rows), len(objectives)), np.inf)
-        sound = [i for i, row in enumerate(rows) if row.feasible]
-        cost[sound] = costs([rows[i] for i in sound], objectives)
-        # pymoo compares infeasible designs by their violation alone
-        static = StaticProblem(cube, F=np.where(np.isfinite(cost), cost, 1e30), G=np.array([[row.violation] for row in rows]))
-        Evaluator().eval(static, asked)
-        algorithm.tell(infills=asked)
-        best = front(list({row.run: row for row in [*best, *rows]}.values()), objectives)
-        each(generation, best)
-    if not best:
+    run = _Run(problem, farm, store, each)
+    for start in range(problem.starts):
+        run.start(LHS(), problem.seed + start)
+    if problem.starts > 1 and run.best:
+        run.start(run.shares(thinned(run.best, problem.objectives, problem.population)), problem.seed + problem.starts)
+    if not run.best:
         raise DifferentialError(no_design(list(store.rows.values())))
-    return best
+    return run.best
+
+
+class _Run:
+    """A search under way. `best`: the front so far."""
+
+    def __init__(self, problem, farm, store, each):
+        self.problem, self.farm, self.store, self.each = problem, farm, store, each
+        self.task, self.best, self.generation = DesignTask(problem), [], 0
+        # points of the unit cube by run
+        self.known = {}
+        self.cube = PymooProblem(n_var=len(problem.space.dimensions), n_obj=len(problem.objectives), n_ieq_constr=1,
+                                 xl=0.0, xu=1.0)
+
+    def start(self, sampling, seed):
+        """All generations from a first one."""
+        algorithm = NSGA2(pop_size=self.problem.population, sampling=sampling, mutation=PM(eta=WIDTH),
+                          repair=_Cells(self.problem.space))
+        algorithm.setup(self.cube, termination=("n_gen", self.problem.generations), seed=seed, verbose=False)
+        while algorithm.has_next():
+            asked = algorithm.ask()
+            rows = self._rows(asked.get("X"))
+            Evaluator().eval(self._figures(rows), asked)
+            algorithm.tell(infills=asked)
+            self.best = front(list({row.run: row for row in [*self.best, *rows]}.values()), self.problem.objectives)
+            self.generation += 1
+            self.each(self.generation, self.best)
+
+    def shares(self, rows):
+        """Points of the unit cube that were evaluated as these rows, shape (rows, dimensions)."""
+        return np.array([self.known[row.run] for row in rows])
+
+    def _rows(self, points):
+        rows = _evaluated(self.problem.space.at(points), self.task, self.farm, self.store)
+        self.known.update((row.run, point) for row, point in zip(rows, points))
+        return rows
+
+    def _figures(self, rows):
+        """Costs and violations as pymoo takes them. It compares infeasible designs by their violation alone."""
+        cost = np.full((len(rows), len(self.problem.objectives)), OUT_OF_REACH)
+        sound = [i for i, row in enumerate(rows) if row.feasible]
+        cost[sound] = costs([rows[i] for i in sound], self.problem.objectives)
+        return StaticProblem(self.cube, F=cost, G=np.array([[row.violation] for row in rows]))
 
 
 def _evaluated(designs, task, farm, store):
