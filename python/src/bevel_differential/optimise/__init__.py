@@ -1,0 +1,1 @@
+"""Optimisation of the gears by several objectives at once: docs/optimisation.md."""

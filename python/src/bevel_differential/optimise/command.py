@@ -1,0 +1,109 @@
+"""The command `optimise`: from a problem file to a front, a choice and files for CAD."""
+
+import argparse
+from pathlib import Path
+
+from ..command.arguments import add_fmu
+
+HELP = "optimise gears by several objectives at once"
+EXTRA = "design"
+# effort of --quick: enough for a front, not for a good one
+QUICK = {"population": 32, "generations": 12, "starts": 1}
+
+
+def add_arguments(parser: argparse.ArgumentParser):
+    """Adds what the command takes."""
+    parser.add_argument("problem", type=Path, help="problem file (TOML); see docs/optimisation.md")
+    parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")
+    parser.add_argument("--population", type=int, help="designs of a generation")
+    parser.add_argument("--generations", type=int, help="how many generations")
+    parser.add_argument("--starts", type=int, help="how many searches begin anew; one more goes on from the best of all")
+    parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
+    parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
+    parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
+    parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
+    parser.add_argument("--scheduler", help="address of a dask scheduler")
+    parser.add_argument("--program", type=Path, help="fmu-build, which writes curves and solids of the chosen gears")
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Optimises. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
+    from ..designs.farm import Farm
+    from .problem import Problem
+    from .store import Store
+    given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
+    effort = {key: value for key, value in given.items() if value is not None}
+    problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
+    out = arguments.out or Path("target/optimise") / arguments.problem.stem
+    store = Store(out, problem, arguments.resume)
+    try:
+        with Farm(arguments.workers, scheduler=arguments.scheduler) as farm:
+            _optimise(arguments, problem, out, store, farm)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
+                                f"{out / 'front.csv'}; go on by --resume") from None
+    return 0
+
+
+def _optimise(arguments, problem, out, store, farm):
+    from .confirm import Confirmed, confirm
+    from .design_task import DesignTask
+    from .front import choice, thinned
+    from .picture import picture
+    from .report import choice_table, standing, to_csv
+    from .search import search
+
+    total = problem.generations * (problem.starts + (problem.starts > 1))
+
+    def each(generation, best):
+        print(f"generation {generation} of {total}: {len(store.rows)} designs, {len(best)} on the front",
+              flush=True)
+        to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
+
+    compared = _compared(problem, DesignTask(problem, thorough=True))
+    best = search(problem, farm, store, each)
+    rows = thinned(best, problem.objectives, problem.front)
+    reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
+    chosen = [row for _, row in reasons]
+    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, farm)}
+    to_csv(confirmed.values(), problem, out / "front.csv")
+    table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
+    told = [standing(name, row, best, problem) for name, row in compared.items()]
+    told += _held(confirmed.values(), problem)
+    (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
+    picture(rows, chosen, compared, problem, out / "front.png")
+    print("\n".join(["", table, *told]))
+    _for_cad(arguments, problem, out, reasons)
+
+
+def _compared(problem, task):
+    """Rows of the designs that are shown beside the front."""
+    with task.scene:
+        return {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
+
+
+def _held(confirmed, problem):
+    """How the confirmation went, a line for each model."""
+    for model in problem.confirm:
+        ran = [each for each in confirmed if model in each.models]
+        broken = [each for each in ran if each.models[model].refused]
+        spans = []
+        for objective in problem.objectives:
+            changes = [100.0 * each.difference(model, str(objective.want)) for each in ran]
+            spans.append(f"{objective.want} by {min(changes):+.1f} to {max(changes):+.1f} %")
+        yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
+               f"{', '.join(spans)}")
+
+
+def _for_cad(arguments, problem, out, reasons):
+    """Scene files of the chosen designs, and their gears where the program is at hand."""
+    from .cad import command_line, scene_text, write_gears
+    from .report import LETTERS
+    for letter, (reason, row) in zip(LETTERS, reasons):
+        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
+        if arguments.program:
+            free = write_gears(arguments.program, problem, row, out / letter)
+            print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
+        else:
+            print(f"{letter}: {command_line(problem, row, out / letter)}")

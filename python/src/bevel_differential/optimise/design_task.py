@@ -1,0 +1,131 @@
+"""What an optimisation does for each design: checks of its dimensions first, then the run."""
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ..designs.task import Row, Task
+from ..statistic import Statistic
+from ..values import DifferentialError
+from ..want import Condition, Want
+from .checks import violations
+from .pair import Pair
+from .problem import Problem
+from .quantities import QUANTITIES, Catalogue
+
+# what the FMU warns of and a design must not have: gears that do not fit, pins and washers that do not
+REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
+# outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
+HISTORY = "_peak_to_peak"
+
+
+@dataclass
+class DesignRow(Row):
+    """`violation`: 0 for a feasible design; of two others the smaller one is nearer. `refused`: the checks that refuse it."""
+
+    violation: float = 0.0
+    refused: tuple[str, ...] = ()
+
+    def flat(self) -> dict:
+        """As a row of a table."""
+        return {**super().flat(), "violation": self.violation, "refused": "; ".join(self.refused)}
+
+
+class DesignTask(Task):
+    """The scene of a problem, and all that the problem wants of a design.
+
+    Stages, as far as a design comes: gears that can be built; conditions on dimensions; the run; conditions on figures. A design
+    that fails in one is not looked at further, which saves the run, unless `thorough`. One that fails later is nearer."""
+
+    def __init__(self, problem: Problem, thorough: bool = False):
+        self.problem, self.thorough = problem, thorough
+        self.wanted = list(dict.fromkeys(each.want for each in [*problem.objectives, *problem.conditions]))
+        self.on_dimensions = [each for each in problem.conditions if _on_dimensions(each.want)]
+        self.on_figures = [each for each in problem.conditions if not _on_dimensions(each.want)]
+        final = Statistic("final")
+        simulated = [want for want in self.wanted if want.name not in QUANTITIES]
+        simulated += [Want(name, final) for want in self.wanted if want.name in QUANTITIES
+                      for name in QUANTITIES[want.name].outputs]
+        super().__init__(problem.scene, simulated or [Want("geometry.contact_ratio", final)])
+        self.known = {**Catalogue(problem.scene.fmu).starts(), **problem.scene.values}
+
+    def evaluate(self, run: int, values: Mapping) -> DesignRow:
+        """The row of a design."""
+        begun = time.perf_counter()
+        row = DesignRow(run, dict(values))
+        try:
+            self._judge(row)
+        except DifferentialError as error:
+            row.message = str(error)
+            self._fails(row, {_refusal(row.message): 1.0}, 1)
+        row.feasible = not row.refused
+        row.seconds = time.perf_counter() - begun
+        return row
+
+    def _judge(self, row):
+        complete = self.problem.complete(row.values)
+        known = {**self.known, **complete}
+        pair = Pair.of(known)
+        found = violations(pair)
+        if self._fails(row, found, 3):
+            return
+        for want in filter(_on_dimensions, self.wanted):
+            row.figures[str(want)] = QUANTITIES[want.name].of(known, pair)
+        if self._fails(row, _broken(self.on_dimensions, row.figures), 2):
+            return
+        known.update(self._simulated(row, complete))
+        for want in self.wanted:
+            if str(want) not in row.figures:
+                row.figures[str(want)] = QUANTITIES[want.name].of(known, pair)
+        self._fails(row, _broken(self.on_figures, row.figures), 0)
+
+    def _simulated(self, row, complete):
+        """Figures of the run go to the row; returns outputs by name."""
+        figures = self._figures(complete)
+        row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
+        without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
+        if without:
+            raise DifferentialError(f"{without[0].partition(':')[0]}: no whole mesh cycle passes; let the scene run longer, or "
+                                    "faster")
+        warned = [text for text in self.scene.warnings if text.startswith(REFUSED_WARNINGS) and not self._told(row, text)]
+        self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
+        return {name.rpartition(":")[0]: value for name, value in figures.items()}
+
+    @staticmethod
+    def _told(row, warning):
+        """Whether the checks of the dimensions have found what the FMU warns of."""
+        return bool(row.refused) and not warning.startswith("geometry.root_fillet")
+
+    def _stage(self, stage):
+        """What a violation of a stage begins with: more than all violations of later ones together."""
+        return stage * (len(self.problem.conditions) + len(REFUSED_WARNINGS) + 1.0)
+
+    def _fails(self, row, found, stage):
+        """Notes violations; whether the design ends here."""
+        if not found:
+            return False
+        row.refused += tuple(found)
+        # each counts less than 1, so that one that is far off does not hide the others
+        row.violation = max(row.violation, self._stage(stage)) + sum(excess / (1.0 + excess) for excess in found.values())
+        return not self.thorough
+
+
+def _on_dimensions(want: Want) -> bool:
+    return want.name in QUANTITIES and not QUANTITIES[want.name].outputs
+
+
+def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
+    """Relative excess of each condition that does not hold, by the condition."""
+    broken = {}
+    for each in conditions:
+        figure = figures[str(each.want)]
+        if not each.holds(figure):
+            excess = each.excess(figure)
+            broken[str(each)] = max(excess, 1e-9) if math.isfinite(excess) else 1e9
+    return broken
+
+
+def _refusal(message: str) -> str:
+    """What a message is about: the parameter at its beginning, without the figures of this design."""
+    return message.partition(": ")[0].partition(" = ")[0]

@@ -1,0 +1,78 @@
+"""Which designs are best: dominance, the front, and a few designs to choose from."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from pymoo.operators.survival.rank_and_crowding.metrics import calc_crowding_distance
+from pymoo.util.nds.non_dominated_sorting import NonDominatedSorting
+
+from .design_task import DesignRow
+from .problem import Objective
+
+# how many designs are proposed
+CHOICES = 5
+
+
+def costs(rows: Sequence[DesignRow], objectives: Sequence[Objective]) -> np.ndarray:
+    """Figures with signs so that less is better, shape (rows, objectives)."""
+    figures = [[each.sign * row.figures[str(each.want)] for each in objectives] for row in rows]
+    return np.array(figures, float).reshape(-1, len(objectives))
+
+
+def front(rows: Sequence[DesignRow], objectives: Sequence[Objective]) -> list[DesignRow]:
+    """The feasible rows that no other one dominates, in order of the first objective."""
+    rows = [row for row in rows if row.feasible]
+    if not rows:
+        return []
+    cost = costs(rows, objectives)
+    best = NonDominatedSorting().do(cost, only_non_dominated_front=True)
+    return sorted((rows[i] for i in best), key=lambda row: (*costs([row], objectives)[0], row.run))
+
+
+def thinned(rows: Sequence[DesignRow], objectives: Sequence[Objective], count: int) -> list[DesignRow]:
+    """At most `count` rows of a front, spread by crowding distance; the ends stay."""
+    rows = list(rows)
+    while len(rows) > count:
+        distance = calc_crowding_distance(costs(rows, objectives))
+        # crowding changes with each row that leaves; some go at a time where there are many
+        leaving = np.argsort(distance, kind="stable")[:max(1, (len(rows) - count) // 10)]
+        rows = [row for i, row in enumerate(rows) if i not in set(leaving.tolist())]
+    return rows
+
+
+def dominates(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether costs `one` are nowhere worse than `other`, and somewhere better."""
+    return bool(np.all(one <= other) and np.any(one < other))
+
+
+def relative(cost: np.ndarray) -> np.ndarray:
+    """Costs between the best (0) and the worst (1) of the rows, shape as given."""
+    low, high = cost.min(axis=0), cost.max(axis=0)
+    return (cost - low) / np.where(high > low, high - low, 1.0)
+
+
+def choice(rows: Sequence[DesignRow], objectives: Sequence[Objective], compared: DesignRow | None) -> list[tuple[str, DesignRow]]:
+    """Up to CHOICES designs of a front with the reason for each: the knee, what dominates the compared design, ends.
+
+    The knee is nearest to the point that has the best of all objectives. Of the designs that dominate, that one is taken whose
+    smallest gain is largest, gains measured by the front's extent."""
+    cost = costs(rows, objectives)
+    scaled = relative(cost)
+    found = [("knee: nearest to the best of all objectives", int(np.argmin(np.linalg.norm(scaled, axis=1))))]
+    if compared is not None and len(compared.figures) and all(str(each.want) in compared.figures for each in objectives):
+        old = costs([compared], objectives)[0]
+        better = [i for i in range(len(rows)) if dominates(cost[i], old)]
+        if better:
+            extent = np.where(np.ptp(cost, axis=0) > 0.0, np.ptp(cost, axis=0), 1.0)
+            gains = ((old - cost[better]) / extent).min(axis=1)
+            found.append(("better in all than the compared design", better[int(np.argmax(gains))]))
+    found += [(f"{'least' if each.sign > 0 else 'most'} {each.want.name}", int(np.argmin(cost[:, k])))
+              for k, each in enumerate(objectives)]
+    chosen = {}
+    for reason, i in found:
+        chosen[i] = f"{chosen[i]}; {reason}" if i in chosen else reason
+    while len(chosen) < min(CHOICES, len(rows)):
+        # the one farthest from all that are chosen
+        away = np.linalg.norm(scaled[:, None] - scaled[list(chosen)], axis=2).min(axis=1)
+        chosen[int(np.argmax(away))] = "in between"
+    return [(reason, rows[i]) for i, reason in list(chosen.items())[:CHOICES]]

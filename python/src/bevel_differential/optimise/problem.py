@@ -1,0 +1,236 @@
+"""Problem files: which gears may be chosen, what they are to be good at, and what must hold."""
+
+import hashlib
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from ..designs.space import Space
+from ..fmu import Fmu
+from ..scene import Scene
+from ..scene_file import find, flat
+from ..values import DifferentialError, suggestion
+from ..want import Condition, Want
+from .quantities import QUANTITIES, Catalogue
+
+KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "starts", "seed", "front", "set", "vary",
+        "follow", "compare", "confirm"}
+NEEDED = ("description", "scene", "objectives", "vary")
+SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
+# least effort; fewer than four designs do not make a generation with parents to choose from
+EFFORT = {"population": 4, "generations": 1, "starts": 1, "seed": 0, "front": 1}
+
+
+@dataclass(frozen=True)
+class Objective:
+    """`sign`: 1 where less is better, -1 where more is."""
+
+    want: Want
+    sign: float
+
+    @classmethod
+    def parse(cls, catalogue, text: str) -> "Objective":
+        """Of "maximise safety.root_min" or "minimise gears.mass"."""
+        sense, _, what = text.strip().partition(" ")
+        if sense not in SENSES:
+            raise DifferentialError(f"objective {text!r}: write \"maximise OUTPUT\" or \"minimise OUTPUT\"")
+        return cls(Want.parse(catalogue, what), SENSES[sense])
+
+    def __str__(self):
+        return f"{'minimise' if self.sign > 0.0 else 'maximise'} {self.want}"
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A parameter that is not free: factor · another one + plus, or by a table of its values. SI."""
+
+    name: str
+    source: str
+    factor: float = 1.0
+    plus: float = 0.0
+    table: dict | None = None
+
+    @classmethod
+    def parse(cls, fmu, name: str, given) -> "Follower":
+        """Of { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
+        unknown = set(given) - {"from", "factor", "plus", "table"} if isinstance(given, Mapping) else {"?"}
+        if unknown or "from" not in given or ("table" in given and len(given) > 2):
+            raise DifferentialError(f"[follow] {name}: write {{ from = \"NAME\", factor = 1.0, plus = 0.0 }} or "
+                                    "{ from = \"NAME\", table = { VALUE = VALUE } }")
+        variable, source = fmu.variable(name), fmu.variable(given["from"])
+        table = given.get("table")
+        if table is not None:
+            table = {source.number(key): variable.number(value) for key, value in table.items()}
+        return cls(variable.name, source.name, float(given.get("factor", 1.0)), float(given.get("plus", 0.0)), table)
+
+    def of(self, values: Mapping):
+        """Its value. Raises where the table has no entry."""
+        given = values[self.source]
+        if self.table is None:
+            return self.factor * given + self.plus
+        if given not in self.table:
+            raise DifferentialError(f"[follow] {self.name}: its table has no entry for {self.source} = {given}")
+        return self.table[given]
+
+
+@dataclass(frozen=True)
+class Model:
+    """A richer model: settings of the scene, and conditions in the place of those on the same figure. `only_chosen`: it runs for
+    the designs to choose from alone, not for the whole front."""
+
+    settings: dict
+    conditions: list[Condition] = field(default_factory=list)
+    only_chosen: bool = False
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What a problem file says. `compare`: settings by name; `confirm`: models by name. `front`: designs of the front that are
+    confirmed and shown, spread over it."""
+
+    description: str
+    scene: Scene
+    space: Space
+    objectives: list[Objective]
+    conditions: list[Condition]
+    followers: list[Follower] = field(default_factory=list)
+    compare: dict = field(default_factory=dict)
+    confirm: dict = field(default_factory=dict)
+    population: int = 96
+    generations: int = 100
+    starts: int = 1
+    seed: int = 1
+    front: int = 64
+
+    @classmethod
+    def load(cls, file, fmu=None) -> "Problem":
+        """Of a file. All errors in it are reported at once."""
+        return _Reader(Path(file), Fmu.of(fmu)).problem()
+
+    def complete(self, values: Mapping) -> dict:
+        """A design with the parameters that follow from it."""
+        known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
+        followed = {}
+        for follower in self.followers:
+            followed[follower.name] = known[follower.name] = follower.of(known)
+        return {**followed, **values}
+
+    def at(self, model: Model) -> "Problem":
+        """The same problem with a richer model. A parameter that the model sets follows no other one any more."""
+        state = self.scene.__getstate__()
+        instead = {(each.want, each.relation): each for each in model.conditions}
+        return replace(self, scene=Scene(**{**state, "set": {**state["set"], **model.settings}}),
+                       followers=[each for each in self.followers if each.name not in model.settings],
+                       conditions=[instead.get((each.want, each.relation), each) for each in self.conditions])
+
+    def sized(self, **effort: int) -> "Problem":
+        """The same problem with another population, generations, starts, seed or front."""
+        problem = replace(self, **effort)
+        for key, least in EFFORT.items():
+            if getattr(problem, key) < least:
+                raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
+        return problem
+
+    @property
+    def key(self) -> str:
+        """Of all that decides about results, but the number of generations, so that a search can go on."""
+        state = self.scene.__getstate__()
+        state["fmu"] = self.scene.fmu.description.guid
+        told = [state, *map(str, self.objectives), *map(str, self.conditions), *map(repr, self.space.dimensions),
+                *map(repr, self.followers), self.population, self.starts, self.seed]
+        return hashlib.sha256(json.dumps(told, default=str, sort_keys=True).encode()).hexdigest()
+
+
+class _Reader:
+    """Reads a file and collects what is wrong with it."""
+
+    def __init__(self, file: Path, fmu):
+        self.file, self.fmu, self.catalogue = file, fmu, Catalogue(fmu)
+        try:
+            self.found = tomllib.loads(file.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
+            raise DifferentialError(f"{file}: {error}") from None
+        self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in self.found.keys() - KEYS]
+        self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
+
+    def problem(self) -> Problem:
+        """The problem, or all errors."""
+        scene = self.attempt(self.scene)
+        vary = flat(self.found.get("vary", {}))
+        dimensions = [self.attempt(self.dimension, name, given) for name, given in vary.items()]
+        followers = [self.attempt(Follower.parse, self.fmu, name, given)
+                     for name, given in _entries(self.found.get("follow", {}))]
+        objectives = [self.attempt(Objective.parse, self.catalogue, text) for text in self.found.get("objectives", [])]
+        if len(objectives) == 1:
+            self.problems.append("objectives: name two or more; one alone has no front")
+        conditions = [self.attempt(Condition.parse, self.catalogue, text) for text in self.found.get("conditions", [])]
+        self.problems += [f"{want}: {want.name} is one number of a design, without a statistic"
+                          for want in (each.want for each in [*objectives, *conditions] if each)
+                          if want.name in QUANTITIES and want.statistic.word != "final"]
+        self.problems += [f"[follow] {each.name}: it varies as well; remove one of them" for each in followers
+                          if each and each.name in vary]
+        compare, confirm = self.named("compare"), self.models(conditions)
+        effort = {key: self.found[key] for key in EFFORT if key in self.found}
+        self.problems += [f"{key} = {value!r}: it is a whole number" for key, value in effort.items() if type(value) is not int]
+        if self.problems:
+            raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))
+        problem = Problem(self.found["description"], scene, Space(tuple(dimensions)), objectives, conditions, followers, compare,
+                          confirm)
+        return problem.sized(**effort)
+
+    def attempt(self, function, *arguments):
+        try:
+            return function(*arguments)
+        except DifferentialError as error:
+            self.problems.append(str(error))
+            return None
+
+    def scene(self):
+        """The scene of the file, which is looked for beside it too, with its changes."""
+        what = self.found.get("scene", "")
+        near = self.file.parent / what
+        scene = Scene.load(near if near.is_file() else find(what), fmu=self.fmu.file)
+        return scene.set(flat(self.found.get("set", {})))
+
+    def dimension(self, name, given):
+        found = Space.parse(self.fmu, {name: given}).dimensions[0]
+        if found.kind not in ("list", "range"):
+            raise DifferentialError(f"{name} = {given}: an optimisation varies over FROM..TO or a list, not over a distribution")
+        return found
+
+    def named(self, key, others=()):
+        """Settings of the entries of a key by name, SI; `others`: keys of an entry that are no settings."""
+        found = {}
+        for entry in self.found.get(key, []):
+            values = {each: value for each, value in flat(entry).items() if each not in others}
+            name = values.pop("name", None)
+            if not name or name in found:
+                self.problems.append(f"[[{key}]] name = {name!r}: each entry needs a name of its own")
+            found[name] = {each: self.attempt(self.number, each, value) for each, value in values.items()}
+        return found
+
+    def models(self, conditions):
+        """Models of [[confirm]] by name."""
+        found, all_settings = {}, self.named("confirm", ("conditions", "only_chosen"))
+        known = {(each.want, each.relation) for each in conditions if each}
+        for entry in self.found.get("confirm", []):
+            name = entry.get("name")
+            instead = [self.attempt(Condition.parse, self.catalogue, text) for text in entry.get("conditions", [])]
+            self.problems += [f"[[confirm]] {name}: {each} replaces no condition of the problem" for each in instead
+                              if each and (each.want, each.relation) not in known]
+            found[name] = Model(all_settings[name], instead, bool(entry.get("only_chosen")))
+        return found
+
+    def number(self, name, value):
+        return self.fmu.variable(name).number(value)
+
+
+def _entries(table, prefix=""):
+    """Pairs (dotted name, entry) of [follow]; an entry is a table with `from`."""
+    for key, value in table.items():
+        if isinstance(value, dict) and "from" not in value and not value.keys() & {"factor", "plus", "table"}:
+            yield from _entries(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value

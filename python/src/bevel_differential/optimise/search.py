@@ -1,0 +1,131 @@
+"""The search: NSGA-II of pymoo on the unit cube, a generation at a time."""
+
+from collections import Counter
+from collections.abc import Callable
+
+import numpy as np
+from pymoo.algorithms.moo.nsga2 import NSGA2
+from pymoo.core.evaluator import Evaluator
+from pymoo.core.problem import Problem as PymooProblem
+from pymoo.core.repair import Repair
+from pymoo.operators.mutation.pm import PM
+from pymoo.operators.sampling.lhs import LHS
+from pymoo.problems.static import StaticProblem
+
+from ..designs.space import Dimension, Space
+from ..values import DifferentialError
+from .design_task import DesignRow, DesignTask
+from .front import costs, front, thinned
+from .problem import Problem
+from .store import Store
+
+# index of the distribution of mutations, less is wider: whole numbers need steps as wide as their cells
+WIDTH = 8
+# cost of a design that is not feasible
+OUT_OF_REACH = 1e30
+
+
+class _Cells(Repair):
+    """Moves shares of whole numbers and lists to the middles of their cells, so that equal designs are seen to be equal."""
+
+    def __init__(self, space: Space):
+        super().__init__()
+        self.counts = np.array([_cells(each) for each in space.dimensions], float)
+
+    def _do(self, problem, shares, **_):
+        whole = np.isfinite(self.counts)
+        counts = self.counts[whole]
+        shares[:, whole] = (np.minimum(np.floor(shares[:, whole] * counts), counts - 1.0) + 0.5) / counts
+        return shares
+
+
+def _cells(dimension: Dimension) -> float:
+    """How many values a dimension has; infinite for a range of real numbers."""
+    if dimension.kind == "list":
+        return len(dimension.numbers)
+    return dimension.numbers[1] - dimension.numbers[0] + 1.0 if dimension.whole else np.inf
+
+
+def search(problem: Problem, farm, store: Store,
+           each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
+    """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
+
+    With several starts each begins anew, as a population settles on few numbers of teeth; a last one begins with the best of all.
+    `each(generation, rows)` is told of the front so far. What the store knows is not evaluated again. Raises where no design is
+    feasible."""
+    run = _Run(problem, farm, store, each)
+    for start in range(problem.starts):
+        run.start(LHS(), problem.seed + start)
+    if problem.starts > 1 and run.best:
+        run.start(run.shares(thinned(run.best, problem.objectives, problem.population)), problem.seed + problem.starts)
+    if not run.best:
+        raise DifferentialError(no_design(list(store.rows.values())))
+    return run.best
+
+
+class _Run:
+    """A search under way. `best`: the front so far."""
+
+    def __init__(self, problem, farm, store, each):
+        self.problem, self.farm, self.store, self.each = problem, farm, store, each
+        self.task, self.best, self.generation = DesignTask(problem), [], 0
+        # points of the unit cube by run
+        self.known = {}
+        self.cube = PymooProblem(n_var=len(problem.space.dimensions), n_obj=len(problem.objectives), n_ieq_constr=1,
+                                 xl=0.0, xu=1.0)
+
+    def start(self, sampling, seed):
+        """All generations from a first one."""
+        algorithm = NSGA2(pop_size=self.problem.population, sampling=sampling, mutation=PM(eta=WIDTH),
+                          repair=_Cells(self.problem.space))
+        algorithm.setup(self.cube, termination=("n_gen", self.problem.generations), seed=seed, verbose=False)
+        while algorithm.has_next():
+            asked = algorithm.ask()
+            rows = self._rows(asked.get("X"))
+            Evaluator().eval(self._figures(rows), asked)
+            algorithm.tell(infills=asked)
+            self.best = front(list({row.run: row for row in [*self.best, *rows]}.values()), self.problem.objectives)
+            self.generation += 1
+            self.each(self.generation, self.best)
+
+    def shares(self, rows):
+        """Points of the unit cube that were evaluated as these rows, shape (rows, dimensions)."""
+        return np.array([self.known[row.run] for row in rows])
+
+    def _rows(self, points):
+        rows = _evaluated(self.problem.space.at(points), self.task, self.farm, self.store)
+        self.known.update((row.run, point) for row, point in zip(rows, points))
+        return rows
+
+    def _figures(self, rows):
+        """Costs and violations as pymoo takes them. It compares infeasible designs by their violation alone."""
+        cost = np.full((len(rows), len(self.problem.objectives)), OUT_OF_REACH)
+        sound = [i for i, row in enumerate(rows) if row.feasible]
+        cost[sound] = costs([rows[i] for i in sound], self.problem.objectives)
+        return StaticProblem(self.cube, F=cost, G=np.array([[row.violation] for row in rows]))
+
+
+def _evaluated(designs, task, farm, store):
+    """Rows of designs, in their order; new ones are evaluated and stored."""
+    keys = [tuple(values.values()) for values in designs]
+    new = {key: values for key, values in zip(keys, designs) if key not in store.rows}
+    numbered = [(len(store.rows) + k, values) for k, values in enumerate(new.values())]
+    arrived = []
+    try:
+        for row in farm.rows(task, numbered):
+            arrived.append(row)
+    finally:
+        store.rows.update((tuple(row.values.values()), row) for row in sorted(arrived, key=lambda row: row.run))
+        if arrived:
+            store.save()
+    return [store.rows[key] for key in keys]
+
+
+def no_design(rows: list[DesignRow]) -> str:
+    """What to say where no design is feasible: which checks refuse how many."""
+    counts = Counter(check for row in rows for check in row.refused)
+    lines = [f"  {count:6d}  {check}" for check, count in counts.most_common()]
+    nearest = min(rows, key=lambda row: row.violation)
+    return "\n".join([f"no feasible design among {len(rows)}. So many were refused by:", *lines,
+                      f"The nearest one fails in: {'; '.join(nearest.refused)}.",
+                      "Widen the ranges of [vary], loosen these conditions, or let more generations search."])
