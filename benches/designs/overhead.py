@@ -1,6 +1,6 @@
 """What the Python package costs over the FMU's calls, and what designs cost on workers.
 
-    python benches/designs/overhead.py [--runs N] [--designs N]
+    python benches/designs/overhead.py [--runs N] [--designs N] [--write]
 
 Needs the package with its extra [sweep], the FMU (BEVEL_DIFFERENTIAL_FMU) and a C compiler. Runs with and without the package
 alternate, and the fastest of each are compared: those that other work of the machine weighs on least. Rows with workers are wall
@@ -18,6 +18,7 @@ from bevel_differential.designs.cluster import usual_workers
 from bevel_differential.designs.plan import Plan
 from bevel_differential.batches import CALLS
 from bevel_differential.text import aligned
+from page import write
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
@@ -28,6 +29,8 @@ STOP = 0.5
 LIMIT_FINAL, LIMIT_RECORD, LIMIT_DRAWN, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0
 LOADS = {"left.load_torque": "normal(835 N.m, 40 N.m)", "right.load_torque": "normal(835 N.m, 40 N.m)",
          "geometry.backlash": "uniform(0.05 mm, 0.15 mm)", "tooth_friction.coefficient": "uniform(0.03, 0.08)"}
+FRICTION = {"friction off": {}, "friction on": {"effects.tooth_friction": True},
+            "friction on, tolerance 1e-4": {"effects.tooth_friction": True, "solver.relative_tolerance": 1e-4}}
 DRAWN = {"drawn tooth errors": ({"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7},
                                 {"tooth_errors.seed": "seed", "tooth_errors.crowning": "uniform(2 um, 10 um)"}),
          "drawn geometry": ({}, {"geometry.face_width": "normal(20 mm, 0.05 mm)", "geometry.module": "normal(4.5 mm, 0.01 mm)"})}
@@ -87,8 +90,8 @@ def row(what, package, bare, unit, limit):
 def monte_carlo(fmu, designs, workers):
     """Rows: plain turns with drawn loads, backlash and friction, by workers of all cores."""
     with Farm(workers) as farm:
-        for what, friction in [("friction off", False), ("friction on", True)]:
-            with Scene("turn", stop=STOP, set={**TURN, "effects.tooth_friction": friction}, fmu=fmu.file) as scene:
+        for what, values in FRICTION.items():
+            with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene:
                 task = Task(scene, ["left.speed", "right.speed", "efficiency"])
                 plan = Plan.parse(Space.parse(fmu, LOADS), "random", designs, 1).designs()
                 farm.evaluate(task, plan[:200])
@@ -110,7 +113,8 @@ def drawn(calls, designs, workers):
 
 def bare_designs(fmu, values, plan):
     """Seconds of the calls of all designs, one after the other: those of `Instance`, with arrays that are ready."""
-    from bevel_differential.instance import Batches, Instance
+    from bevel_differential.batches import Batches
+    from bevel_differential.instance import Instance
     instance, batches = Instance(fmu), Batches([fmu.variable(name) for name in ("left.speed", "right.speed", "efficiency")])
     record, taken = batches.record(2), 0.0
     readers = batches.readers(instance, record)
@@ -145,6 +149,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=200, help="runs of a turn")
     parser.add_argument("--designs", type=int, default=10_000, help="designs of the Monte Carlo; a tenth for the others")
+    parser.add_argument("--write", action="store_true", help="renew the tables of docs/design.md")
     given = parser.parse_args()
     fmu, workers = Fmu.of(), min(2, usual_workers())
     with tempfile.TemporaryDirectory() as folder:
@@ -152,8 +157,11 @@ def main():
         rows = [("what", "package", "calls", "ratio", "limit", "kept"), *overhead(calls, given.runs),
                 *monte_carlo(fmu, given.designs, workers), *drawn(calls, max(50, given.designs // 10), workers)]
         print("\n".join(aligned(rows, left=1)), "\n")
-        rows = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
-        print("\n".join(aligned(rows, left=1)))
+        by_workers = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
+        print("\n".join(aligned(by_workers, left=1)))
+    if given.write:
+        write("overhead", rows)
+        write("workers", by_workers)
 
 
 if __name__ == "__main__":

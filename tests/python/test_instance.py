@@ -1,9 +1,11 @@
 """Instances of the Python package, driven call by call: values of all kinds, steps, states, refusals."""
 
 import pickle
+import shutil
+import zipfile
 
 import pytest
-from bevel_differential import Differential, DifferentialError
+from bevel_differential import Differential, DifferentialError, Fmu
 from driving import TURN
 
 DISCARD, ERROR = 2, 3
@@ -111,3 +113,19 @@ def test_variables_know_their_start_values_and_ranges(fmu):
     assert (module.start, module.minimum, module.maximum) == (0.0045, 2e-4, 0.1)
     assert (switch.start, switch.minimum, switch.maximum) == (False, None, None)
     assert fmu.variable("carrier.speed_command").shown(3.141592653589793) == ("deg/s", pytest.approx(180.0))
+
+
+def test_another_machine_takes_its_own_copy_of_the_same_fmu_and_no_other(fmu, fmu_file, tmp_path, monkeypatch):
+    gone, copy, other = tmp_path / "gone.fmu", tmp_path / "copy.fmu", tmp_path / "other.fmu"
+    shutil.copy(fmu_file, gone)
+    shutil.copy(fmu_file, copy)
+    shutil.copy(fmu_file, other)
+    with zipfile.ZipFile(other, "a") as archive:
+        archive.writestr("resources/another", "")
+    packed = pickle.dumps(Fmu.of(gone))
+    gone.unlink()
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(copy))
+    assert pickle.loads(packed).file == copy.resolve()
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(other))
+    with pytest.raises(DifferentialError, match="gone.fmu.*install the same wheel"):
+        pickle.loads(packed)

@@ -98,10 +98,10 @@ class Differential:
 
     def __getstate__(self):
         # to other processes go the values alone
-        return {"file": str(self.fmu.file), "values": self.values}
+        return {"fmu": self.fmu, "values": self.values}
 
     def __setstate__(self, state):
-        self.__init__(state["values"], fmu=state["file"])
+        self.__init__(state["values"], fmu=state["fmu"])
 
 
 def as_frame(record):

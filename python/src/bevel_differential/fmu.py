@@ -1,11 +1,13 @@
 """The FMU: extracted and loaded once per process."""
 
 import atexit
+import hashlib
 import importlib.resources
 import os
 import shutil
 import threading
 from collections.abc import Mapping
+from functools import cached_property
 from pathlib import Path
 
 from fmpy import extract, read_model_description
@@ -35,8 +37,10 @@ class Fmu:
 
     @classmethod
     def of(cls, file=None):
-        """The FMU of `file`, extracted when it is asked for first."""
-        file = Path(file or os.environ.get("BEVEL_DIFFERENTIAL_FMU") or shipped()).resolve()
+        """The FMU of `file`, extracted when it is asked for first. An `Fmu` stays what it is."""
+        if isinstance(file, cls):
+            return file
+        file = Path(file or usual()).resolve()
         key = (os.getpid(), file)
         with _lock:
             if key not in _loaded:
@@ -44,6 +48,24 @@ class Fmu:
                     raise DifferentialError(f"{file}: there is no such FMU")
                 _loaded[key] = cls(file)
             return _loaded[key]
+
+    @classmethod
+    def alike(cls, file: str, sha256: str) -> "Fmu":
+        """The FMU with this SHA-256: that of `file`, or the usual one of this machine."""
+        for place in (Path(file), Path(usual())):
+            if place.is_file() and cls.of(place).sha256 == sha256:
+                return cls.of(place)
+        raise DifferentialError(f"{file}: neither this file nor the FMU of the package on this machine is the one that was asked for "
+                                f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines")
+
+    def __reduce__(self):
+        # other processes and machines have files of their own
+        return Fmu.alike, (str(self.file), self.sha256)
+
+    @cached_property
+    def sha256(self) -> str:
+        """SHA-256 of the file."""
+        return hashlib.sha256(self.file.read_bytes()).hexdigest()
 
     def variable(self, name):
         """The variable `name`."""
@@ -68,6 +90,11 @@ class Fmu:
 
         Used in a `with` statement it is freed at the end."""
         return Instance(self, kind, name)
+
+
+def usual():
+    """The FMU that is taken where none is named."""
+    return os.environ.get("BEVEL_DIFFERENTIAL_FMU") or shipped()
 
 
 def shipped():

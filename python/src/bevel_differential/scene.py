@@ -34,7 +34,7 @@ class Scene:
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
         self.tables = [tuple(table) for table in tables]
-        self._differential = Differential(set, fmu=self.fmu.file)
+        self._differential = Differential(set, fmu=self.fmu)
         self._signals = self._checked_signals()
 
     @classmethod
@@ -123,7 +123,7 @@ class Scene:
     def __getstate__(self):
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
                 "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
-                "fmu": str(self.fmu.file)}
+                "fmu": self.fmu}
 
     def __setstate__(self, state):
         self.__init__(**state)

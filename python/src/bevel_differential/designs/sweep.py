@@ -117,7 +117,7 @@ def describe(task: Task, plan: Plan) -> dict:
     scene = {key: value for key, value in task.scene.__getstate__().items() if key != "fmu"}
     from_all = {
         "version": _version(),
-        "fmu": hashlib.sha256(task.scene.fmu.file.read_bytes()).hexdigest(),
+        "fmu": task.scene.fmu.sha256,
         "scene": scene,
         "vary": {one.variable: str(one) for one in plan.space.dimensions},
         "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,

@@ -191,7 +191,7 @@ class _Reader:
         """The scene of the file, which is looked for beside it too, with its changes."""
         what = self.found.get("scene", "")
         near = self.file.parent / what
-        scene = Scene.load(near if near.is_file() else find(what), fmu=self.fmu.file)
+        scene = Scene.load(near if near.is_file() else find(what), fmu=self.fmu)
         return scene.set(flat(self.found.get("set", {})))
 
     def dimension(self, name, given):

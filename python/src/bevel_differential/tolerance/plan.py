@@ -53,7 +53,7 @@ class Plan:
         if problems:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
         near = file.parent / str(found["scene"])
-        scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu.file)
+        scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu)
         try:
             scene.set(flat(found.get("set", {})))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
