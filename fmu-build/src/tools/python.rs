@@ -28,8 +28,12 @@ impl Environment {
     /// The environment of all commands but one, made if it does not exist; `report` receives the current stage.
     pub fn ready(report: impl Fn(&str)) -> Result<Self> {
         let requirements = paths::workspace().join("fmu-build").join("python").join("requirements.txt");
-        Self { folder: paths::target().join("python"), requirements, holds: "fmpy, numpy, scipy, matplotlib, dask, pymoo, pytest" }
-            .made(report)
+        Self {
+            folder: paths::target().join("python"),
+            requirements,
+            holds: "fmpy, numpy, scipy, matplotlib, dask, pymoo, pytest",
+        }
+        .made(report)
     }
 
     /// The environment with the programs to compare with; it lies next to the results of the comparison.
