@@ -15,8 +15,9 @@
 use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
-use super::overlap::{Patch, Softness};
+use super::overlap::Patch;
 use super::pose::{Displacement, Placement, SineCosine, Teeth, TurningRay};
+use super::softness::Softness;
 use super::turned::Both;
 use super::walk::FlankSection;
 use crate::contact::damping::Damping;

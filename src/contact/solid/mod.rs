@@ -14,5 +14,6 @@ pub mod mesh;
 pub mod overlap;
 mod polygon;
 pub mod pose;
+mod softness;
 mod turned;
 mod walk;

@@ -1,8 +1,9 @@
 //! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
+use super::completed_step::CompletedStep;
 use super::excessive_deflection::ExcessiveDeflection;
 use super::watching::watch_step;
-use crate::integrate::{Pending, Point, SecondOrder, Step};
+use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
@@ -27,9 +28,6 @@ pub struct Records<'a> {
     /// What steps are watched for.
     pub watched: &'a mut Watched,
 }
-
-/// A completed step, and the same while it was pending.
-pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, Power>, Option<&'a Pending<N, Power>>);
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {

@@ -1,7 +1,7 @@
 //! Side speeds and transmission errors through a completed step, as the history of mesh cycles takes them: curves of the
 //! integrator's continuous extension, so that extremes between the ends of steps count.
 
-use super::ledger::CompletedStep;
+use super::completed_step::CompletedStep;
 use crate::integrate::{Curve, Extension, Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::equations::Equations;

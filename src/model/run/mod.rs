@@ -1,5 +1,6 @@
 //! A running simulation: its start, its steps, events, the ledger, and model exchange.
 
+mod completed_step;
 mod cost_class;
 mod equilibrium;
 mod events;

@@ -1,6 +1,6 @@
 //! What steps are watched for beside the ledger.
 
-use super::ledger::CompletedStep;
+use super::completed_step::CompletedStep;
 use super::load_history::count_fatigue;
 use super::mesh_cycles::add_to_history;
 use crate::model::assembly::model::Model;
