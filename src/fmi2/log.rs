@@ -6,7 +6,7 @@
 use std::ffi::{CStr, CString};
 use std::ptr;
 
-use libc::c_void;
+use crate::fmi2::c_types::c_void;
 
 use super::types::{CallbackFunctions, Logger, Status};
 

@@ -3,6 +3,7 @@
 //! A task is compiled twice, for what every processor of its kind has and for AVX2. Neither fuses or reorders operations, so
 //! that both give the same bits.
 
+#[cfg(target_arch = "x86_64")]
 use std::sync::atomic::{AtomicU8, Ordering::Relaxed};
 
 /// Work that gains from wider vectors. Its `run` is to be inlined, and what it calls too, as far as it is to gain.
@@ -17,9 +18,13 @@ pub trait Task {
 /// them, and to compare results.
 pub const VARIABLE: &str = "BEVEL_DIFFERENTIAL_VECTORS";
 
+#[cfg(target_arch = "x86_64")]
 const UNKNOWN: u8 = 0;
+#[cfg(target_arch = "x86_64")]
 const NARROW: u8 = 1;
+#[cfg(target_arch = "x86_64")]
 const WIDE: u8 = 2;
+#[cfg(target_arch = "x86_64")]
 static LANES: AtomicU8 = AtomicU8::new(UNKNOWN);
 
 /// Runs `task` with the widest instructions that the processor has.

@@ -1,6 +1,6 @@
 //! Derivatives of inputs, of outputs, and along directions.
 
-use libc::c_int;
+use crate::fmi2::c_types::c_int;
 
 use super::super::calls::Call;
 use super::super::component::run;

@@ -3,7 +3,7 @@
 use std::ffi::{CStr, CString};
 use std::ptr;
 
-use libc::c_int;
+use crate::fmi2::c_types::c_int;
 
 use super::super::call_error::CallError;
 use super::super::calls::Call;

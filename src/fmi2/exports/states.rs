@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ptr;
 
-use libc::c_char;
+use crate::fmi2::c_types::c_char;
 
 use super::super::call_error::{CallError, CallResult};
 use super::super::calls::Call;

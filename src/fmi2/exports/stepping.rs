@@ -1,6 +1,6 @@
 //! Steps and their status.
 
-use libc::c_int;
+use crate::fmi2::c_types::c_int;
 
 use super::super::calls::Call;
 use super::super::component::run;

@@ -1,6 +1,6 @@
 //! Getting and setting variables.
 
-use libc::c_int;
+use crate::fmi2::c_types::c_int;
 
 use super::super::call_error::CallResult;
 use super::super::calls::Call;

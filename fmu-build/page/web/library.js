@@ -1,0 +1,121 @@
+// The library in WebAssembly: an instance by the functions of FMI 2.0, and surfaces of gears. Values in SI.
+
+const BYTES = { Real: 8, Integer: 4, Boolean: 4 };
+const ERROR = 2; // fmi2Discard and worse
+
+// What the library refused: its own messages.
+export class Refused extends Error {}
+
+export class Library {
+  // `module`: a WebAssembly.Module
+  static async of(module) {
+    return new Library((await WebAssembly.instantiate(module, {})).exports);
+  }
+
+  constructor(exports) {
+    this.exports = exports;
+    this.component = exports.page_instantiate();
+    this.said();
+    if (!this.component) throw new Refused("the library makes no instance");
+    this.rooms = new Map();
+  }
+
+  // Messages since they were last asked for: [{status, text}].
+  said() {
+    const room = 65536;
+    const place = this.exports.page_allocate(room);
+    const length = this.exports.page_messages(place, room);
+    const text = new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, place, length));
+    this.exports.page_free(place, room);
+    return text.split("\n").filter(Boolean).map((line) => ({ status: Number(line[0]), text: line.slice(2) }));
+  }
+
+  check(status, doing) {
+    if (status < ERROR) return;
+    const errors = this.said().filter((message) => message.status >= ERROR).map((message) => message.text);
+    throw new Refused(errors.join("\n") || `${doing} failed with status ${status}`);
+  }
+
+  // Numbers and references of a kind in the library's memory, with room for `count`.
+  room(kind, count) {
+    const known = this.rooms.get(kind);
+    if (known && known.count >= count) return known;
+    if (known) {
+      this.exports.page_free(known.references, 4 * known.count);
+      this.exports.page_free(known.values, 8 * known.count);
+    }
+    const made = { count, references: this.exports.page_allocate(4 * count), values: this.exports.page_allocate(8 * count) };
+    this.rooms.set(kind, made);
+    return made;
+  }
+
+  views(kind, room, count) {
+    // anew each time: the memory moves when it grows
+    const { buffer } = this.exports.memory;
+    const values = kind === "Real" ? new Float64Array(buffer, room.values, count) : new Int32Array(buffer, room.values, count);
+    return { references: new Uint32Array(buffer, room.references, count), values };
+  }
+
+  // Sets variables: [{kind, reference, value}], each kind in one call.
+  set(assignments) {
+    for (const kind of Object.keys(BYTES)) {
+      const own = assignments.filter((assignment) => assignment.kind === kind);
+      if (own.length === 0) continue;
+      const room = this.room(kind, own.length);
+      const { references, values } = this.views(kind, room, own.length);
+      own.forEach((assignment, i) => {
+        references[i] = assignment.reference;
+        values[i] = Number(assignment.value);
+      });
+      this.check(this.exports[`fmi2Set${kind}`](this.component, room.references, own.length, room.values), `setting ${kind}`);
+    }
+  }
+
+  // Values of Reals by their references, a Float64Array of its own.
+  get(wanted) {
+    if (wanted.length === 0) return new Float64Array(0);
+    const room = this.room("Real", wanted.length);
+    this.views("Real", room, wanted.length).references.set(wanted);
+    this.check(this.exports.fmi2GetReal(this.component, room.references, wanted.length, room.values), "reading");
+    return this.views("Real", room, wanted.length).values.slice();
+  }
+
+  // Starts anew with these assignments, for a run to `stop`.
+  start(assignments, stop) {
+    this.check(this.exports.fmi2Reset(this.component), "fmi2Reset");
+    this.said();
+    this.check(this.exports.fmi2SetupExperiment(this.component, 0, 0, 0, 1, stop), "fmi2SetupExperiment");
+    this.set(assignments);
+    this.check(this.exports.fmi2EnterInitializationMode(this.component), "fmi2EnterInitializationMode");
+    this.check(this.exports.fmi2ExitInitializationMode(this.component), "fmi2ExitInitializationMode");
+  }
+
+  step(time, size) {
+    this.check(this.exports.fmi2DoStep(this.component, time, size, 1), `the step from ${time} s`);
+  }
+
+  // Surface of a gear (0 planet, 1 side gear) for assignments of all kinds, in mm; null where it cannot be built.
+  gear(assignments, gear) {
+    const bytes = 16 * Math.max(assignments.length, 1);
+    const place = this.exports.page_allocate(bytes);
+    const view = new DataView(this.exports.memory.buffer);
+    assignments.forEach(({ reference, value }, i) => {
+      view.setUint32(place + 16 * i, reference, true);
+      view.setFloat64(place + 16 * i + 8, Number(value), true);
+    });
+    const surface = this.exports.page_gear(place, assignments.length, gear);
+    this.exports.page_free(place, bytes);
+    if (!surface) return null;
+    const numbers = (kind, array) => {
+      const count = this.exports.page_allocate(4);
+      const first = this.exports.page_gear_numbers(surface, kind, count);
+      const { buffer } = this.exports.memory;
+      const copy = new array(buffer, first, new Uint32Array(buffer, count, 1)[0]).slice();
+      this.exports.page_free(count, 4);
+      return copy;
+    };
+    const made = { vertices: numbers(0, Float32Array), triangles: numbers(1, Uint32Array) };
+    this.exports.page_gear_free(surface);
+    return made;
+  }
+}
