@@ -12,8 +12,7 @@ use bevel_differential::variables::guid;
 static MESSAGES: Mutex<String> = Mutex::new(String::new());
 
 /// A logger of C takes any number of arguments; compiled for WebAssembly these are one pointer, which is not used.
-type PlainLogger =
-    unsafe extern "C" fn(*mut core::ffi::c_void, Text, Status, Text, Text, *const core::ffi::c_void);
+type PlainLogger = unsafe extern "C" fn(*mut core::ffi::c_void, Text, Status, Text, Text, *const core::ffi::c_void);
 
 unsafe extern "C" fn keep(
     _: *mut core::ffi::c_void,

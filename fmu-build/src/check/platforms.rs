@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::fmu::libraries::{self, Library};
 use crate::fmu::package;
-use crate::fmu::toolchains::{self, WindowsToolchain};
+use crate::fmu::toolchains::{self, WINDOWS};
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
 use crate::tools::table::for_terminal;
@@ -35,7 +35,7 @@ impl PlatformsCommand {
 fn run(write: bool) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let environment = Environment::ready(|what| progress.stage(what))?;
-    let (Some(_), Some(windows)) = (Environment::old_linux(), WindowsToolchain::found()) else {
+    let (Some(_), Some(windows)) = (Environment::old_linux(), WINDOWS.found()) else {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };
     progress.stage("building the library for each platform");

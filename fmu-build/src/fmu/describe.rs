@@ -187,19 +187,27 @@ fn enumeration(kind: &EnumType) -> Element {
     Element::new("SimpleType").with("name", kind.name).child(Element::new("Enumeration").children(items))
 }
 
-fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
-    let causality = match row.causality {
+/// FMI's word.
+pub(super) fn causality(row: &Variable) -> &'static str {
+    match row.causality {
         Causality::Parameter => "parameter",
         Causality::CalculatedParameter => "calculatedParameter",
         Causality::Input => "input",
         Causality::Output => "output",
         Causality::Local => "local",
-    };
-    let variability = match row.variability {
+    }
+}
+
+/// FMI's word.
+pub(super) fn variability(row: &Variable) -> &'static str {
+    match row.variability {
         Variability::Fixed => "fixed",
         Variability::Tunable => "tunable",
         Variability::Continuous => "continuous",
-    };
+    }
+}
+
+fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Element {
     let initial = match row.causality {
         Causality::Parameter => Some("exact"),
         Causality::Input => None,
@@ -209,8 +217,8 @@ fn scalar_variable(reference: usize, row: &Variable, choices: Choices) -> Elemen
         .with("name", row.name)
         .with("valueReference", reference)
         .with("description", description(row, choices))
-        .with("causality", causality)
-        .with("variability", variability)
+        .with("causality", causality(row))
+        .with("variability", variability(row))
         .with_some("initial", initial)
         .child(variable_type(row, is_velocity(reference), choices))
 }

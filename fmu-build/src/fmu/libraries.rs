@@ -6,7 +6,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
-use crate::fmu::toolchains::{self, GLIBC, WINDOWS_TARGET, WindowsToolchain};
+use crate::fmu::toolchains::{self, GLIBC, UnpackedToolchain, WINDOWS, WINDOWS_TARGET};
 use crate::tools::paths;
 use crate::tools::python::Environment;
 
@@ -90,7 +90,7 @@ pub(super) fn old_linux() -> Result<Option<Library>> {
 
 /// The library for Windows, if a tool chain for it is installed.
 pub(super) fn windows() -> Result<Option<Library>> {
-    match WindowsToolchain::found() {
+    match WINDOWS.found() {
         Some(tools) if CROSS => for_windows(&tools).map(Some),
         None if CROSS && rustup_has_windows() => for_windows_by_rustup().map(Some),
         _ => Ok(None),
@@ -145,7 +145,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
     })
 }
 
-fn for_windows(tools: &WindowsToolchain) -> Result<Library> {
+fn for_windows(tools: &UnpackedToolchain) -> Result<Library> {
     let programs = tools.programs();
     let mut command = Command::new(cargo());
     command
@@ -205,7 +205,7 @@ fn distributable(mut command: Command, name: &str, ending: &str) -> Result<PathB
 }
 
 /// Options that replace the folders of this machine in the locations of panics. Of several that match, the last one counts.
-fn without_folders() -> Vec<String> {
+pub(super) fn without_folders() -> Vec<String> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
     let folders = [

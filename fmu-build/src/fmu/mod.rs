@@ -1,5 +1,6 @@
 //! What builds the FMU: its description, the libraries for each platform and their tool chains, licences, documentation,
-//! the archive, and the Python package around it. Commands: `package`, `wheel`, `describe`, `toolchains`.
+//! the archive, and the Python package around it. Commands: `package`, `wheel`, `page`, `describe`,
+//! `toolchains`.
 
 pub mod dependencies;
 pub mod describe;
@@ -8,6 +9,7 @@ pub mod effect_list;
 pub mod libraries;
 pub mod licences;
 pub mod package;
+pub mod page;
 pub mod plain_types;
 pub mod platforms;
 pub mod toolchains;
@@ -23,6 +25,7 @@ use clap::Subcommand;
 pub enum BuildCommand {
     Package(package::PackageCommand),
     Wheel(wheel::WheelCommand),
+    Page(page::PageCommand),
     Describe(describe::DescribeCommand),
     Toolchains(toolchains::ToolchainsCommand),
 }
@@ -33,6 +36,7 @@ impl BuildCommand {
         match self {
             Self::Package(command) => command.run(),
             Self::Wheel(command) => command.run(),
+            Self::Page(command) => command.run(),
             Self::Describe(command) => command.run(),
             Self::Toolchains(command) => command.run(),
         }

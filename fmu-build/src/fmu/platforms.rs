@@ -4,7 +4,7 @@ use anyhow::{Result, ensure};
 use clap::ValueEnum;
 
 use crate::fmu::libraries::{self, CROSS, HOST, Library};
-use crate::fmu::toolchains::{self, WindowsToolchain};
+use crate::fmu::toolchains::{self, WINDOWS};
 use crate::tools::python::Environment;
 
 /// A platform to build the library for.
@@ -46,7 +46,7 @@ impl Platform {
     fn can_be_built(self) -> bool {
         match self {
             Self::Linux64 => CROSS && Environment::old_linux().is_some(),
-            Self::Win64 => CROSS && (WindowsToolchain::found().is_some() || libraries::rustup_has_windows()),
+            Self::Win64 => CROSS && (WINDOWS.found().is_some() || libraries::rustup_has_windows()),
             Self::ThisMachine => true,
         }
     }

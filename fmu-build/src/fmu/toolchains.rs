@@ -24,13 +24,13 @@ pub const GLIBC: &str = "2.17";
 /// Rust's name of the Windows target that is built for.
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
 
-/// Installs the tool chains for old Linux systems and for Windows, with wine, in target/toolchains
+/// Installs the tool chains for old Linux systems, for Windows, with wine, and for browsers in target/toolchains
 ///
-/// They need Debian on x86-64, 400 MB to download and 2 GB on disk. Packaging uses them from then on.
+/// They need Debian on x86-64, 500 MB to download and 3 GB on disk. Packaging uses them from then on.
 #[derive(Args, Clone, Debug)]
 pub struct ToolchainsCommand {
     /// Install only this one
-    #[arg(value_parser = ["linux64", "win64"])]
+    #[arg(value_parser = ["linux64", "win64", "wasm"])]
     platform: Option<String>,
 }
 
@@ -53,61 +53,92 @@ fn run(platform: Option<&str>) -> Result<()> {
         made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
     }
     if wanted("win64") {
-        let windows = WindowsToolchain::made(&progress)?;
+        let windows = WINDOWS.made(&progress)?;
         made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
+    }
+    if wanted("wasm") {
+        let wasm = WASM.made(&progress)?;
+        made.push(format!("browsers:              {}", paths::shown(&wasm.programs())));
     }
     progress.finish();
     println!("{}", made.join("\n"));
     Ok(())
 }
 
-/// Rust for Windows, a linker, and wine, unpacked from Debian's packages.
-pub struct WindowsToolchain {
-    folder: PathBuf,
+/// A tool chain that a script in fmu-build/cross unpacks from Debian's packages.
+pub struct DebianToolchain {
+    /// Name of its folder and of its script.
+    name: &'static str,
+    /// What is unpacked, in words.
+    what: &'static str,
 }
 
-impl WindowsToolchain {
-    /// The tool chain, if the present script installed it.
-    pub fn found() -> Option<Self> {
-        let windows = Self { folder: paths::toolchains().join("windows") };
-        let wanted = stamp().ok()?;
-        fs::read_to_string(windows.stamp()).is_ok_and(|found| found == wanted).then_some(windows)
+/// Rust for Windows, a linker, and wine.
+pub const WINDOWS: DebianToolchain =
+    DebianToolchain { name: "windows", what: "Rust, MinGW and wine for Windows (280 MB to download)" };
+/// Rust for WebAssembly and a linker.
+pub const WASM: DebianToolchain =
+    DebianToolchain { name: "wasm", what: "Rust and a linker for WebAssembly (150 MB to download)" };
+
+impl DebianToolchain {
+    /// The tool chain, if the present scripts installed it.
+    pub fn found(&self) -> Option<UnpackedToolchain> {
+        let unpacked = self.folder();
+        let wanted = self.wanted_stamp().ok()?;
+        fs::read_to_string(unpacked.stamp()).is_ok_and(|found| found == wanted).then_some(unpacked)
     }
 
-    fn made(progress: &Progress) -> Result<Self> {
-        if let Some(windows) = Self::found() {
-            return Ok(windows);
+    fn made(&self, progress: &Progress) -> Result<UnpackedToolchain> {
+        if let Some(unpacked) = self.found() {
+            return Ok(unpacked);
         }
-        let windows = Self { folder: paths::toolchains().join("windows") };
-        progress.stage("unpacking Rust, MinGW and wine for Windows (280 MB to download)");
+        let unpacked = self.folder();
+        progress.stage(&format!("unpacking {}", self.what));
         let output = Command::new("bash")
-            .arg(script())
-            .arg(&windows.folder)
+            .arg(script(self.name))
+            .arg(&unpacked.0)
             .stdin(Stdio::null())
             .output()
-            .context("bash, which unpacks the tool chain for Windows, cannot be run")?;
+            .context("bash, which unpacks tool chains, cannot be run")?;
         if !output.status.success() {
-            bail!(
-                "the tool chain for Windows cannot be installed: {}",
-                String::from_utf8_lossy(&output.stderr).trim_end()
-            );
+            let messages = String::from_utf8_lossy(&output.stderr);
+            bail!("the tool chain {} cannot be installed: {}", self.name, messages.trim_end());
         }
-        fs::write(windows.stamp(), stamp()?)?;
-        Ok(windows)
+        fs::write(unpacked.stamp(), self.wanted_stamp()?)?;
+        Ok(unpacked)
     }
 
+    fn folder(&self) -> UnpackedToolchain {
+        UnpackedToolchain(paths::toolchains().join(self.name))
+    }
+
+    /// Changes with the scripts.
+    fn wanted_stamp(&self) -> Result<String> {
+        let mut scripts = Vec::new();
+        for name in ["debian", self.name] {
+            let script = script(name);
+            scripts.extend(fs::read(&script).with_context(|| format!("{} cannot be read", paths::shown(&script)))?);
+        }
+        Ok(format!("{:016x}\n", variables::fnv1a(scripts.into_iter())))
+    }
+}
+
+/// A folder with an unpacked tool chain.
+pub struct UnpackedToolchain(PathBuf);
+
+impl UnpackedToolchain {
     fn stamp(&self) -> PathBuf {
-        self.folder.join("stamp")
+        self.0.join("stamp")
     }
 
-    /// The folder with the programs to call: rustc, the linker, wine64.
+    /// The folder with the programs to call: rustc, a linker, wine64.
     pub fn programs(&self) -> PathBuf {
-        self.folder.join("bin")
+        self.0.join("bin")
     }
 
     /// The folder that the packages are unpacked to.
     pub fn root(&self) -> PathBuf {
-        self.folder.join("root")
+        self.0.join("root")
     }
 }
 
@@ -118,12 +149,6 @@ pub fn path_with(folder: &Path) -> Result<OsString> {
     env::join_paths(folders).with_context(|| format!("{} cannot be put into PATH", folder.display()))
 }
 
-fn script() -> PathBuf {
-    paths::workspace().join("fmu-build").join("cross").join("windows.sh")
-}
-
-/// Changes with the script.
-fn stamp() -> Result<String> {
-    let script = fs::read(script()).context("fmu-build/cross/windows.sh cannot be read")?;
-    Ok(format!("{:016x}\n", variables::fnv1a(script.into_iter())))
+fn script(name: &str) -> PathBuf {
+    paths::workspace().join("fmu-build").join("cross").join(format!("{name}.sh"))
 }

@@ -1,0 +1,165 @@
+//! What the page knows of the library: variables from the table, scenes from their files, prices of effects.
+
+use anyhow::{Context, Result};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::{Access, Variable, table};
+use serde::Serialize;
+
+use crate::fmu::describe::{causality, variability};
+use crate::gears::scene::set::{Setting, SettingValue};
+use crate::gears::scene::{self, Scene, load, units};
+use crate::tools::paths;
+
+/// All of it; values are SI.
+#[derive(Serialize)]
+pub struct PageData {
+    version: &'static str,
+    variables: Vec<PageVariable>,
+    scenes: Vec<PageScene>,
+    prices: Vec<Price>,
+}
+
+#[derive(Serialize)]
+struct PageVariable {
+    name: &'static str,
+    reference: usize,
+    kind: &'static str,
+    causality: &'static str,
+    variability: &'static str,
+    unit: Option<&'static str>,
+    shown: &'static str,
+    factor: f64,
+    min: Option<f64>,
+    max: Option<f64>,
+    start: Option<Value>,
+    description: &'static str,
+    literals: Vec<Literal>,
+}
+
+#[derive(Serialize)]
+struct Literal {
+    name: &'static str,
+    value: i32,
+    description: &'static str,
+}
+
+/// A number, or whether something is on.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Value {
+    Real(f64),
+    Integer(i32),
+    Boolean(bool),
+}
+
+#[derive(Serialize)]
+struct PageScene {
+    name: String,
+    description: String,
+    stop: f64,
+    step: f64,
+    outputs: Vec<&'static str>,
+    set: Vec<(&'static str, Value)>,
+    changes: Vec<(f64, Vec<(&'static str, Value)>)>,
+    tables: Vec<PageTable>,
+}
+
+#[derive(Serialize)]
+struct PageTable {
+    name: &'static str,
+    times: Vec<f64>,
+    values: Vec<f64>,
+    period: Option<f64>,
+}
+
+/// What a switch costs, as a multiple of plain teeth.
+#[derive(Serialize)]
+struct Price {
+    effect: String,
+    factor: f64,
+}
+
+/// What the page is made from.
+pub fn data() -> Result<PageData> {
+    let scenes = scene::files()?.iter().map(|file| load::load(file).map(page_scene)).collect::<Result<_>>()?;
+    let variables = table().rows.iter().enumerate().map(|(reference, row)| page_variable(reference, row)).collect();
+    Ok(PageData { version: env!("CARGO_PKG_VERSION"), variables, scenes, prices: prices()? })
+}
+
+fn page_variable(reference: usize, row: &'static Variable) -> PageVariable {
+    let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+    let (kind, start) = match row.access {
+        Access::Real(field) => ("Real", Some(Value::Real(*field(&mut parameters)))),
+        Access::Integer(field) => ("Integer", Some(Value::Integer(*field(&mut parameters)))),
+        Access::Boolean(field) => ("Boolean", Some(Value::Boolean(*field(&mut parameters)))),
+        Access::Enumeration(_, get, _) => ("Enumeration", Some(Value::Integer(get(&parameters)))),
+        Access::Input(field) => ("Real", Some(Value::Real(*field(&mut inputs)))),
+        Access::Output(_) => ("Real", None),
+    };
+    let choices = match row.access {
+        Access::Enumeration(kind, ..) => kind.choices,
+        _ => &[],
+    };
+    let literals = choices.iter().map(|choice| Literal {
+        name: choice.name,
+        value: choice.value,
+        description: choice.description,
+    });
+    PageVariable {
+        name: row.name,
+        reference,
+        kind,
+        causality: causality(row),
+        variability: variability(row),
+        unit: row.unit.map(|unit| unit.name),
+        shown: units::name(row),
+        factor: row.display.map_or(1.0, |shown| shown.factor),
+        min: row.range.map(|range| range.min),
+        max: row.range.map(|range| range.max),
+        start,
+        description: row.description,
+        literals: literals.collect(),
+    }
+}
+
+fn page_scene(scene: Scene) -> PageScene {
+    let table = |table: scene::InputTable| PageTable {
+        name: table.row.name,
+        times: table.times,
+        values: table.values,
+        period: table.period,
+    };
+    PageScene {
+        name: scene.name,
+        description: scene.description,
+        stop: scene.stop_time,
+        step: scene.step,
+        outputs: scene.outputs.iter().map(|row| row.name).collect(),
+        set: scene.settings.iter().map(assignment).collect(),
+        changes: scene
+            .events
+            .iter()
+            .map(|event| (event.time, event.settings.iter().map(assignment).collect()))
+            .collect(),
+        tables: scene.input_tables.into_iter().map(table).collect(),
+    }
+}
+
+fn assignment(setting: &Setting) -> (&'static str, Value) {
+    let value = match setting.value {
+        SettingValue::Real(value) => Value::Real(value),
+        SettingValue::Integer(value) | SettingValue::Literal(value) => Value::Integer(value),
+        SettingValue::Boolean(value) => Value::Boolean(value),
+    };
+    (setting.row.name, value)
+}
+
+/// Instructions of a step with each effect alone over those of plain teeth, from the last measurement (docs/prices.md).
+fn prices() -> Result<Vec<Price>> {
+    let file = paths::workspace().join("fmu-build").join("data").join("prices.csv");
+    let mut reader =
+        csv::Reader::from_path(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)))?;
+    let rows: Vec<(String, f64, f64)> = reader.deserialize().collect::<Result<_, _>>().context("data/prices.csv")?;
+    let plain = rows.iter().find(|(on, ..)| on == "nothing").context("data/prices.csv has no row \"nothing\"")?.2;
+    Ok(rows.into_iter().map(|(effect, _, step)| Price { effect, factor: step / plain }).collect())
+}

@@ -1,0 +1,99 @@
+//! The page: the library for browsers, the gears, traces and controls in one HTML file that needs no server.
+
+mod data;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+
+use crate::fmu::libraries;
+use crate::fmu::toolchains::{self, UnpackedToolchain, WASM};
+use crate::tools::paths;
+use crate::tools::progress::Progress;
+use crate::tools::python::finish;
+
+/// The crate of the library for browsers, and what its file is called.
+const CRATE: &str = "bevel-differential-page";
+const LIBRARY: &str = "bevel_differential_page.wasm";
+/// Rust's name of the target.
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// Builds target/page/BevelDifferential.html, the differential live in a browser
+///
+/// The page is one file that needs no server. It takes the tool chain `toolchains wasm`, and node with npm, which gets three.js,
+/// uPlot and esbuild.
+#[derive(Args, Clone, Debug)]
+pub struct PageCommand {}
+
+impl PageCommand {
+    /// Builds the page and prints where it is.
+    pub fn run(&self) -> Result<()> {
+        let Some(tools) = WASM.found() else {
+            bail!("the tool chain for browsers is not installed: {} wasm", toolchains::COMMAND);
+        };
+        if Command::new("npm").arg("--version").output().is_err() {
+            bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
+        }
+        let progress = Progress::start("building the library for browsers");
+        let library = library(&tools)?;
+        progress.stage("bundling the page");
+        let page = bundle(&library)?;
+        progress.finish();
+        let size = fs::metadata(&page)?.len() as f64;
+        println!("{}: {:.2} MB", paths::shown(&page), size / 1e6);
+        Ok(())
+    }
+}
+
+/// The library for browsers.
+fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
+    let folder = paths::target().join("cross").join("wasm");
+    let mut cargo = Command::new(libraries::cargo());
+    cargo
+        .current_dir(paths::workspace())
+        .args(["build", "--release", "--quiet", "--package", CRATE, "--target", TARGET])
+        .args(["-Zbuild-std=std,panic_abort", "--target-dir"])
+        .arg(&folder)
+        .env("RUSTC", tools.programs().join("rustc"))
+        // Debian's Rust is a stable one, and building the standard library is not yet
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"))
+        // as for users, whatever this build is for
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
+        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
+        .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
+    finish(&mut cargo, "the library for browsers cannot be built")?;
+    Ok(folder.join(TARGET).join("release").join(LIBRARY))
+}
+
+/// The page around `library`; the sources are copied, so that nothing is written where they are.
+fn bundle(library: &Path) -> Result<PathBuf> {
+    let folder = paths::target().join("page");
+    let web = folder.join("web");
+    copy_sources(&paths::workspace().join("fmu-build").join("page").join("web"), &web)?;
+    let data = folder.join("data.json");
+    fs::write(&data, serde_json::to_vec(&data::data()?)?).context("data.json cannot be written")?;
+    let mut npm = Command::new("npm");
+    npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
+    finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
+    let page = folder.join("BevelDifferential.html");
+    let mut node = Command::new("node");
+    node.current_dir(&web).arg("build.mjs").args([library, &data, &page]);
+    finish(&mut node, "the page cannot be bundled")?;
+    Ok(page)
+}
+
+fn copy_sources(from: &Path, to: &Path) -> Result<()> {
+    paths::create_folder(to)?;
+    for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
+        let file = entry?.path();
+        if file.is_file() {
+            let name = file.file_name().unwrap_or_default();
+            fs::copy(&file, to.join(name)).with_context(|| format!("{} cannot be copied", paths::shown(&file)))?;
+        }
+    }
+    Ok(())
+}
