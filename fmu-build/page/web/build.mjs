@@ -1,0 +1,57 @@
+// Builds the page, one HTML file: node build.mjs LIBRARY.wasm DATA.json OUT.html
+import { readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
+
+const HERE = dirname(fileURLToPath(import.meta.url));
+const MOST = 3e6; // bytes of the page
+const PACKAGES = ["three", "uplot"];
+const COMMON = { bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none" };
+
+const own = (file) => readFileSync(join(HERE, file), "utf8");
+const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
+// neither text ends the element it stands in
+const asScript = (text) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+const asStyle = (text) => text.replaceAll("</style", "<\\/style");
+const asHtml = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
+
+// `import text from "worker:FILE"` gives a worker's whole program as a text.
+const workers = {
+  name: "workers",
+  setup(bundler) {
+    bundler.onResolve({ filter: /^worker:/ }, ({ path }) => ({ path: join(HERE, path.slice(7)), namespace: "worker" }));
+    bundler.onLoad({ filter: /.*/, namespace: "worker" }, async ({ path }) => {
+      const { outputFiles } = await build({ ...COMMON, entryPoints: [path] });
+      return { contents: outputFiles[0].text, loader: "text" };
+    });
+  },
+};
+
+async function main([library, data, out]) {
+  if (!out) throw new Error("usage: node build.mjs LIBRARY.wasm DATA.json OUT.html");
+  const { outputFiles } = await build({ ...COMMON, entryPoints: [join(HERE, "main.js")], plugins: [workers] });
+  const licences = PACKAGES.map((name) => {
+    const { version } = JSON.parse(own(`node_modules/${name}/package.json`));
+    return `${name} ${version}\n\n${own(`node_modules/${name}/LICENSE`).trim()}`;
+  });
+  const parts = {
+    style: asStyle(own("node_modules/uplot/dist/uPlot.min.css") + own("style.css")),
+    licences: asHtml(licences.join("\n\n\n")),
+    data: packed(JSON.stringify(JSON.parse(readFileSync(data, "utf8")))),
+    library: packed(readFileSync(library)),
+    program: asScript(outputFiles[0].text),
+  };
+  const page = own("index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
+  writeFileSync(out, page);
+  const bytes = Buffer.byteLength(page);
+  const sizes = Object.entries(parts).map(([name, text]) => `${name} ${Math.round(Buffer.byteLength(text) / 1e3)}`);
+  console.log(`${out}: ${Math.round(bytes / 1e3)} kB (${sizes.join(", ")})`);
+  if (bytes > MOST) throw new Error(`the page has ${bytes} bytes, more than ${MOST}`);
+}
+
+main(process.argv.slice(2)).catch((error) => {
+  console.error(error.message);
+  process.exitCode = 1;
+});

@@ -1,0 +1,29 @@
+// Which outputs are drawn.
+import { MOST } from "./traces.js";
+
+export class TraceChoice {
+  // `chosen(names)` is called when the reader has changed the choice.
+  constructor(host, table, chosen) {
+    this.boxes = table.outputs().map(({ name, description }) => {
+      const box = Object.assign(document.createElement("input"), { type: "checkbox", value: name });
+      const label = Object.assign(document.createElement("label"), { title: description });
+      label.append(box, name);
+      host.append(label);
+      box.addEventListener("change", () => chosen(this.names()));
+      return box;
+    });
+  }
+
+  names() {
+    return this.boxes.filter((box) => box.checked).map((box) => box.value);
+  }
+
+  show(names) {
+    for (const box of this.boxes) {
+      box.checked = names.includes(box.value);
+      box.disabled = !box.checked && names.length >= MOST;
+    }
+    // the last one stays: a page without traces has nothing to follow
+    if (names.length === 1) this.boxes.find((box) => box.checked).disabled = true;
+  }
+}

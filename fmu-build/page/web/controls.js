@@ -1,0 +1,147 @@
+// Parameters and inputs in groups, effects as switches: made from the table of variables.
+import { readable, shown, unitText } from "./table.js";
+
+const EFFECTS = "effects";
+const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
+
+const element = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
+
+export class Controls {
+  // `changed(name)` is called after a value has been put into the set-up.
+  constructor(host, table, setup, changed) {
+    Object.assign(this, { host, table, setup, changed, rows: new Map(), groups: [] });
+    const groups = [...table.groups()];
+    const place = ([group]) => (FIRST.includes(group) ? FIRST.indexOf(group) : FIRST.length);
+    groups.sort((a, b) => place(a) - place(b));
+    for (const [group, variables] of groups) this.group(group, variables);
+  }
+
+  group(name, variables) {
+    const count = element("span", { className: "count" });
+    const body = element("div", { className: name === EFFECTS ? "switches" : "fields" });
+    const own = variables.map((variable) => this.row(variable, body));
+    const details = element("details", { open: name === EFFECTS }, element("summary", {}, name.replaceAll("_", " "), count), body);
+    this.groups.push({ details, count, rows: own });
+    this.host.append(details);
+  }
+
+  row(variable, body) {
+    const { name, kind, description } = variable;
+    const id = `set ${name}`;
+    const input = field(variable, id);
+    const back = element("button", { type: "button", className: "back", textContent: "↺", title: "Back to the scene's value" });
+    back.setAttribute("aria-label", `${name}: back to the scene's value`);
+    const fault = element("p", { className: "fault", hidden: true, id: `fault ${name}` });
+    fault.setAttribute("role", "alert");
+    const price = this.table.prices.get(name);
+    const label = element("label", { htmlFor: id, title: name }, name.slice(name.indexOf(".") + 1).replaceAll("_", " "));
+    const unit = element("span", { className: "unit", textContent: unitText(variable.shown) });
+    if (price) unit.textContent = `× ${readable(price, 2)}`;
+    if (price) unit.title = `time of a simulation with this effect over that without it: ${readable(price, 3)}`;
+    const what = element("p", { className: "what", textContent: `${description}${range(variable)}` });
+    const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, fault);
+    frame.dataset.words = `${name} ${description}`.toLowerCase().replaceAll("_", " ");
+    body.append(frame);
+    input.addEventListener("change", () => this.take(variable, input));
+    back.addEventListener("click", () => {
+      this.setup.reset(name);
+      this.done(name);
+      input.focus();
+    });
+    const row = { variable, frame, input, fault };
+    this.rows.set(name, row);
+    return row;
+  }
+
+  take(variable, input) {
+    const { name, kind, factor } = variable;
+    if (kind === "Boolean") this.setup.set(name, input.checked);
+    else if (kind === "Enumeration") this.setup.set(name, Number(input.value));
+    else {
+      const number = Number(input.value.trim().replace("−", "-").replace(",", "."));
+      if (input.value.trim() === "" || !Number.isFinite(number)) {
+        this.complain(name, `${name}: “${input.value}” is not a number`);
+        return;
+      }
+      if (kind === "Integer" && !Number.isInteger(number)) {
+        this.complain(name, `${name}: ${number} is not a whole number`);
+        return;
+      }
+      // what is shown for the value of the scene is that value, not its rounded text
+      const same = readable(this.setup.valueInScene(name) * factor, 7) === readable(number, 7);
+      this.setup.set(name, same ? this.setup.valueInScene(name) : number / factor);
+    }
+    this.done(name);
+  }
+
+  done(name) {
+    this.show();
+    this.changed(name);
+  }
+
+  // Shows the values of the set-up.
+  show() {
+    for (const [name, { variable, frame, input, fault }] of this.rows) {
+      const value = this.setup.value(name);
+      if (variable.kind === "Boolean") input.checked = value;
+      else if (variable.kind === "Enumeration") input.value = String(value);
+      else input.value = readable(value * variable.factor, 7).replaceAll("−", "-");
+      frame.classList.toggle("own", this.setup.isOwn(name));
+      frame.classList.toggle("driven", this.setup.isDriven(name) && !this.setup.isOwn(name));
+      fault.hidden = true;
+      input.removeAttribute("aria-invalid");
+    }
+    for (const { count, rows } of this.groups) {
+      const own = rows.filter(({ variable }) => this.setup.isOwn(variable.name)).length;
+      count.textContent = own > 0 ? `${own} changed` : "";
+    }
+  }
+
+  // Shows a message at the control it is about.
+  complain(name, text) {
+    const row = this.rows.get(name);
+    if (!row) return false;
+    row.fault.textContent = text;
+    row.fault.hidden = false;
+    row.input.setAttribute("aria-invalid", "true");
+    row.input.setAttribute("aria-describedby", row.fault.id);
+    row.frame.closest("details").open = true;
+    row.frame.scrollIntoView({ block: "nearest" });
+    return true;
+  }
+
+  // Leaves what has all these words in its name or description.
+  filter(text) {
+    const words = text.toLowerCase().replaceAll("_", " ").split(/[\s.]+/).filter(Boolean);
+    for (const { details, rows } of this.groups) {
+      const fits = rows.filter(({ frame }) => {
+        frame.hidden = !words.every((word) => frame.dataset.words.includes(word));
+        return !frame.hidden;
+      });
+      details.hidden = fits.length === 0;
+      if (words.length > 0) details.open = true;
+    }
+  }
+}
+
+function field({ kind, literals }, id) {
+  if (kind === "Boolean") {
+    const input = element("input", { type: "checkbox", id });
+    input.setAttribute("role", "switch");
+    return input;
+  }
+  if (kind === "Enumeration") {
+    return element("select", { id }, ...literals.map(({ name, value }) => element("option", { value: String(value), textContent: name })));
+  }
+  return element("input", { type: "text", inputMode: "decimal", id, autocomplete: "off", spellcheck: false });
+}
+
+function range(variable) {
+  if (variable.min === null || variable.min === undefined) return "";
+  const end = (value) => readable(value * variable.factor, 4);
+  return ` (${end(variable.min)} to ${shown({ ...variable, kind: "Real" }, variable.max, 4)})`;
+}

@@ -1,0 +1,126 @@
+// What holds the gears, drawn for orientation: half a case, cut open toward the eye, a flange, pins and half-shafts.
+import {
+  BoxGeometry, CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshStandardMaterial, Shape, ShapeGeometry, Vector2,
+} from "three";
+
+const WALL = 5; // mm
+const AIR = 3; // mm between what turns and the case
+const ROUND = 48;
+
+const metal = (color, roughness = 0.45) => new MeshStandardMaterial({ color, metalness: 0.7, roughness });
+
+export class Housing {
+  // `size`: reach of all gears from the apex, back of a side gear [mm].
+  constructor({ reach, back, planets, azimuth }) {
+    this.shell = new Group();
+    this.carrier = new Group();
+    this.shafts = [1, -1].map((side) => shaft(side, reach, back));
+    const [radius, half] = [reach + AIR, back + AIR];
+    const profile = section(radius, half, shaftRadius(reach) + 2);
+    this.shell.add(lathe(profile), ...cuts(profile));
+    this.carrier.add(flange(radius, half));
+    for (let i = 0; i < planets; i += 1) this.carrier.add(pin(azimuth(i), radius + WALL + 3, reach));
+  }
+
+  // Turns the open side of the case toward the eye.
+  face(eye) {
+    this.shell.rotation.x = Math.atan2(-eye.y, eye.z) + Math.PI / 2;
+  }
+
+  // Half-shafts turn with the wheels [rad].
+  turn(carrier, left, right) {
+    this.carrier.rotation.x = carrier;
+    this.shafts[0].rotation.x = left;
+    this.shafts[1].rotation.x = right;
+  }
+
+  dispose() {
+    for (const group of [this.shell, this.carrier, ...this.shafts]) group.traverse((part) => {
+      part.geometry?.dispose();
+      part.material?.dispose();
+    });
+  }
+}
+
+const shaftRadius = (reach) => 0.27 * reach;
+
+// Outline of the case's wall in a plane through the axis: (distance from the axis, place along it).
+function section(radius, half, hub) {
+  const corner = 0.35 * radius;
+  const side = (grown) => {
+    const points = [new Vector2(hub, -half - 3 * WALL)];
+    if (grown === 0) points.push(new Vector2(hub, -half));
+    else points.push(new Vector2(hub + WALL, -half - 3 * WALL), new Vector2(hub + WALL, -half - grown));
+    for (let k = 0; k <= 10; k += 1) {
+      const angle = (Math.PI / 20) * k;
+      points.push(new Vector2(radius - corner + (corner + grown) * Math.sin(angle), -half + corner - (corner + grown) * Math.cos(angle)));
+    }
+    return [...points, ...points.map(({ x, y }) => new Vector2(x, -y)).reverse()];
+  };
+  const [inner, outer] = [side(0), side(WALL)];
+  return [...inner, ...outer.reverse(), inner[0]];
+}
+
+function lathe(profile) {
+  const mesh = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI), metal("#8d949e", 0.6));
+  mesh.material.side = DoubleSide;
+  mesh.geometry.rotateZ(-Math.PI / 2);
+  return mesh;
+}
+
+// The faces of the cut, painted as on cut-away models.
+function cuts(profile) {
+  return [1, -1].map((side) => {
+    const shape = new Shape(profile.map(({ x, y }) => new Vector2(y, side * x)));
+    const material = new MeshStandardMaterial({ color: "#b3392f", roughness: 0.8, metalness: 0, side: DoubleSide });
+    const mesh = new Mesh(new ShapeGeometry(shape), material);
+    return mesh;
+  });
+}
+
+// Flange for the ring gear, with bolts that show how the carrier turns.
+function flange(radius, half) {
+  const group = new Group();
+  const [inner, outer, place] = [radius + WALL - 1, radius + WALL + 12, 0.45 * half];
+  const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
+  const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#4a5059"));
+  ring.material.flatShading = true;
+  ring.material.side = DoubleSide;
+  ring.position.x = place;
+  group.add(ring);
+  for (let k = 0; k < 10; k += 1) {
+    const angle = (2 * Math.PI * k) / 10;
+    const bolt = new Mesh(new CylinderGeometry(2.6, 2.6, 12, 6).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
+    bolt.position.set(place, (outer - 6) * Math.cos(angle), (outer - 6) * Math.sin(angle));
+    group.add(bolt);
+  }
+  return group;
+}
+
+function pin(azimuth, length, reach) {
+  const mesh = new Mesh(new CylinderGeometry(0.16 * reach, 0.16 * reach, length, ROUND), metal("#6d747e", 0.3));
+  mesh.geometry.translate(0, length / 2, 0);
+  mesh.rotation.x = azimuth;
+  return mesh;
+}
+
+function shaft(side, reach, back) {
+  const group = new Group();
+  const [begin, end, radius] = [0.62 * back, back + 0.9 * reach, shaftRadius(reach)];
+  const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metal("#767d88", 0.32));
+  bar.position.x = (side * (begin + end)) / 2;
+  const plate = new Mesh(new CylinderGeometry(2.1 * radius, 2.1 * radius, 6, ROUND).rotateZ(Math.PI / 2), metal("#5b626c"));
+  plate.position.x = side * end;
+  group.add(bar, plate);
+  for (let k = 0; k < 5; k += 1) {
+    const angle = (2 * Math.PI * k) / 5;
+    const bolt = new Mesh(new CylinderGeometry(2, 2, 14, 12).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
+    bolt.position.set(side * end, 1.6 * radius * Math.cos(angle), 1.6 * radius * Math.sin(angle));
+    group.add(bolt);
+  }
+  // a stripe shows how the shaft turns
+  const stripe = new Mesh(new BoxGeometry(0.72 * reach, 0.8, 2.4), new MeshStandardMaterial({ color: "#e0a030", roughness: 0.6 }));
+  stripe.position.set(side * (end - 0.36 * reach - 3), radius, 0);
+  group.add(stripe);
+  return group;
+}

@@ -1,0 +1,281 @@
+// The page: the set-up goes to the worker, its points go into the record, and the picture follows the player's time.
+import { Assembly } from "./assembly.js";
+import { Controls } from "./controls.js";
+import { embeddedBytes, embeddedJson } from "./embedded.js";
+import { listenToKeys } from "./keys.js";
+import { Player } from "./player.js";
+import { Record } from "./record.js";
+import { Setup } from "./setup.js";
+import { Simulation } from "./simulation.js";
+import { readable, shown, Table } from "./table.js";
+import { followTheme } from "./theme.js";
+import { TraceChoice } from "./choice.js";
+import { Traces } from "./traces.js";
+import { PRESETS, View } from "./view.js";
+import { Walk } from "./walk.js";
+
+const $ = (id) => document.getElementById(id);
+const MOVING = ["carrier.angle", "carrier.speed", "solver.energy_residual"];
+const SIDES = ["left", "right"];
+const CONSTANTS = ["geometry.planet_pitch_angle", "geometry.outer_cone_distance"];
+
+class Page {
+  constructor(data, library) {
+    this.table = new Table(data);
+    this.setup = new Setup(this.table);
+    this.player = new Player();
+    this.record = new Record([]);
+    this.labels = Object.fromEntries([...document.querySelectorAll("[data-label]")].map((label) => [label.dataset.label, label]));
+    this.view = new View($("canvas"), this.labels);
+    this.traces = new Traces($("traces"), this.table, (time) => this.seek(time));
+    this.choice = new TraceChoice($("trace-list"), this.table, (names) => {
+      this.setup.traces = names;
+      this.keep();
+      this.simulate();
+    });
+    this.controls = new Controls($("groups"), this.table, this.setup, () => this.changed());
+    this.walk = new Walk($("walk"), (step) => {
+      this.player.chosen = false;
+      this.player.time = 0;
+      this.player.playing = true;
+      location.hash = step.fragment;
+      this.look(step.camera);
+    });
+    this.simulation = new Simulation(library, {
+      ready: () => {},
+      gears: (message) => this.takeGears(message),
+      started: (message) => this.started(message),
+      points: (message) => this.points(message),
+      over: () => {},
+      refused: ({ text }) => this.refuse(text),
+      trap: ({ text }) => this.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true),
+    });
+    this.listen();
+    this.restore();
+    this.look("whole");
+    this.last = performance.now();
+    requestAnimationFrame((now) => this.frame(now));
+  }
+
+  listen() {
+    for (const { name } of this.table.scenes) $("scene").append(new Option(name.replaceAll("_", " "), name));
+    $("scene").addEventListener("change", () => { location.hash = `scene=${$("scene").value}`; });
+    $("walk-open").addEventListener("click", () => this.walk.show(0));
+    $("copy").addEventListener("click", () => this.copy());
+    $("reset").addEventListener("click", () => { location.hash = `scene=${this.setup.scene.name}`; });
+    $("search").addEventListener("input", () => this.controls.filter($("search").value));
+    $("duration").addEventListener("change", () => this.takeDuration());
+    $("play").addEventListener("click", () => this.play());
+    $("time").addEventListener("input", () => this.seek(Number($("time").value)));
+    $("rate").addEventListener("input", () => { this.player.share = Number($("rate").value); });
+    $("scroll").addEventListener("change", () => this.scroll());
+    $("hold").addEventListener("change", () => { this.view.hold = $("hold").checked; });
+    $("shell").addEventListener("change", () => {
+      this.view.differential.still.visible = $("shell").checked;
+      this.view.stale = true;
+    });
+    for (const button of document.querySelectorAll("[data-camera]")) button.addEventListener("click", () => this.look(button.dataset.camera));
+    addEventListener("hashchange", () => { if (location.hash !== this.setup.fragment()) this.restore(); });
+    followTheme($("theme"), () => this.traces.begin(this.names, this.record, this.player.stop));
+    listenToKeys(this);
+  }
+
+  // Takes the set-up of the page's address.
+  restore() {
+    const odd = this.setup.read(location.hash);
+    this.player.chosen = false;
+    if (this.player.time > 0 && this.shownScene !== this.setup.scene.name) this.player.time = 0;
+    this.shownScene = this.setup.scene.name;
+    this.changed();
+    if (odd.length > 0) this.say(`The address has what this page does not know: ${odd.join(", ")}`, true);
+  }
+
+  changed() {
+    this.controls.show();
+    $("scene").value = this.setup.scene.name;
+    $("about").textContent = this.setup.scene.description;
+    $("duration").value = String(this.setup.stop);
+    this.keep();
+    this.say("");
+    this.simulate();
+  }
+
+  // The address is the set-up.
+  keep() {
+    try {
+      history.replaceState(null, "", this.setup.fragment());
+    } catch {
+      location.hash = this.setup.fragment();
+    }
+  }
+
+  simulate() {
+    const planets = Array.from({ length: this.setup.value("geometry.planet_count") }, (_, i) => `planet[${i + 1}]`);
+    const forces = planets.flatMap((planet) => SIDES.map((side) => `${planet}.${side}_normal_force`));
+    const names = [
+      ...MOVING, ...SIDES.flatMap((side) => [`${side}.angle`, `${side}.speed`, `${side}.twist`, `${side}.tangential_force`]),
+      ...planets.map((planet) => `${planet}.spin_angle`), ...forces, ...this.setup.shown(),
+      ...this.table.outputs().map(({ name }) => name).filter((name) => name.startsWith("heat.")),
+    ].filter((name) => this.table.find(name));
+    this.wanted = { names: [...new Set(names)], forces, shown: this.setup.shown(), stop: this.setup.stop };
+    const references = (list) => list.map((name) => this.table.find(name).reference);
+    this.simulation.run(this.setup.compiled(), references(this.wanted.names), references(CONSTANTS));
+  }
+
+  // A run has begun: only now the old one goes.
+  started({ values, warnings }) {
+    const { names, forces, shown: chosen, stop } = this.wanted;
+    this.record = new Record(names);
+    this.forces = forces;
+    this.names = chosen;
+    this.player.begin(stop);
+    this.traces.begin(chosen, this.record, stop);
+    this.choice.show(chosen);
+    $("time").max = stop;
+    this.scroll();
+    if (warnings.length > 0) this.say(warnings[0]);
+    this.pair = values;
+    const settings = this.setup.settings();
+    const shape = JSON.stringify(settings.filter(({ reference }) => this.table.variables[reference].name.startsWith("geometry.")));
+    if (shape !== this.shape) this.simulation.gears(settings);
+    this.shape = shape;
+  }
+
+  takeGears({ surfaces }) {
+    if (surfaces.includes(null)) return;
+    const value = (name) => this.setup.value(`geometry.${name}`);
+    this.view.build(surfaces, new Assembly({
+      planetTeeth: value("planet_teeth"), sideTeeth: value("side_teeth"), planets: value("planet_count"),
+      planetPitch: this.pair[0], outerCone: 1e3 * this.pair[1], pressureAngle: value("pressure_angle"),
+    }));
+    this.moved = true;
+  }
+
+  points({ points, time, seconds }) {
+    this.record.append(points);
+    this.traces.refresh();
+    this.most = Math.max(...this.forces.map((name) => this.record.largest(name)));
+    if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
+    $("scale").lastElementChild.textContent = this.most > 0
+      ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
+    this.player.limit(this.toothTime());
+    this.moved = true;
+  }
+
+  // Time in which the planets pass one tooth; where they stand, the side gears with the carrier.
+  toothTime() {
+    const passed = (name) => {
+      const column = this.record.column(name);
+      return column.length > 1 ? Math.abs(column[column.length - 1] - column[0]) / this.record.end : 0;
+    };
+    const spin = passed("planet[1].spin_angle") * this.setup.value("geometry.planet_teeth");
+    const turn = passed("carrier.angle") * this.setup.value("geometry.side_teeth");
+    const teeth = (spin > 0.1 * turn ? spin : turn) / (2 * Math.PI);
+    return 1 / teeth;
+  }
+
+  refuse(text) {
+    const lines = text.split("\n");
+    const unplaced = lines.filter((line) => !this.controls.complain(this.table.subject(line), line));
+    this.say(unplaced.length > 0 ? unplaced.join(" ") : `${lines[0]} The picture shows the last set-up that worked.`, true);
+  }
+
+  say(text, bad = false) {
+    $("message").textContent = text;
+    $("message").hidden = text === "";
+    $("message").classList.toggle("bad", bad);
+    clearTimeout(this.silence);
+    if (!bad) this.silence = setTimeout(() => { $("message").hidden = true; }, 6000);
+  }
+
+  takeDuration() {
+    const stop = Number($("duration").value);
+    if (stop > 0 && stop / this.setup.scene.step <= 2e6) {
+      this.setup.stop = stop;
+      this.changed();
+    } else {
+      this.say(`The duration takes a time above 0 s, up to ${readable(2e6 * this.setup.scene.step)} s in this scene.`, true);
+    }
+  }
+
+  async copy() {
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.say("Link copied.");
+    } catch {
+      this.say("The link is in the address line.");
+    }
+  }
+
+  look(name) {
+    this.view.look(name);
+    this.view.hold = PRESETS[name].hold;
+    $("hold").checked = PRESETS[name].hold;
+    $("shell").checked = PRESETS[name].shell;
+    for (const button of document.querySelectorAll("[data-camera]")) button.setAttribute("aria-pressed", button.dataset.camera === name);
+    this.moved = true;
+  }
+
+  play() {
+    this.player.playing = !this.player.playing;
+  }
+
+  seek(time) {
+    this.player.playing = false;
+    this.player.seek(time);
+    this.moved = true;
+  }
+
+  scroll() {
+    this.traces.share = $("scroll").checked ? 0.3 : 1;
+    this.traces.refresh();
+  }
+
+  frame(now) {
+    const seconds = Math.min((now - this.last) / 1e3, 0.1);
+    this.last = now;
+    const { player, record } = this;
+    const before = player.time;
+    player.tick(seconds, record.end);
+    if (record.count > 0 && (player.time !== before || this.moved || this.view.hold !== this.held)) {
+      this.moved = false;
+      this.held = this.view.hold;
+      record.seek(player.time);
+      this.view.pose((name) => record.value(name), this.most);
+      this.traces.at(player.time);
+      this.figures();
+    }
+    this.view.draw();
+    this.transport();
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  figures() {
+    for (const part of ["carrier", ...SIDES]) {
+      $(`${part}-speed`).textContent = shown(this.table.find(`${part}.speed`), this.record.value(`${part}.speed`), 4);
+    }
+    const heat = this.record.names.filter((name) => name.startsWith("heat."));
+    const sum = heat.reduce((total, name) => total + this.record.value(name), 0);
+    const rest = this.record.value("solver.energy_residual");
+    $("energy").textContent = `heat ${readable(sum, 3)} J, energy balance open by ${readable(rest, 2)} J`;
+  }
+
+  transport() {
+    const { time, stop, rate, playing } = this.player;
+    const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(stop))));
+    $("clock").textContent = `${time.toFixed(digits)} of ${readable(stop, 4)} s`;
+    $("play").textContent = playing ? "❚❚" : "▶";
+    if (document.activeElement !== $("time") || playing) $("time").value = time;
+    if (document.activeElement !== $("rate")) $("rate").value = this.player.share;
+    const slower = 1 / rate;
+    $("rate-text").textContent = slower < 1.05 ? "real time" : `${readable(slower, 2)} times slower`;
+  }
+}
+
+Promise.all([embeddedJson("data"), embeddedBytes("library")])
+  .then(([data, library]) => { window.page = new Page(data, library); })
+  .catch((error) => {
+    $("message").hidden = false;
+    $("message").className = "bad";
+    $("message").textContent = `This browser cannot run the page: ${error.message}`;
+  });

@@ -1,0 +1,44 @@
+// The worker as the page sees it: one run at a time, the latest request wins, and a trap starts a new worker.
+import program from "worker:worker.js";
+
+export class Simulation {
+  // `on`: functions ready, gears, started, points, over, refused, trap; each takes the worker's message.
+  constructor(bytes, on) {
+    this.bytes = bytes;
+    this.on = on;
+    this.number = 0;
+    this.address = URL.createObjectURL(new Blob([program], { type: "text/javascript" }));
+    this.begin();
+  }
+
+  begin() {
+    this.worker?.terminate();
+    this.worker = new Worker(this.address);
+    this.worker.onmessage = ({ data }) => this.hear(data);
+    this.worker.onerror = (event) => this.fall(event.message || "the worker failed");
+    this.worker.postMessage({ kind: "load", bytes: this.bytes });
+  }
+
+  hear(message) {
+    if (message.kind === "trap") this.fall(message.text);
+    else if (message.kind === "ready" || message.number === this.number || message.kind === "gears") this.on[message.kind](message);
+  }
+
+  fall(text) {
+    this.begin();
+    this.on.trap({ text });
+  }
+
+  run(scene, references, constants) {
+    this.number += 1;
+    this.worker.postMessage({ kind: "run", number: this.number, scene, references, constants });
+  }
+
+  gears(settings) {
+    this.worker.postMessage({ kind: "gears", settings });
+  }
+
+  stop() {
+    this.worker.postMessage({ kind: "stop" });
+  }
+}

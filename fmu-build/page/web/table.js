@@ -1,0 +1,70 @@
+// The table of variables: names, units, ranges and start values come from the library's model description.
+
+export const SEARCHED = /^([a-z_]+(?:\[\d+\])?(?:\.[a-z_0-9]+)+|[a-z_]+)/;
+
+export class Table {
+  constructor({ variables, scenes, prices, version }) {
+    Object.assign(this, { variables, scenes, version });
+    this.byName = new Map(variables.map((variable) => [variable.name, variable]));
+    this.prices = new Map(prices.map(({ effect, factor }) => [effect, factor]));
+  }
+
+  find(name) {
+    return this.byName.get(name);
+  }
+
+  scene(name) {
+    return this.scenes.find((scene) => scene.name === name);
+  }
+
+  // What a reader may set, in groups by the part of the name before the dot.
+  groups() {
+    const groups = new Map();
+    for (const variable of this.variables) {
+      if (variable.causality !== "parameter" && variable.causality !== "input") continue;
+      const group = variable.name.split(".")[0];
+      if (!groups.has(group)) groups.set(group, []);
+      groups.get(group).push(variable);
+    }
+    return groups;
+  }
+
+  // Numbers that can be drawn over time.
+  outputs() {
+    return this.variables.filter(({ causality, kind }) => causality === "output" && kind === "Real");
+  }
+
+  // As the functions of FMI take it.
+  assignment(name, value) {
+    const { kind, reference } = this.find(name);
+    return { kind: kind === "Enumeration" ? "Integer" : kind, reference, value };
+  }
+
+  // The variable a message is about: messages begin with its name.
+  subject(message) {
+    const name = SEARCHED.exec(message)?.[1];
+    return name && this.byName.has(name) ? name : null;
+  }
+}
+
+// A number for reading: `digits` significant ones, a real minus, no exponent where it can be avoided.
+export function readable(value, digits = 5) {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  const text = size !== 0 && (size >= 1e7 || size < 1e-4) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
+}
+
+// A unit for reading.
+export function unitText(unit) {
+  if (!unit || unit === "1") return "";
+  return unit.replaceAll("deg", "°").replaceAll(".", "·").replace(/([a-z)])2/g, "$1²").replace("^1·5", "^1.5").replace("um", "µm");
+}
+
+// A value of the SI with its shown unit.
+export function shown(variable, value, digits = 5) {
+  if (variable.kind === "Boolean") return value ? "on" : "off";
+  if (variable.kind === "Enumeration") return variable.literals.find((literal) => literal.value === value)?.name ?? "?";
+  const unit = unitText(variable.shown);
+  return `${readable(value * variable.factor, digits)}${unit && ` ${unit}`}`;
+}

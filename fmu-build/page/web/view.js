@@ -1,0 +1,127 @@
+// The window on the gears: camera, light, labels, and drawing when something has changed.
+import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
+import { Differential } from "./differential.js";
+
+const ANGLE = 26; // deg of view, upright
+
+// From the rear of a vehicle: +x, its left, is at the left.
+export const PRESETS = {
+  whole: { from: [-0.42, 0.5, -1], distance: 4.9, hold: false, shell: true },
+  mesh: { from: null, distance: 2.0, hold: true, shell: false },
+  side: { from: [1, 0.12, -0.1], distance: 4.4, hold: false, shell: false },
+};
+
+export class View {
+  constructor(canvas, labels) {
+    this.canvas = canvas;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer.toneMapping = ACESFilmicToneMapping;
+    this.renderer.toneMappingExposure = 1.1;
+    this.scene = new Scene();
+    const light = new PMREMGenerator(this.renderer);
+    this.scene.environment = light.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environmentIntensity = 0.75;
+    const key = new DirectionalLight("#fff4e4", 2.2);
+    key.position.set(-0.6, 1.2, -0.9);
+    this.scene.add(key);
+    this.camera = new PerspectiveCamera(ANGLE, 1, 1, 10000);
+    this.orbit = new OrbitControls(this.camera, canvas);
+    this.orbit.enableDamping = true;
+    this.orbit.addEventListener("change", () => { this.stale = true; });
+    this.differential = new Differential();
+    this.scene.add(this.differential.group, this.differential.still);
+    this.labels = labels;
+    this.preset = "whole";
+    new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
+  }
+
+  build(surfaces, assembly) {
+    const first = !this.differential.gears;
+    const before = this.differential.reach;
+    this.differential.build(surfaces, assembly);
+    if (first || Math.abs(before / this.differential.reach - 1) > 0.05 || this.preset === "mesh") this.look(this.preset);
+    this.stale = true;
+  }
+
+  look(name) {
+    this.preset = name;
+    const { reach, assembly } = this.differential;
+    if (!reach) return;
+    const { from, distance, hold, shell } = PRESETS[name];
+    this.hold = hold;
+    this.differential.still.visible = shell;
+    const target = new Vector3();
+    let direction = new Vector3(...(from ?? []));
+    if (!from) {
+      const { line } = assembly.mesh(0, 1, 0, 1);
+      target.copy(line).multiplyScalar(0.92 * reach);
+      direction = line.clone().add(new Vector3(0.12, 0, -0.3));
+    }
+    // a narrow window sees the whole from farther away
+    const wide = Math.max(1, 1.45 / this.camera.aspect);
+    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * (from ? wide : 1)).add(target);
+    this.orbit.target.copy(target);
+    this.orbit.update();
+    this.stale = true;
+  }
+
+  // Moves the eye about the gears by angles [rad].
+  turn(around, up) {
+    const offset = this.camera.position.clone().sub(this.orbit.target);
+    offset.applyAxisAngle(this.camera.up, around);
+    const side = new Vector3().crossVectors(offset, this.camera.up).normalize();
+    const raised = offset.clone().applyAxisAngle(side, up);
+    if (raised.angleTo(this.camera.up) > 0.1 && raised.angleTo(this.camera.up) < 3.04) offset.copy(raised);
+    this.camera.position.copy(this.orbit.target).add(offset);
+    this.orbit.update();
+  }
+
+  fit() {
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    if (clientWidth === 0 || clientHeight === 0) return;
+    const before = this.camera.aspect;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    if (Math.abs(before - this.camera.aspect) > 0.2) this.look(this.preset);
+    this.stale = true;
+  }
+
+  pose(read, largest) {
+    this.differential.pose(read, largest);
+    this.differential.hold(this.hold ? read("carrier.angle") : 0);
+    this.stale = true;
+  }
+
+  draw() {
+    this.orbit.update();
+    if (!this.stale || !this.differential.gears) return;
+    this.stale = false;
+    this.differential.housing.face(this.camera.position);
+    this.renderer.render(this.scene, this.camera);
+    this.label();
+  }
+
+  // Names beside the parts, where they are in the window.
+  label() {
+    const { reach, group, planets } = this.differential;
+    const places = this.preset === "mesh" ? {} : {
+      left: new Vector3(1.75 * reach, -0.62 * reach, 0),
+      right: new Vector3(-1.75 * reach, -0.62 * reach, 0),
+      planet: new Vector3().setFromMatrixPosition(planets[0].matrixWorld)
+        .add(new Vector3(0, 1.48 * reach, 0).applyEuler(this.differential.housing.carrier.rotation).applyEuler(group.rotation)),
+    };
+    const { clientWidth, clientHeight } = this.canvas.parentElement;
+    for (const [name, element] of Object.entries(this.labels)) {
+      const place = places[name]?.project(this.camera);
+      element.hidden = !place || Math.abs(place.x) > 0.97 || Math.abs(place.y) > 0.95;
+      if (!element.hidden) {
+        const [x, y] = [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
+        element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
+      }
+    }
+  }
+}

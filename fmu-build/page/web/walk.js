@@ -1,0 +1,80 @@
+// The guided walk: five set-ups, and what to see in each.
+
+export const STEPS = [
+  {
+    title: "Straight ahead",
+    fragment: "scene=study_straight",
+    camera: "whole",
+    text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
+      + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
+  },
+  {
+    title: "A turn",
+    fragment: "scene=study_turning",
+    camera: "mesh",
+    text: "In a curve the outer wheel runs faster. The planets roll between the side gears, and what one side gains the other "
+      + "one loses: the mean of both speeds is the carrier's. The picture rides with the carrier. See how one pair of teeth hands "
+      + "its load to the next, and how the force follows.",
+  },
+  {
+    title: "One wheel on ice",
+    fragment: "scene=one_wheel_on_ice",
+    camera: "whole",
+    text: "The left wheel has no load. The teeth give both wheels the same torque, so the right one gets no more than "
+      + "the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness of "
+      + "an open differential.",
+  },
+  {
+    title: "Limited slip",
+    fragment: "scene=limited_slip",
+    camera: "whole",
+    text: "Clutch packs press the side gears to the carrier. At 0.1 s the left load falls a little, and the packs hold: "
+      + "nothing slips. At 0.25 s it fails. Now the packs slip, but they pass torque to the wheel that still has grip: see the "
+      + "shaft torques part.",
+  },
+  {
+    title: "The clunk",
+    fragment: "scene=clunk",
+    camera: "mesh",
+    text: "Drive comes on from rest, and the teeth cross their play in thousandths of a second. Where the flanks meet, the "
+      + "torque of the half-shafts jumps from nothing and overshoots the steady value: the clunk you hear when you come on and off the "
+      + "throttle.",
+  },
+];
+
+export class Walk {
+  // `host` holds elements by data-walk: title, text, place, back, next, close; `go(step)` sets the page up.
+  constructor(host, go) {
+    this.host = host;
+    this.go = go;
+    this.part = (name) => host.querySelector(`[data-walk=${name}]`);
+    this.part("back").addEventListener("click", () => this.show(this.step - 1));
+    this.part("next").addEventListener("click", () => this.show(this.step + 1));
+    this.part("close").addEventListener("click", () => this.close());
+  }
+
+  get isOpen() {
+    return !this.host.hidden;
+  }
+
+  show(step) {
+    if (step >= STEPS.length) {
+      this.close();
+      return;
+    }
+    this.step = Math.max(step, 0);
+    this.host.hidden = false;
+    const { title, text } = STEPS[this.step];
+    this.part("place").textContent = `${this.step + 1} of ${STEPS.length}`;
+    this.part("title").textContent = title;
+    this.part("text").textContent = text;
+    this.part("back").disabled = this.step === 0;
+    this.part("next").textContent = this.step === STEPS.length - 1 ? "Finish" : "Next";
+    this.part("next").focus();
+    this.go(STEPS[this.step]);
+  }
+
+  close() {
+    this.host.hidden = true;
+  }
+}
