@@ -12,8 +12,7 @@ const COMMON = { bundle: true, minify: true, format: "iife", target: "es2022", w
 
 const own = (file) => readFileSync(join(HERE, file), "utf8");
 const packed = (bytes) => gzipSync(bytes, { level: 9 }).toString("base64");
-// neither text ends the element it stands in
-const asScript = (text) => text.replaceAll("</script", "<\\/script").replaceAll("<!--", "<\\!--");
+// a style does not end the element it stands in
 const asStyle = (text) => text.replaceAll("</style", "<\\/style");
 const asHtml = (text) => text.replaceAll("&", "&amp;").replaceAll("<", "&lt;");
 
@@ -41,7 +40,7 @@ async function main([library, data, out]) {
     licences: asHtml(licences.join("\n\n\n")),
     data: packed(JSON.stringify(JSON.parse(readFileSync(data, "utf8")))),
     library: packed(readFileSync(library)),
-    program: asScript(outputFiles[0].text),
+    program: packed(outputFiles[0].text),
   };
   const page = own("index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
   writeFileSync(out, page);

@@ -14,6 +14,7 @@ export class Differential {
     this.group = new Group();
     this.still = new Group(); // what does not turn with the gears: the cut case
     this.glow = new Glow();
+    this.arrowLength = 0.7; // of the largest force, in reaches of the gears
     this.steel = this.glow.material("#4d7cb8");
     this.brass = this.glow.material("#d99a35");
   }
@@ -39,6 +40,7 @@ export class Differential {
     this.glow.width.value = 0.11 * this.reach;
     this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat());
     this.still.add(this.housing.shell);
+    this.housing.show(this.withCase ?? true);
   }
 
   // `read(name)` gives values at the time of the picture; `largest` is the force [N] of a whole arrow.
@@ -69,11 +71,16 @@ export class Differential {
     }
   }
 
+  showCase(visible) {
+    this.withCase = visible;
+    this.housing?.show(visible);
+  }
+
   load(pointer, { line, force }, share) {
-    const length = 0.75 * this.reach * share;
-    pointer.visible = share > 0.01 && this.withArrows !== false;
+    const length = this.arrowLength * this.reach * share;
+    pointer.visible = share > 0.01;
     pointer.position.copy(line).multiplyScalar(this.assembly.outerCone);
-    pointer.draw(force, Math.max(length, 0.01), 0.035 * this.reach);
+    pointer.draw(force, Math.max(length, 0.01), 0.045 * this.arrowLength * this.reach);
   }
 }
 

@@ -18,8 +18,15 @@ export class Housing {
     const [radius, half] = [reach + AIR, back + AIR];
     const profile = section(radius, half, shaftRadius(reach) + 2);
     this.shell.add(lathe(profile), ...cuts(profile));
-    this.carrier.add(flange(radius, half));
+    this.flange = flange(radius, half);
+    this.carrier.add(this.flange);
     for (let i = 0; i < planets; i += 1) this.carrier.add(pin(azimuth(i), radius + WALL + 3, reach));
+  }
+
+  // Shows or hides the case.
+  show(visible) {
+    this.shell.visible = visible;
+    this.flange.visible = visible;
   }
 
   // Turns the open side of the case toward the eye.
@@ -83,7 +90,7 @@ function flange(radius, half) {
   const group = new Group();
   const [inner, outer, place] = [radius + WALL - 1, radius + WALL + 12, 0.45 * half];
   const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
-  const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#4a5059"));
+  const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#78818d"));
   ring.material.flatShading = true;
   ring.material.side = DoubleSide;
   ring.position.x = place;
@@ -106,21 +113,21 @@ function pin(azimuth, length, reach) {
 
 function shaft(side, reach, back) {
   const group = new Group();
-  const [begin, end, radius] = [0.62 * back, back + 0.9 * reach, shaftRadius(reach)];
+  const [begin, end, radius] = [0.62 * back, back + 0.75 * reach, shaftRadius(reach)];
   const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metal("#767d88", 0.32));
   bar.position.x = (side * (begin + end)) / 2;
-  const plate = new Mesh(new CylinderGeometry(2.1 * radius, 2.1 * radius, 6, ROUND).rotateZ(Math.PI / 2), metal("#5b626c"));
+  const plate = new Mesh(new CylinderGeometry(1.55 * radius, 1.55 * radius, 6, ROUND).rotateZ(Math.PI / 2), metal("#5b626c"));
   plate.position.x = side * end;
   group.add(bar, plate);
   for (let k = 0; k < 5; k += 1) {
     const angle = (2 * Math.PI * k) / 5;
     const bolt = new Mesh(new CylinderGeometry(2, 2, 14, 12).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
-    bolt.position.set(side * end, 1.6 * radius * Math.cos(angle), 1.6 * radius * Math.sin(angle));
+    bolt.position.set(side * end, 1.25 * radius * Math.cos(angle), 1.25 * radius * Math.sin(angle));
     group.add(bolt);
   }
   // a stripe shows how the shaft turns
-  const stripe = new Mesh(new BoxGeometry(0.72 * reach, 0.8, 2.4), new MeshStandardMaterial({ color: "#e0a030", roughness: 0.6 }));
-  stripe.position.set(side * (end - 0.36 * reach - 3), radius, 0);
+  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), new MeshStandardMaterial({ color: "#e0a030", roughness: 0.6 }));
+  stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
   group.add(stripe);
   return group;
 }

@@ -46,9 +46,9 @@ class Page {
       gears: (message) => this.takeGears(message),
       started: (message) => this.started(message),
       points: (message) => this.points(message),
-      over: () => {},
+      over: () => { this.isOver = true; },
       refused: ({ text }) => this.refuse(text),
-      trap: ({ text }) => this.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true),
+      trap: ({ text }) => this.trapped(text),
     });
     this.listen();
     this.restore();
@@ -71,7 +71,7 @@ class Page {
     $("scroll").addEventListener("change", () => this.scroll());
     $("hold").addEventListener("change", () => { this.view.hold = $("hold").checked; });
     $("shell").addEventListener("change", () => {
-      this.view.differential.still.visible = $("shell").checked;
+      this.view.differential.showCase($("shell").checked);
       this.view.stale = true;
     });
     for (const button of document.querySelectorAll("[data-camera]")) button.addEventListener("click", () => this.look(button.dataset.camera));
@@ -126,6 +126,7 @@ class Page {
   started({ values, warnings }) {
     const { names, forces, shown: chosen, stop } = this.wanted;
     this.record = new Record(names);
+    this.isOver = false;
     this.forces = forces;
     this.names = chosen;
     this.player.begin(stop);
@@ -174,7 +175,13 @@ class Page {
     return 1 / teeth;
   }
 
+  trapped(text) {
+    this.isOver = true;
+    this.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true);
+  }
+
   refuse(text) {
+    this.isOver = true;
     const lines = text.split("\n");
     const unplaced = lines.filter((line) => !this.controls.complain(this.table.subject(line), line));
     this.say(unplaced.length > 0 ? unplaced.join(" ") : `${lines[0]} The picture shows the last set-up that worked.`, true);
@@ -236,7 +243,7 @@ class Page {
     this.last = now;
     const { player, record } = this;
     const before = player.time;
-    player.tick(seconds, record.end);
+    player.tick(seconds, record.end, this.isOver);
     if (record.count > 0 && (player.time !== before || this.moved || this.view.hold !== this.held)) {
       this.moved = false;
       this.held = this.view.hold;

@@ -24,12 +24,12 @@ export class Player {
     this.rate = Math.max(this.rate, this.slowest);
   }
 
-  // On by `seconds` of the clock; `end` is how far the run has come.
-  tick(seconds, end) {
+  // On by `seconds` of the clock; `end` is how far the run has come, `isOver` whether it will come no farther.
+  tick(seconds, end, isOver) {
     if (!this.playing) return;
     this.time += this.rate * seconds;
     if (this.time <= end) return;
-    this.time = end >= this.stop * (1 - 1e-9) ? 0 : end;
+    this.time = isOver ? 0 : end;
   }
 
   seek(time) {

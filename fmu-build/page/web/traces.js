@@ -27,12 +27,12 @@ export class Traces {
       if (!units.has(unit)) units.set(unit, []);
       units.get(unit).push({ name, stroke: colour(COLOURS[i % MOST]) });
     });
-    this.plots = [...units].map(([unit, series], i) => this.panel(unit, series, i === units.size - 1));
+    this.plots = [...units].map(([unit, series]) => this.panel(unit, series));
     this.fit();
     this.refresh();
   }
 
-  panel(unit, series, last) {
+  panel(unit, series) {
     const frame = document.createElement("div");
     frame.className = "panel";
     const legend = document.createElement("div");
@@ -51,12 +51,11 @@ export class Traces {
     const ink = colour("--soft");
     const axis = { stroke: ink, grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui" };
     const plot = new uPlot({
-      width: 300, height: 100, legend: { show: false }, padding: [6, 12, last ? 0 : 4, 0],
+      width: 300, height: 100, legend: { show: false }, padding: [6, 20, 0, 0],
       cursor: { y: false, drag: { setScale: false, x: false, y: false }, points: { show: false } },
       scales: { x: { time: false, range: () => this.window() }, y: { range: span } },
       axes: [
-        { ...axis, size: last ? 34 : 6, gap: 2, label: last ? "time [s]" : undefined, labelSize: 14, labelFont: "11px system-ui", labelGap: 0,
-          values: (_, ticks) => (last ? ticks.map((tick) => readable(tick)) : ticks.map(() => "")) },
+        { ...axis, size: 20, gap: 3, values: (_, ticks) => ticks.map((tick, i) => `${readable(tick)}${i === ticks.length - 1 ? " s" : ""}`) },
         { ...axis, size: 62, gap: 4, label: unitText(unit) || "1", labelSize: 16, labelFont: "11px system-ui",
           values: (_, ticks) => ticks.map((tick) => readable(tick)) },
       ],

@@ -8,9 +8,9 @@ const ANGLE = 26; // deg of view, upright
 
 // From the rear of a vehicle: +x, its left, is at the left.
 export const PRESETS = {
-  whole: { from: [-0.42, 0.5, -1], distance: 4.9, hold: false, shell: true },
-  mesh: { from: null, distance: 2.0, hold: true, shell: false },
-  side: { from: [1, 0.12, -0.1], distance: 4.4, hold: false, shell: false },
+  whole: { from: [-0.42, 0.5, -1], distance: 6.4, hold: false, shell: true, arrows: 0.7 },
+  mesh: { from: null, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
+  side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
 };
 
 export class View {
@@ -25,7 +25,9 @@ export class View {
     this.scene.environmentIntensity = 0.75;
     const key = new DirectionalLight("#fff4e4", 2.2);
     key.position.set(-0.6, 1.2, -0.9);
-    this.scene.add(key);
+    // a lamp beside the eye: no face that is seen stays black
+    this.lamp = new DirectionalLight("#ffffff", 0.9);
+    this.scene.add(key, this.lamp);
     this.camera = new PerspectiveCamera(ANGLE, 1, 1, 10000);
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.enableDamping = true;
@@ -49,15 +51,16 @@ export class View {
     this.preset = name;
     const { reach, assembly } = this.differential;
     if (!reach) return;
-    const { from, distance, hold, shell } = PRESETS[name];
+    const { from, distance, hold, shell, arrows } = PRESETS[name];
     this.hold = hold;
-    this.differential.still.visible = shell;
+    this.differential.showCase(shell);
+    this.differential.arrowLength = arrows;
     const target = new Vector3();
     let direction = new Vector3(...(from ?? []));
     if (!from) {
       const { line } = assembly.mesh(0, 1, 0, 1);
       target.copy(line).multiplyScalar(0.92 * reach);
-      direction = line.clone().add(new Vector3(0.12, 0, -0.3));
+      direction = line.clone().add(new Vector3(-0.1, 0.1, -0.28));
     }
     // a narrow window sees the whole from farther away
     const wide = Math.max(1, 1.45 / this.camera.aspect);
@@ -100,6 +103,7 @@ export class View {
     this.orbit.update();
     if (!this.stale || !this.differential.gears) return;
     this.stale = false;
+    this.lamp.position.copy(this.camera.position);
     this.differential.housing.face(this.camera.position);
     this.renderer.render(this.scene, this.camera);
     this.label();
@@ -108,7 +112,7 @@ export class View {
   // Names beside the parts, where they are in the window.
   label() {
     const { reach, group, planets } = this.differential;
-    const places = this.preset === "mesh" ? {} : {
+    const places = this.preset !== "whole" ? {} : {
       left: new Vector3(1.75 * reach, -0.62 * reach, 0),
       right: new Vector3(-1.75 * reach, -0.62 * reach, 0),
       planet: new Vector3().setFromMatrixPosition(planets[0].matrixWorld)

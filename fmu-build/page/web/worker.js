@@ -3,9 +3,19 @@ import { Library, Refused } from "./library.js";
 import { Run } from "./run.js";
 
 const BATCH = 30; // ms of simulation between two messages
+const WARM = 150; // ms
+const MOST = 500; // points in a message
 
 let library = null;
+let loaded = null; // settles when the library is there
 let current = 0; // number of the run that is wanted
+
+// The browser compiles what runs often once more, to faster code: it runs the start values for that, before the first scene.
+function warm() {
+  const run = new Run(library, { stop: 1, step: 1e-3, set: [], changes: [], tables: [] });
+  const begin = performance.now();
+  while (!run.isOver && performance.now() - begin < WARM) run.advance();
+}
 
 // Lets messages in.
 const pause = () => new Promise((resolve) => {
@@ -17,6 +27,7 @@ const pause = () => new Promise((resolve) => {
 const requests = {
   async load({ bytes }) {
     library = await Library.of(await WebAssembly.compile(bytes));
+    warm();
     postMessage({ kind: "ready" });
   },
 
@@ -33,17 +44,25 @@ const requests = {
     const warnings = library.said().filter(({ status }) => status > 0).map(({ text }) => text);
     postMessage({ kind: "started", number, values, warnings, seconds: (performance.now() - started) / 1e3 });
     let busy = 0;
-    let rows = [[0, ...library.get(references)]];
+    const width = references.length + 1;
+    const points = new Float64Array(width * MOST);
+    let count = 0;
+    const note = () => {
+      points[width * count] = run.time;
+      points.set(library.get(references), width * count + 1);
+      count += 1;
+    };
+    note();
     while (current === number) {
       const begin = performance.now();
-      while (!run.isOver && performance.now() - begin < BATCH) {
+      while (!run.isOver && count < MOST && performance.now() - begin < BATCH) {
         run.advance();
-        rows.push([run.time, ...library.get(references)]);
+        note();
       }
       busy += performance.now() - begin;
-      const points = new Float64Array(rows.flat());
-      postMessage({ kind: "points", number, points, time: run.time, seconds: busy / 1e3 }, [points.buffer]);
-      rows = [];
+      const part = points.slice(0, width * count);
+      postMessage({ kind: "points", number, points: part, time: run.time, seconds: busy / 1e3 }, [part.buffer]);
+      count = 0;
       if (run.isOver) break;
       await pause();
     }
@@ -57,7 +76,9 @@ const requests = {
 
 onmessage = async ({ data }) => {
   try {
-    await requests[data.kind](data);
+    if (data.kind === "load") loaded = requests.load(data);
+    await loaded;
+    if (data.kind !== "load") await requests[data.kind](data);
   } catch (error) {
     // a trap leaves the library in no state to go on
     const kind = error instanceof Refused ? "refused" : "trap";
