@@ -104,14 +104,13 @@ export class Controls {
   // Shows a message at the control it is about.
   complain(name, text) {
     const row = this.rows.get(name);
-    if (!row) return false;
+    if (!row) return;
     row.fault.textContent = text;
     row.fault.hidden = false;
     row.input.setAttribute("aria-invalid", "true");
     row.input.setAttribute("aria-describedby", row.fault.id);
     row.frame.closest("details").open = true;
     row.frame.scrollIntoView({ block: "nearest" });
-    return true;
   }
 
   // Leaves what has all these words in its name or description.

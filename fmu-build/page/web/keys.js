@@ -22,7 +22,9 @@ export function listenToKeys(page) {
   };
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
-    if (event.target.closest("input, select, button, summary") && event.key !== "Escape") return;
+    const presses = [" ", "Enter"].includes(event.key) && event.target.closest("button, summary, input");
+    const types = event.target.closest("select, input:not([type=checkbox])") && event.key !== "Escape";
+    if (presses || types) return;
     const turn = event.shiftKey && turns[event.key];
     if (turn) view.turn(...turn);
     else if (actions[event.key]) actions[event.key]();

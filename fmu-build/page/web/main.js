@@ -15,7 +15,7 @@ import { PRESETS, View } from "./view.js";
 import { Walk } from "./walk.js";
 
 const $ = (id) => document.getElementById(id);
-const MOVING = ["carrier.angle", "carrier.speed", "solver.energy_residual"];
+const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
 const SIDES = ["left", "right"];
 const CONSTANTS = ["geometry.planet_pitch_angle", "geometry.outer_cone_distance"];
 
@@ -40,7 +40,7 @@ class Page {
       this.player.playing = true;
       location.hash = step.fragment;
       this.look(step.camera);
-    });
+    }, (open) => this.view.shift(...(open ? (innerWidth > 820 ? [-0.19, 0] : [0, -0.2]) : [0, 0])));
     this.simulation = new Simulation(library, {
       ready: () => {},
       gears: (message) => this.takeGears(message),
@@ -159,7 +159,8 @@ class Page {
     if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
     $("scale").lastElementChild.textContent = this.most > 0
       ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
-    this.player.limit(this.toothTime());
+    this.tooth = this.toothTime();
+    this.player.limit(this.tooth);
     this.moved = true;
   }
 
@@ -182,9 +183,10 @@ class Page {
 
   refuse(text) {
     this.isOver = true;
-    const lines = text.split("\n");
-    const unplaced = lines.filter((line) => !this.controls.complain(this.table.subject(line), line));
-    this.say(unplaced.length > 0 ? unplaced.join(" ") : `${lines[0]} The picture shows the last set-up that worked.`, true);
+    const about = text.split("\n").map((line) => this.table.subject(line));
+    for (const { name, text: own } of about) this.controls.complain(name, own);
+    const placed = about[0].name && `The library refuses this ${about[0].name}: see the message at it.`;
+    this.say(`${placed || about[0].text} The picture shows the last set-up that worked.`, true);
   }
 
   say(text, bad = false) {
@@ -274,8 +276,9 @@ class Page {
     $("play").textContent = playing ? "❚❚" : "▶";
     if (document.activeElement !== $("time") || playing) $("time").value = time;
     if (document.activeElement !== $("rate")) $("rate").value = this.player.share;
-    const slower = 1 / rate;
-    $("rate-text").textContent = slower < 1.05 ? "real time" : `${readable(slower, 2)} times slower`;
+    const tooth = this.tooth / rate;
+    const pace = rate > 0.95 ? "real time" : `1/${readable(1 / rate, 2)}`;
+    $("rate-text").textContent = Number.isFinite(tooth) ? `${pace}, ${readable(tooth, 2)} s a tooth` : pace;
   }
 }
 

@@ -44,7 +44,7 @@ export class Setup {
 
   // Outputs to draw.
   shown() {
-    return this.traces ?? this.scene.outputs.slice(0, 4);
+    return this.traces ?? this.scene.outputs.slice(0, 5);
   }
 
   assignments(values) {

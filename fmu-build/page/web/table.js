@@ -1,6 +1,6 @@
 // The table of variables: names, units, ranges and start values come from the library's model description.
 
-export const SEARCHED = /^([a-z_]+(?:\[\d+\])?(?:\.[a-z_0-9]+)+|[a-z_]+)/;
+const NAMES = /[\w.[\]]+(?=:)/g;
 
 export class Table {
   constructor({ variables, scenes, prices, version }) {
@@ -40,10 +40,10 @@ export class Table {
     return { kind: kind === "Enumeration" ? "Integer" : kind, reference, value };
   }
 
-  // The variable a message is about: messages begin with its name.
+  // What a message is about: {name, text}, the text from the variable's name on; name null where there is none.
   subject(message) {
-    const name = SEARCHED.exec(message)?.[1];
-    return name && this.byName.has(name) ? name : null;
+    const found = [...message.matchAll(NAMES)].find(([name]) => this.byName.has(name));
+    return found ? { name: found[0], text: message.slice(found.index) } : { name: null, text: message };
   }
 }
 

@@ -8,7 +8,7 @@ const ANGLE = 26; // deg of view, upright
 
 // From the rear of a vehicle: +x, its left, is at the left.
 export const PRESETS = {
-  whole: { from: [-0.42, 0.5, -1], distance: 6.4, hold: false, shell: true, arrows: 0.7 },
+  whole: { from: [-0.42, 0.5, -1], distance: 6.3, hold: false, shell: true, arrows: 0.7 },
   mesh: { from: null, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
   side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
 };
@@ -88,9 +88,16 @@ export class View {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    const [x, y] = this.aside ?? [0, 0];
+    this.camera.setViewOffset(clientWidth, clientHeight, -x * clientWidth, -y * clientHeight, clientWidth, clientHeight);
     if (Math.abs(before - this.camera.aspect) > 0.2) this.look(this.preset);
     this.stale = true;
+  }
+
+  // Moves the picture by shares of the window, out of the way of what covers it.
+  shift(x, y) {
+    this.aside = [x, y];
+    this.fit();
   }
 
   pose(read, largest) {

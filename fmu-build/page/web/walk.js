@@ -3,14 +3,14 @@
 export const STEPS = [
   {
     title: "Straight ahead",
-    fragment: "scene=study_straight",
+    fragment: "scene=study_straight&show=carrier.speed+left.speed+planet%5B1%5D.left_normal_force+planet%5B1%5D.right_normal_force",
     camera: "whole",
     text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
       + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
   },
   {
     title: "A turn",
-    fragment: "scene=study_turning",
+    fragment: "scene=study_turning&show=carrier.speed+left.speed+right.speed+planet%5B1%5D.left_normal_force",
     camera: "mesh",
     text: "In a curve the outer wheel runs faster. The planets roll between the side gears, and what one side gains the other "
       + "one loses: the mean of both speeds is the carrier's. The picture rides with the carrier. See how one pair of teeth hands "
@@ -18,7 +18,7 @@ export const STEPS = [
   },
   {
     title: "One wheel on ice",
-    fragment: "scene=one_wheel_on_ice",
+    fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
     camera: "whole",
     text: "The left wheel has no load. The teeth give both wheels the same torque, so the right one gets no more than "
       + "the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness of "
@@ -26,7 +26,7 @@ export const STEPS = [
   },
   {
     title: "Limited slip",
-    fragment: "scene=limited_slip",
+    fragment: "scene=limited_slip&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
     camera: "whole",
     text: "Clutch packs press the side gears to the carrier. At 0.1 s the left load falls a little, and the packs hold: "
       + "nothing slips. At 0.25 s it fails. Now the packs slip, but they pass torque to the wheel that still has grip: see the "
@@ -34,17 +34,19 @@ export const STEPS = [
   },
   {
     title: "The clunk",
-    fragment: "scene=clunk",
+    fragment: "scene=clunk&show=carrier.speed+left.shaft_torque+planet%5B1%5D.left_transmission_error",
     camera: "mesh",
-    text: "Drive comes on from rest, and the teeth cross their play in thousandths of a second. Where the flanks meet, the "
-      + "torque of the half-shafts jumps from nothing and overshoots the steady value: the clunk you hear when you come on and off the "
-      + "throttle.",
+    text: "A drive of 100 N·m comes on from rest. The teeth cross their play in two thousandths of a second, and carrier and case "
+      + "have gathered speed when the flanks meet. So each half-shaft is wound up to 133 N·m instead of 50, and throws the teeth "
+      + "back through their play: the clunk you hear when you come on the throttle.",
   },
 ];
 
 export class Walk {
-  // `host` holds elements by data-walk: title, text, place, back, next, close; `go(step)` sets the page up.
-  constructor(host, go) {
+  // `host` holds elements by data-walk: title, text, place, back, next, close; `go(step)` sets the page up;
+  // `opened(whether)` makes room for it.
+  constructor(host, go, opened) {
+    this.opened = opened;
     this.host = host;
     this.go = go;
     this.part = (name) => host.querySelector(`[data-walk=${name}]`);
@@ -64,6 +66,7 @@ export class Walk {
     }
     this.step = Math.max(step, 0);
     this.host.hidden = false;
+    this.opened(true);
     const { title, text } = STEPS[this.step];
     this.part("place").textContent = `${this.step + 1} of ${STEPS.length}`;
     this.part("title").textContent = title;
@@ -76,5 +79,6 @@ export class Walk {
 
   close() {
     this.host.hidden = true;
+    this.opened(false);
   }
 }
