@@ -79,7 +79,7 @@ function lathe(profile) {
 function cuts(profile) {
   return [1, -1].map((side) => {
     const shape = new Shape(profile.map(({ x, y }) => new Vector2(y, side * x)));
-    const material = new MeshStandardMaterial({ color: "#b3392f", roughness: 0.8, metalness: 0, side: DoubleSide });
+    const material = new MeshStandardMaterial({ color: "#3f7f6c", roughness: 0.8, metalness: 0, side: DoubleSide });
     return new Mesh(new ShapeGeometry(shape).rotateX(Math.PI / 2), material);
   });
 }
@@ -87,7 +87,7 @@ function cuts(profile) {
 // Flange for the ring gear, with bolts that show how the carrier turns.
 function flange(radius, half) {
   const group = new Group();
-  const [inner, outer, place] = [0.62 * radius, radius + WALL + 9, half + WALL + 3];
+  const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
   const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
   const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#78818d"));
   ring.material.flatShading = true;
@@ -97,7 +97,7 @@ function flange(radius, half) {
   for (let k = 0; k < 10; k += 1) {
     const angle = (2 * Math.PI * k) / 10;
     const bolt = new Mesh(new CylinderGeometry(2.6, 2.6, 12, 6).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
-    bolt.position.set(place, (outer - 5.5) * Math.cos(angle), (outer - 5.5) * Math.sin(angle));
+    bolt.position.set(place, (outer - 5) * Math.cos(angle), (outer - 5) * Math.sin(angle));
     group.add(bolt);
   }
   return group;

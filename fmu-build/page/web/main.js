@@ -69,6 +69,7 @@ class Page {
     $("time").addEventListener("input", () => this.seek(Number($("time").value)));
     $("rate").addEventListener("input", () => { this.player.share = Number($("rate").value); });
     $("scroll").addEventListener("change", () => this.scroll());
+    $("spectrum").addEventListener("change", () => this.spectral());
     $("hold").addEventListener("change", () => { this.view.hold = $("hold").checked; });
     $("shell").addEventListener("change", () => {
       this.view.differential.showCase($("shell").checked);
@@ -76,7 +77,7 @@ class Page {
     });
     for (const button of document.querySelectorAll("[data-camera]")) button.addEventListener("click", () => this.look(button.dataset.camera));
     addEventListener("hashchange", () => { if (location.hash !== this.setup.fragment()) this.restore(); });
-    followTheme($("theme"), () => this.traces.begin(this.names, this.record, this.player.stop));
+    followTheme($("theme"), () => this.traces.build());
     listenToKeys(this);
   }
 
@@ -238,6 +239,14 @@ class Page {
   scroll() {
     this.traces.share = $("scroll").checked ? 0.3 : 1;
     this.traces.refresh();
+  }
+
+  spectral() {
+    this.traces.isSpectral = $("spectrum").checked;
+    this.traces.build();
+    if ($("spectrum").checked && this.isOver && this.traces.plots[0].plot.data[0].length === 0) {
+      this.say("No spectrum: the planets do not roll through a whole mesh cycle in this run. Choose a turn, or a longer duration.");
+    }
   }
 
   frame(now) {

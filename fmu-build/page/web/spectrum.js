@@ -1,6 +1,6 @@
 // Amplitudes of an output over orders of the mesh: 1 is a line at each tooth, 2 at twice that.
 
-const HIGHEST = 8; // order
+export const HIGHEST = 8; // order
 const FINEST = 4000; // points that are transformed at most
 
 // {orders, amplitudes} of the last whole mesh cycles, or null where the record holds none. `frequency` is the mesh's [Hz].

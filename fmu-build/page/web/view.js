@@ -8,7 +8,7 @@ const ANGLE = 26; // deg of view, upright
 
 // From the rear of a vehicle: +x, its left, is at the left.
 export const PRESETS = {
-  whole: { from: [-0.42, 0.5, -1], distance: 6.3, hold: false, shell: true, arrows: 0.7 },
+  whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7 },
   mesh: { from: null, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
   side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
 };
