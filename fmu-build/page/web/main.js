@@ -4,10 +4,11 @@ import { Controls } from "./controls.js";
 import { embeddedBytes, embeddedJson } from "./embedded.js";
 import { listenToKeys } from "./keys.js";
 import { Player } from "./player.js";
+import { showFigures, showTransport, toothTime } from "./readings.js";
 import { Record } from "./record.js";
 import { Setup } from "./setup.js";
 import { Simulation } from "./simulation.js";
-import { readable, shown, Table } from "./table.js";
+import { readable, Table } from "./table.js";
 import { followTheme } from "./theme.js";
 import { TraceChoice } from "./choice.js";
 import { Traces } from "./traces.js";
@@ -88,7 +89,8 @@ class Page {
     if (this.player.time > 0 && this.shownScene !== this.setup.scene.name) this.player.time = 0;
     this.shownScene = this.setup.scene.name;
     this.changed();
-    if (odd.length > 0) this.say(`The address has what this page does not know: ${odd.join(", ")}`, true);
+    this.odd = odd.length > 0 ? `The address has what this page does not know: ${odd.join(", ")}. ` : "";
+    if (this.odd) this.say(this.odd, true);
   }
 
   changed() {
@@ -135,7 +137,7 @@ class Page {
     this.choice.show(chosen);
     $("time").max = stop;
     this.scroll();
-    if (warnings.length > 0) this.say(warnings[0]);
+    if (warnings.length > 0 && !this.odd) this.say(this.table.subject(warnings[0]).text);
     this.pair = values;
     const settings = this.setup.settings();
     const shape = JSON.stringify(settings.filter(({ reference }) => this.table.variables[reference].name.startsWith("geometry.")));
@@ -160,21 +162,9 @@ class Page {
     if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
     $("scale").lastElementChild.textContent = this.most > 0
       ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
-    this.tooth = this.toothTime();
+    this.tooth = toothTime(this.record, (name) => this.setup.value(name));
     this.player.limit(this.tooth);
     this.moved = true;
-  }
-
-  // Time in which the planets pass one tooth; where they stand, the side gears with the carrier.
-  toothTime() {
-    const passed = (name) => {
-      const column = this.record.column(name);
-      return column.length > 1 ? Math.abs(column[column.length - 1] - column[0]) / this.record.end : 0;
-    };
-    const spin = passed("planet[1].spin_angle") * this.setup.value("geometry.planet_teeth");
-    const turn = passed("carrier.angle") * this.setup.value("geometry.side_teeth");
-    const teeth = (spin > 0.1 * turn ? spin : turn) / (2 * Math.PI);
-    return 1 / teeth;
   }
 
   trapped(text) {
@@ -187,7 +177,9 @@ class Page {
     const about = text.split("\n").map((line) => this.table.subject(line));
     for (const { name, text: own } of about) this.controls.complain(name, own);
     const placed = about[0].name && `The library refuses this ${about[0].name}: see the message at it.`;
-    this.say(`${placed || about[0].text} The picture shows the last set-up that worked.`, true);
+    const kept = this.view.differential.gears ? " The picture shows the last set-up that worked." : "";
+    this.say(`${this.odd}${placed || about[0].text}${kept}`, true);
+    this.odd = "";
   }
 
   say(text, bad = false) {
@@ -261,33 +253,11 @@ class Page {
       record.seek(player.time);
       this.view.pose((name) => record.value(name), this.most);
       this.traces.at(player.time);
-      this.figures();
+      showFigures(record, this.table);
     }
     this.view.draw();
-    this.transport();
+    showTransport(player, this.tooth);
     requestAnimationFrame((next) => this.frame(next));
-  }
-
-  figures() {
-    for (const part of ["carrier", ...SIDES]) {
-      $(`${part}-speed`).textContent = shown(this.table.find(`${part}.speed`), this.record.value(`${part}.speed`), 4);
-    }
-    const heat = this.record.names.filter((name) => name.startsWith("heat."));
-    const sum = heat.reduce((total, name) => total + this.record.value(name), 0);
-    const rest = this.record.value("solver.energy_residual");
-    $("energy").textContent = `heat ${readable(sum, 3)} J, energy balance open by ${readable(rest, 2)} J`;
-  }
-
-  transport() {
-    const { time, stop, rate, playing } = this.player;
-    const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(stop))));
-    $("clock").textContent = `${time.toFixed(digits)} of ${readable(stop, 4)} s`;
-    $("play").textContent = playing ? "❚❚" : "▶";
-    if (document.activeElement !== $("time") || playing) $("time").value = time;
-    if (document.activeElement !== $("rate")) $("rate").value = this.player.share;
-    const tooth = this.tooth / rate;
-    const pace = rate > 0.95 ? "real time" : `1/${readable(1 / rate, 2)}`;
-    $("rate-text").textContent = Number.isFinite(tooth) ? `${pace}, ${readable(tooth, 2)} s a tooth` : pace;
   }
 }
 

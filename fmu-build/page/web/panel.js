@@ -23,7 +23,7 @@ export function panel(host, { unit, series, range, after, draw }) {
     stroke: colour("--soft"), grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false }, font: "11px system-ui",
   };
   const plot = new uPlot({
-    width: 300, height: 100, legend: { show: false }, padding: [6, 24, 0, 0],
+    width: 300, height: 100, legend: { show: false }, padding: [6, 10 + 6 * after.length, 0, 0],
     cursor: { y: false, drag: { setScale: false, x: false, y: false }, points: { show: false } },
     scales: { x: { time: false, range }, y: { range: span } },
     axes: [

@@ -4,6 +4,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { Differential } from "./differential.js";
 
+const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
 
 // From the rear of a vehicle: +x, its left, is at the left.
@@ -128,9 +129,10 @@ export class View {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     for (const [name, element] of Object.entries(this.labels)) {
       const place = places[name]?.project(this.camera);
-      element.hidden = !place || Math.abs(place.x) > 0.97 || Math.abs(place.y) > 0.95;
+      element.hidden = !place || Math.abs(place.x) > 1.2 || Math.abs(place.y) > 0.95;
       if (!element.hidden) {
-        const [x, y] = [(place.x + 1) / 2 * clientWidth, (1 - place.y) / 2 * clientHeight];
+        const beside = Math.min(Math.max((place.x + 1) / 2 * clientWidth, MARGIN), clientWidth - MARGIN);
+        const [x, y] = [beside, (1 - place.y) / 2 * clientHeight];
         element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
       }
     }

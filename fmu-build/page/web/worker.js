@@ -68,10 +68,6 @@ const requests = {
     }
     if (current === number) postMessage({ kind: "over", number, said: library.said().map(({ text }) => text) });
   },
-
-  stop() {
-    current = 0;
-  },
 };
 
 onmessage = async ({ data }) => {
