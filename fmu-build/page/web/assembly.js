@@ -13,8 +13,8 @@ const PLANET = axes([1, 0, 0], [0, 0, -1], [0, 1, 0]);
 
 export class Assembly {
   // Teeth and planets are counts; angles [rad] and lengths [mm] of the pair.
-  constructor({ planetTeeth, sideTeeth, planets, planetPitch, outerCone, faceWidth, pressureAngle }) {
-    Object.assign(this, { planetTeeth, sideTeeth, planets, planetPitch, outerCone, faceWidth, pressureAngle });
+  constructor({ planetTeeth, sideTeeth, planets, planetPitch, outerCone, pressureAngle }) {
+    Object.assign(this, { planetTeeth, sideTeeth, planets, planetPitch, outerCone, pressureAngle });
     this.half = Math.PI / sideTeeth;
     // a planet with an odd number of teeth shows a gap behind the tooth that faces the left
     this.rightGap = planetTeeth % 2 === 0 ? this.half : 0;

@@ -40,7 +40,7 @@ export class Controls {
     const price = this.table.prices.get(name);
     const label = element("label", { htmlFor: id, title: name }, name.slice(name.indexOf(".") + 1).replaceAll("_", " "));
     const unit = element("span", { className: "unit", textContent: unitText(variable.shown) });
-    if (price) unit.textContent = `× ${readable(price, 2)}`;
+    if (price) unit.textContent = `× ${readable(price, 3)}`;
     if (price) unit.title = `time of a simulation with this effect over that without it: ${readable(price, 3)}`;
     const what = element("p", { className: "what", textContent: `${description}${range(variable)}` });
     const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, fault);

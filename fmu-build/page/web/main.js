@@ -18,6 +18,8 @@ import { Walk } from "./walk.js";
 const $ = (id) => document.getElementById(id);
 const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
 const SIDES = ["left", "right"];
+const MOST_POINTS = 2e5; // of a run
+const REFRESH = 100; // ms between two drawings of new points
 const CONSTANTS = ["geometry.planet_pitch_angle", "geometry.outer_cone_distance"];
 
 class Page {
@@ -157,9 +159,16 @@ class Page {
 
   points({ points, time, seconds }) {
     this.record.append(points);
+    this.isFresh = true;
+    if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
+  }
+
+  // What depends on all points so far.
+  refresh() {
+    this.isFresh = false;
+    this.refreshed = performance.now();
     this.traces.refresh();
     this.most = Math.max(...this.forces.map((name) => this.record.largest(name)));
-    if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
     $("scale").lastElementChild.textContent = this.most > 0
       ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
     this.tooth = toothTime(this.record, (name) => this.setup.value(name));
@@ -192,11 +201,11 @@ class Page {
 
   takeDuration() {
     const stop = Number($("duration").value);
-    if (stop > 0 && stop / this.setup.scene.step <= 2e6) {
+    if (stop > 0 && stop / this.setup.scene.step <= MOST_POINTS) {
       this.setup.stop = stop;
       this.changed();
     } else {
-      this.say(`The duration takes a time above 0 s, up to ${readable(2e6 * this.setup.scene.step)} s in this scene.`, true);
+      this.say(`The duration takes a time above 0 s, up to ${readable(MOST_POINTS * this.setup.scene.step)} s in this scene.`, true);
     }
   }
 
@@ -245,6 +254,7 @@ class Page {
     const seconds = Math.min((now - this.last) / 1e3, 0.1);
     this.last = now;
     const { player, record } = this;
+    if (this.isFresh && !(now - this.refreshed < REFRESH)) this.refresh();
     const before = player.time;
     player.tick(seconds, record.end, this.isOver);
     if (record.count > 0 && (player.time !== before || this.moved || this.view.hold !== this.held)) {

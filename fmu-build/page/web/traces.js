@@ -10,7 +10,7 @@ const AHEAD = 0.2; // part of the window after now
 export class Traces {
   // `seek(time)` is called with the time pressed on.
   constructor(host, table, seek) {
-    Object.assign(this, { host, table, seek, plots: [], now: 0, share: 1, isSpectral: false });
+    Object.assign(this, { host, table, seek, plots: [], names: [], now: 0, share: 1, isSpectral: false });
     new ResizeObserver(() => this.fit()).observe(host);
   }
 
