@@ -1,6 +1,6 @@
 //! The page: the library for browsers, the gears, traces and controls in one HTML file that needs no server.
 
-mod data;
+pub mod data;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,0 +1,67 @@
+//! What the page is made from: all variables of the table and all scenes, as the page reads them.
+
+use std::collections::BTreeMap;
+
+use anyhow::Result;
+use bevel_differential::variables::table;
+use fmu_build::fmu::page::data::data;
+use fmu_build::gears::scene;
+use serde_json::Value;
+
+fn page() -> Result<Value> {
+    Ok(serde_json::to_value(data()?)?)
+}
+
+#[test]
+fn every_variable_is_there_by_its_value_reference() -> Result<()> {
+    let page = page()?;
+    let variables = page["variables"].as_array().expect("a list");
+    assert_eq!(variables.len(), table().rows.len());
+    for (reference, (variable, row)) in variables.iter().zip(&table().rows).enumerate() {
+        assert_eq!(variable["name"], row.name);
+        assert_eq!(variable["reference"], reference);
+        assert_eq!(variable["min"].as_f64(), row.range.map(|range| range.min), "{}", row.name);
+        let settable = matches!(variable["causality"].as_str(), Some("parameter" | "input"));
+        assert_eq!(!variable["start"].is_null(), settable, "{}", row.name);
+    }
+    Ok(())
+}
+
+#[test]
+fn every_scene_sets_variables_that_the_page_knows() -> Result<()> {
+    let page = page()?;
+    let kinds: BTreeMap<&str, &str> = page["variables"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|variable| Some((variable["name"].as_str()?, variable["kind"].as_str()?)))
+        .collect();
+    let scenes = page["scenes"].as_array().expect("a list");
+    assert_eq!(scenes.len(), scene::files()?.len());
+    for scene in scenes {
+        for pair in scene["set"].as_array().expect("a list") {
+            let (name, value) = (pair[0].as_str().expect("a name"), &pair[1]);
+            let fits = match kinds[name] {
+                "Boolean" => value.is_boolean(),
+                "Real" => value.is_f64(),
+                _ => value.is_i64(),
+            };
+            assert!(fits, "{}: {name} = {value}", scene["name"]);
+        }
+        assert!(scene["outputs"].as_array().is_some_and(|outputs| !outputs.is_empty()));
+    }
+    Ok(())
+}
+
+#[test]
+fn every_effect_that_was_measured_has_its_price() -> Result<()> {
+    let page = page()?;
+    let prices = page["prices"].as_array().expect("a list");
+    let plain = prices.iter().find(|price| price["effect"] == "nothing").expect("plain teeth");
+    assert_eq!(plain["factor"], 1.0);
+    let known = table().rows.iter().filter_map(|row| row.name.strip_prefix("effects."));
+    for effect in known.filter(|effect| !["backlash", "corner_contact"].contains(effect)) {
+        assert!(prices.iter().any(|price| price["effect"] == effect), "{effect}");
+    }
+    Ok(())
+}
