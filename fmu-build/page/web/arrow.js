@@ -7,7 +7,9 @@ const ROUND = 20;
 export class Arrow extends Group {
   constructor(colour) {
     super();
-    const material = new MeshBasicMaterial({ color: colour, depthTest: false, transparent: true, opacity: 0.92, toneMapped: false });
+    const material = new MeshBasicMaterial({
+      color: colour, depthTest: false, transparent: true, opacity: 0.92, toneMapped: false,
+    });
     this.body = new Mesh(new CylinderGeometry(1, 1, 1, ROUND).translate(0, 0.5, 0), material);
     this.head = new Mesh(new ConeGeometry(1, 1, ROUND).translate(0, 0.5, 0), material);
     for (const part of [this.body, this.head]) part.renderOrder = 10;

@@ -48,7 +48,8 @@ export class Assembly {
     const [sine, cosine] = [Math.sin(this.planetPitch), Math.cos(this.planetPitch)];
     const line = outward.clone().multiplyScalar(cosine).addScaledVector(axis, sine);
     const apart = axis.clone().multiplyScalar(cosine).addScaledVector(outward, -sine);
-    const force = forward.multiplyScalar(sense * Math.cos(this.pressureAngle)).addScaledVector(apart, Math.sin(this.pressureAngle));
+    const force = forward.multiplyScalar(sense * Math.cos(this.pressureAngle));
+    force.addScaledVector(apart, Math.sin(this.pressureAngle));
     return { line, force };
   }
 }

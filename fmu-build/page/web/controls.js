@@ -24,7 +24,8 @@ export class Controls {
     const count = element("span", { className: "count" });
     const body = element("div", { className: name === EFFECTS ? "switches" : "fields" });
     const own = variables.map((variable) => this.row(variable, body));
-    const details = element("details", { open: name === EFFECTS }, element("summary", {}, name.replaceAll("_", " "), count), body);
+    const summary = element("summary", {}, name.replaceAll("_", " "), count);
+    const details = element("details", { open: name === EFFECTS }, summary, body);
     this.groups.push({ details, count, rows: own });
     this.host.append(details);
   }
@@ -134,7 +135,7 @@ function field({ kind, literals }, id) {
     return input;
   }
   if (kind === "Enumeration") {
-    return element("select", { id }, ...literals.map(({ name, value }) => element("option", { value: String(value), textContent: name })));
+    return element("select", { id }, ...literals.map(({ name, value }) => new Option(name, String(value))));
   }
   return element("input", { type: "text", inputMode: "decimal", id, autocomplete: "off", spellcheck: false });
 }

@@ -60,7 +60,8 @@ function section(radius, half, hub) {
     else points.push(new Vector2(hub + WALL, -half - 3 * WALL), new Vector2(hub + WALL, -half - grown));
     for (let k = 0; k <= 10; k += 1) {
       const angle = (Math.PI / 20) * k;
-      points.push(new Vector2(radius - corner + (corner + grown) * Math.sin(angle), -half + corner - (corner + grown) * Math.cos(angle)));
+      const [out, along] = [Math.sin(angle), Math.cos(angle)].map((part) => (corner + grown) * part);
+      points.push(new Vector2(radius - corner + out, -half + corner - along));
     }
     return [...points, ...points.map(({ x, y }) => new Vector2(x, -y)).reverse()];
   };

@@ -78,7 +78,9 @@ class Page {
       this.view.differential.showCase($("shell").checked);
       this.view.stale = true;
     });
-    for (const button of document.querySelectorAll("[data-camera]")) button.addEventListener("click", () => this.look(button.dataset.camera));
+    for (const button of document.querySelectorAll("[data-camera]")) {
+      button.addEventListener("click", () => this.look(button.dataset.camera));
+    }
     addEventListener("hashchange", () => { if (location.hash !== this.setup.fragment()) this.restore(); });
     followTheme($("theme"), () => this.traces.build());
     listenToKeys(this);
@@ -142,7 +144,8 @@ class Page {
     if (warnings.length > 0 && !this.odd) this.say(this.table.subject(warnings[0]).text);
     this.pair = values;
     const settings = this.setup.settings();
-    const shape = JSON.stringify(settings.filter(({ reference }) => this.table.variables[reference].name.startsWith("geometry.")));
+    const isShape = ({ reference }) => this.table.variables[reference].name.startsWith("geometry.");
+    const shape = JSON.stringify(settings.filter(isShape));
     if (shape !== this.shape) this.simulation.gears(settings);
     this.shape = shape;
   }
@@ -205,7 +208,8 @@ class Page {
       this.setup.stop = stop;
       this.changed();
     } else {
-      this.say(`The duration takes a time above 0 s, up to ${readable(MOST_POINTS * this.setup.scene.step)} s in this scene.`, true);
+      const longest = readable(MOST_POINTS * this.setup.scene.step);
+      this.say(`The duration takes a time above 0 s, up to ${longest} s in this scene.`, true);
     }
   }
 
@@ -223,7 +227,9 @@ class Page {
     this.view.hold = PRESETS[name].hold;
     $("hold").checked = PRESETS[name].hold;
     $("shell").checked = PRESETS[name].shell;
-    for (const button of document.querySelectorAll("[data-camera]")) button.setAttribute("aria-pressed", button.dataset.camera === name);
+    for (const button of document.querySelectorAll("[data-camera]")) {
+      button.setAttribute("aria-pressed", button.dataset.camera === name);
+    }
     this.moved = true;
   }
 
@@ -246,7 +252,7 @@ class Page {
     this.traces.isSpectral = $("spectrum").checked;
     this.traces.build();
     if ($("spectrum").checked && this.isOver && this.traces.plots[0].plot.data[0].length === 0) {
-      this.say("No spectrum: the planets do not roll through a whole mesh cycle in this run. Choose a turn, or a longer duration.");
+      this.say("No spectrum: the planets roll through no whole mesh cycle in this run. Choose a turn, or a longer duration.");
     }
   }
 

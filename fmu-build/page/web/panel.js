@@ -27,7 +27,8 @@ export function panel(host, { unit, series, range, after, draw }) {
     cursor: { y: false, drag: { setScale: false, x: false, y: false }, points: { show: false } },
     scales: { x: { time: false, range }, y: { range: span } },
     axes: [
-      { ...axis, size: 20, gap: 3, values: (_, ticks) => ticks.map((tick, i) => readable(tick) + (i === ticks.length - 1 ? after : "")) },
+      { ...axis, size: 20, gap: 3,
+        values: (_, ticks) => ticks.map((tick, i) => readable(tick) + (i === ticks.length - 1 ? after : "")) },
       { ...axis, size: 62, gap: 4, label: unitText(unit) || "1", labelSize: 16, labelFont: "11px system-ui",
         values: (_, ticks) => ticks.map((tick) => readable(tick)) },
     ],

@@ -66,7 +66,9 @@ export class Setup {
       changes: this.scene.changes.map(([time, values]) => [time, this.assignments(left(values))]),
       tables: this.scene.tables
         .filter(({ name }) => !this.own.has(name))
-        .map(({ name, times, values, period }) => ({ reference: this.table.find(name).reference, table: [times, values, period] })),
+        .map(({ name, times, values, period }) => {
+          return { reference: this.table.find(name).reference, table: [times, values, period] };
+        }),
     };
   }
 

@@ -27,8 +27,9 @@ export class Simulation {
     this.heard = performance.now();
     if (message.kind === "ready") this.isReady = true;
     if (message.number === this.number && message.kind !== "started" && message.kind !== "points") this.isBusy = false;
+    const isOld = message.number !== undefined && message.number !== this.number;
     if (message.kind === "trap") this.fall(message.text);
-    else if (message.kind === "ready" || message.number === this.number || message.kind === "gears") this.on[message.kind](message);
+    else if (!isOld) this.on[message.kind](message);
   }
 
   // A worker that has never been ready is not tried again.

@@ -51,14 +51,16 @@ export class Table {
 export function readable(value, digits = 5) {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  const text = size !== 0 && (size >= 1e7 || size < 1e-4) ? value.toExponential(digits - 1) : String(Number(value.toPrecision(digits)));
+  const isPlain = size === 0 || (size < 1e7 && size >= 1e-4);
+  const text = isPlain ? String(Number(value.toPrecision(digits))) : value.toExponential(digits - 1);
   return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
 }
 
 // A unit for reading.
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
-  return unit.replaceAll("deg", "°").replaceAll(".", "·").replace(/([a-z)])2/g, "$1²").replace("^1·5", "^1.5").replace("um", "µm");
+  const read = unit.replaceAll("deg", "°").replaceAll(".", "·").replace("^1·5", "^1.5").replace("um", "µm");
+  return read.replace(/([a-z)])2/g, "$1²");
 }
 
 // A value of the SI with its shown unit.

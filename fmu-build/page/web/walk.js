@@ -3,7 +3,7 @@
 export const STEPS = [
   {
     title: "Straight ahead",
-    fragment: "scene=study_straight&show=carrier.speed+left.speed+planet%5B1%5D.left_normal_force+planet%5B1%5D.right_normal_force",
+    fragment: "scene=study_straight&show=carrier.speed+left.speed+left.normal_force+right.normal_force",
     camera: "whole",
     text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
       + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
@@ -13,16 +13,16 @@ export const STEPS = [
     fragment: "scene=study_turning&show=carrier.speed+left.speed+right.speed+planet%5B1%5D.left_normal_force",
     camera: "mesh",
     text: "In a curve the outer wheel runs faster. The planets roll between the side gears, and what one side gains the other "
-      + "one loses: the mean of both speeds is the carrier's. The picture rides with the carrier. See how one pair of teeth hands "
-      + "its load to the next, and how the force follows.",
+      + "one loses: the mean of both speeds is the carrier's. The picture rides with the carrier. See how one pair of teeth "
+      + "hands its load to the next, and how the force follows.",
   },
   {
     title: "One wheel on ice",
     fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
     camera: "whole",
     text: "The left wheel has no load. The teeth give both wheels the same torque, so the right one gets no more than "
-      + "the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness of "
-      + "an open differential.",
+      + "the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness "
+      + "of an open differential.",
   },
   {
     title: "Limited slip",
@@ -36,8 +36,8 @@ export const STEPS = [
     title: "The clunk",
     fragment: "scene=clunk&show=carrier.speed+left.shaft_torque+planet%5B1%5D.left_transmission_error",
     camera: "mesh",
-    text: "A drive of 100 N·m comes on from rest. The teeth cross their play in two thousandths of a second, and carrier and case "
-      + "have gathered speed when the flanks meet. So each half-shaft is wound up to 133 N·m instead of 50, and throws the teeth "
+    text: "A drive of 100 N·m comes on from rest. The teeth cross their play in two thousandths of a second, and the carrier "
+      + "has gathered speed when the flanks meet. So each half-shaft is wound up to 133 N·m instead of 50, and throws the teeth "
       + "back through their play: the clunk you hear when you come on the throttle.",
   },
 ];

@@ -31,9 +31,9 @@ const requests = {
     postMessage({ kind: "ready" });
   },
 
-  gears({ number, settings }) {
+  gears({ settings }) {
     const surfaces = [0, 1].map((gear) => library.gear(settings, gear));
-    postMessage({ kind: "gears", number, surfaces });
+    postMessage({ kind: "gears", surfaces });
   },
 
   async run({ number, scene, references, constants }) {
