@@ -20,8 +20,8 @@ export const STEPS = [
     title: "One wheel on ice",
     fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
     camera: "whole",
-    text: "The left wheel has no load. The teeth give both wheels the same torque, so the right one gets no more than "
-      + "the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness "
+    text: "The left wheel has no load but its inertia. The teeth give both wheels the same torque, so the right one gets no "
+      + "more than the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the weakness "
       + "of an open differential.",
   },
   {
