@@ -1,6 +1,7 @@
 """Packages that only some uses need."""
 
 import importlib
+from types import ModuleType
 
 from .values import DifferentialError
 
@@ -10,7 +11,7 @@ def install(module: str, extra: str) -> str:
     return f"{module.partition('.')[0]} is missing; install it by: pip install \"bevel-differential[{extra}]\""
 
 
-def needed(module: str, extra: str):
+def needed(module: str, extra: str) -> ModuleType:
     """The module, or an error that says which extra of this package brings it."""
     try:
         return importlib.import_module(module)

@@ -2,11 +2,14 @@
 
 import importlib.resources
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from .csv_table import CsvTable, Time
+from .fmu import Fmu
 from .points import seconds, span
-from .values import DifferentialError, suggestion
+from .values import DifferentialError, FileName, Number, suggestion
 
 # what a file may have
 KEYS = {"description", "stop_time", "step", "outputs", "set", "at", "table", "inputs"}
@@ -24,7 +27,7 @@ def shipped_scenes() -> list[str]:
     return sorted(file.stem for file in folder().glob("*.toml"))
 
 
-def find(what) -> Path:
+def find(what: FileName) -> Path:
     """The file `what`, or that of the shipped scene of this name."""
     for file in (Path(what), folder() / f"{what}.toml"):
         if file.is_file():
@@ -34,7 +37,7 @@ def find(what) -> Path:
                             f"{suggestion(str(what), names)}; shipped: {', '.join(names)}")
 
 
-def read_scene(file: Path, fmu) -> dict:
+def read_scene(file: Path, fmu: Fmu) -> dict[str, Any]:
     """The arguments of `Scene` that a file holds. All errors are reported at once."""
     try:
         found = tomllib.loads(file.read_text(encoding="utf-8"))
@@ -106,7 +109,7 @@ class _Checked:
         return [(name, times, values, period) for name, times, values in tables]
 
 
-def read_inputs(file: Path, fmu) -> list:
+def read_inputs(file: Path, fmu: Fmu) -> list[tuple[str, list[float], list[Number]]]:
     """Inputs over time from a CSV file: a column of times and one for each input, with units in brackets in the header.
 
     Returns [(input, times in s, values in SI)]."""
@@ -120,9 +123,9 @@ def read_inputs(file: Path, fmu) -> list:
     return [(name, times, values) for name, values in columns.items()]
 
 
-def flat(table: dict, prefix: str = "") -> dict:
+def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Values by their dotted names."""
-    values = {}
+    values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
         values.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})

@@ -2,7 +2,22 @@
 
 import difflib
 import math
+import os
 import re
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
+
+if TYPE_CHECKING:
+    import numpy as np
+    from fmpy.model_description import ScalarVariable, Unit
+
+# a value as the FMU takes it: SI, number of a literal, bool
+Number: TypeAlias = float | int | bool
+# as a user writes it: SI, text with a unit or a literal's name, or a pair (number, unit), without a unit SI
+Value: TypeAlias = float | int | bool | str | tuple[float | str, str | None]
+FileName: TypeAlias = str | os.PathLike[str]
+
+_Shown = TypeVar("_Shown", float, "np.ndarray")
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
@@ -15,7 +30,7 @@ class DifferentialError(ValueError):
 
     `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None."""
 
-    def __init__(self, message, status=None):
+    def __init__(self, message: str, status: int | None = None):
         super().__init__(message)
         self.status = status
 
@@ -27,7 +42,20 @@ class Variable:
     `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
     name."""
 
-    def __init__(self, described, units):
+    name: str
+    kind: str
+    causality: str
+    variability: str
+    reference: int
+    unit: str | None
+    description: str | None
+    start: Number | None
+    minimum: Number | None
+    maximum: Number | None
+    literals: dict[str, int]
+    units: dict[str, tuple[float, float]]
+
+    def __init__(self, described: "ScalarVariable", units: "Mapping[str, Unit]"):
         self.name = described.name
         self.kind = described.type
         self.causality = described.causality
@@ -38,14 +66,14 @@ class Variable:
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
-        shown = units.get(self.unit)
+        shown = units.get(self.unit) if self.unit else None
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
         for unit in shown.displayUnits if shown is not None else []:
             self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
         self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
-    def number(self, value):
+    def number(self, value: Value) -> Number:
         """`value` as the FMU takes it: SI, number of a literal, bool.
 
         `value` may be a number, a pair (number, unit), text such as "4.5 mm", or a literal's name."""
@@ -59,7 +87,7 @@ class Variable:
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
 
-    def shown(self, values):
+    def shown(self, values: _Shown) -> tuple[str, _Shown]:
         """Unit in which the variable is usually shown, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
@@ -126,7 +154,14 @@ class Variable:
         return f" in {self.unit}" if self.unit else ""
 
 
-def suggestion(word, known):
+class Variables(Protocol):
+    """What finds a variable by its name: an `Fmu`, or a catalogue that knows more than its variables."""
+
+    def variable(self, name: str) -> Variable:
+        """The variable `name`. Raises `DifferentialError` if there is none."""
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
     """" (did you mean …?)", or nothing."""
     near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
     return f" (did you mean {' or '.join(near)}?)" if near else ""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .statistic import Statistic
-from .values import DifferentialError
+from .values import DifferentialError, Variables
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 
@@ -20,7 +20,7 @@ class Want:
     statistic: Statistic
 
     @classmethod
-    def parse(cls, fmu, text: str) -> "Want":
+    def parse(cls, fmu: Variables, text: str) -> "Want":
         """Of "OUTPUT:STATISTIC"; without a statistic it is the final value."""
         name, _, word = text.strip().partition(":")
         variable = fmu.variable(name.strip())
@@ -28,10 +28,10 @@ class Want:
             raise DifferentialError(f"{variable.name}: it is an input; wanted are outputs")
         return cls(variable.name, Statistic.parse(word or "final"))
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.name}:{self.statistic.word}"
 
-    def unit(self, fmu) -> str:
+    def unit(self, fmu: Variables) -> str:
         """SI unit of the figure; "1" where it has none."""
         return "s" if self.statistic.word == "time_of_peak" else fmu.variable(self.name).unit or "1"
 
@@ -40,7 +40,8 @@ class Want:
         angle = self.statistic.angle
         # a pitch of the planet is a period of the mesh
         teeth = planet_teeth if angle == "planet[1].spin_angle" else 1
-        return self.statistic.of(record["time"], record[self.name].astype(float), angle and record[angle] * teeth)
+        return self.statistic.of(record["time"], record[self.name].astype(float),
+                                 None if angle is None else record[angle] * teeth)
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class Condition:
     limit: float
 
     @classmethod
-    def parse(cls, fmu, text: str) -> "Condition":
+    def parse(cls, fmu: Variables, text: str) -> "Condition":
         """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
         parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
         if len(parts) != 3:
@@ -61,7 +62,7 @@ class Condition:
         want = Want.parse(fmu, parts[0])
         return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.want} {self.relation} {self.limit:g}"
 
     def holds(self, figure: float) -> bool:

@@ -11,12 +11,12 @@ def assignment(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def add_fmu(parser: argparse.ArgumentParser):
+def add_fmu(parser: argparse.ArgumentParser) -> None:
     """The FMU to use."""
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
 
 
-def add_set(parser: argparse.ArgumentParser):
+def add_set(parser: argparse.ArgumentParser) -> None:
     """Values that differ from the scene's."""
     parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")

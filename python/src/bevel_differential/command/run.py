@@ -1,6 +1,7 @@
 """The command `run`: simulates a scene."""
 
 import argparse
+from collections.abc import Callable
 
 from .arguments import add_fmu, add_set
 
@@ -8,7 +9,7 @@ HELP = "simulate a scene"
 EXTRA = None
 
 
-def add_arguments(parser: argparse.ArgumentParser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
@@ -29,7 +30,9 @@ def run(arguments: argparse.Namespace) -> int:
         for warning in scene.warnings:
             print(f"warning: {warning}")
         print(scene.summary(record))
-        for write, file in [(scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet), (scene.plot, arguments.plot)]:
+        writers: list[tuple[Callable[..., object], str | None]] = [
+            (scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet), (scene.plot, arguments.plot)]
+        for write, file in writers:
             if file:
                 write(record, file)
                 print(f"written: {file}")

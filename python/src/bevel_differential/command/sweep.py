@@ -12,7 +12,7 @@ KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": 
 USUAL = {"plan": "random", "seed": 0, "start": 0.0}
 
 
-def add_arguments(parser: argparse.ArgumentParser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     parser.add_argument("--scene", help="a scene file (TOML), or the name of a shipped scene")
     parser.add_argument("--vary", metavar="NAME=VALUES", type=assignment, action="append", default=[],

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import qmc
 
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, Number, suggestion
 from .space import Space
 
 KINDS = {"grid": "all combinations of lists and ranges", "lhs": "a Latin hypercube", "sobol": "a scrambled Sobol sequence",
@@ -48,7 +48,7 @@ class Plan:
             raise DifferentialError(f"plan {kind}: {runs} runs are more than {MOST_RUNS}")
         return cls(space, kind, int(runs), int(seed))
 
-    def designs(self) -> list[tuple[int, dict]]:
+    def designs(self) -> list[tuple[int, dict[str, Number]]]:
         """All designs by run: [(run, {name: value in SI})]."""
         planned, seeds = _split(self.space)
         designs = planned.grid() if self.kind == "grid" else planned.at(self._shares(len(planned.dimensions)))

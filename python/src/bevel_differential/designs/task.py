@@ -3,9 +3,10 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from ..scene import Scene
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from ..want import Condition, Want
 
 
@@ -17,13 +18,13 @@ class Row:
     `seconds`: what it took."""
 
     run: int
-    values: dict
-    figures: dict = field(default_factory=dict)
+    values: dict[str, Number]
+    figures: dict[str, float] = field(default_factory=dict)
     feasible: bool = False
     message: str = ""
     seconds: float = 0.0
 
-    def flat(self) -> dict:
+    def flat(self) -> dict[str, Any]:
         """As a row of a table."""
         return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
                 "seconds": self.seconds}
@@ -36,7 +37,8 @@ class Task:
     `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one
     long step."""
 
-    def __init__(self, scene: Scene, wants: Sequence, conditions: Sequence = (), start: float = 0.0):
+    def __init__(self, scene: Scene, wants: Sequence[str | Want], conditions: Sequence[str | Condition] = (),
+                 start: float = 0.0):
         self.scene, self.start = scene, start
         fmu = scene.fmu
         self.wants = [want if isinstance(want, Want) else Want.parse(fmu, want) for want in wants]
@@ -47,7 +49,7 @@ class Task:
         if not 0.0 <= start < scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
 
-    def evaluate(self, run: int, values: Mapping) -> Row:
+    def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """The row of a design. What fails is a row, too."""
         begun = time.perf_counter()
         row = Row(run, dict(values))
@@ -59,7 +61,7 @@ class Task:
         row.seconds = time.perf_counter() - begun
         return row
 
-    def close(self):
+    def close(self) -> None:
         """Frees the scene's instances."""
         self.scene.close()
 

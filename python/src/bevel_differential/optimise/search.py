@@ -12,6 +12,7 @@ from pymoo.operators.mutation.pm import PM
 from pymoo.operators.sampling.lhs import LHS
 from pymoo.problems.static import StaticProblem
 
+from ..designs.farm import Farm
 from ..designs.space import Dimension, Space
 from ..values import DifferentialError
 from .design_task import DesignRow, DesignTask
@@ -46,7 +47,7 @@ def _cells(dimension: Dimension) -> float:
     return dimension.numbers[1] - dimension.numbers[0] + 1.0 if dimension.whole else np.inf
 
 
-def search(problem: Problem, farm, store: Store,
+def search(problem: Problem, farm: Farm, store: Store,
            each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
     """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
 

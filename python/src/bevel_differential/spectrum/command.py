@@ -1,5 +1,6 @@
 """The sub-command `spectrum`: damage and life over a duty cycle."""
 
+import argparse
 import sys
 
 from ..values import DifferentialError
@@ -10,7 +11,7 @@ HELP = "damage and life of the gears over a duty cycle: events with counts, torq
 EXTRA = "design"
 
 
-def add_arguments(parser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the options of the sub-command to an `argparse` parser."""
     parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
     parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
@@ -24,7 +25,7 @@ def add_arguments(parser):
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or of BEVEL_DIFFERENTIAL_FMU)")
 
 
-def run(arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Prints damage and life, and writes what is asked for."""
     settings = _settings(arguments.settings)
     result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)

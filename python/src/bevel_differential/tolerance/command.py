@@ -1,5 +1,6 @@
 """The command `tolerance`: what manufacturing tolerances do."""
 
+import argparse
 from pathlib import Path
 
 from ..command.arguments import add_fmu
@@ -9,7 +10,7 @@ EXTRA = "design"
 QUICK = 64
 
 
-def add_arguments(parser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("file", help="tolerance file (docs/tolerances.md)")
     parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
@@ -24,7 +25,7 @@ def add_arguments(parser):
     add_fmu(parser)
 
 
-def run(arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Runs the command."""
     from ..designs import Farm
     from . import report

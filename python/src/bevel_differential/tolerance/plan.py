@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..designs import Task
+from ..designs import Farm, Task
 from ..fmu import Fmu
 from ..points import seconds
 from ..scene import Scene
 from ..scene_file import flat
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, FileName, suggestion
 from ..want import Condition, Want
 from .factor import PITCH, RUNOUT, Factor, Reader
 from .study import Alternative, Result, Study
@@ -35,7 +35,8 @@ class Plan:
         self.notes = self._remarks()
 
     @classmethod
-    def load(cls, file, fmu=None, runs: int | None = None, seed: int | None = None, indices: bool = True) -> "Plan":
+    def load(cls, file: FileName, fmu: FileName | Fmu | None = None, runs: int | None = None, seed: int | None = None,
+             indices: bool = True) -> "Plan":
         """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
         try:
@@ -62,7 +63,7 @@ class Plan:
         except DifferentialError as error:
             raise DifferentialError("\n".join(f"{file}: {line}" for line in str(error).splitlines())) from None
 
-    def run(self, farm) -> Result:
+    def run(self, farm: Farm) -> Result:
         """The result, its runs made by a `Farm`."""
         return self.study.run(lambda designs: farm.evaluate(self.task, designs))
 
