@@ -96,7 +96,8 @@ class Plan:
             if variable.kind not in ("Real", "Integer"):
                 continue
             drawn = np.array([values[name] for values in designs], float)
-            bounds = [default if bound is None else float(bound) for bound, default in zip(variable.range, (-np.inf, np.inf))]
+            ends = (variable.minimum, variable.maximum)
+            bounds = [default if bound is None else float(bound) for bound, default in zip(ends, (-np.inf, np.inf))]
             outside = (drawn < bounds[0]) | (drawn > bounds[1])
             if np.any(outside):
                 least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))
