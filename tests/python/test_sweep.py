@@ -1,5 +1,6 @@
 """Sweeps: the same rows whatever evaluates them, and nothing lost by a killed worker, an interrupt, a crash or a full disk."""
 
+import io
 import json
 import os
 import signal
@@ -63,6 +64,30 @@ def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
 def workers_of_this_process():
     children = psutil.Process().children(recursive=True)
     return [child for child in children if "multiprocessing.spawn" in " ".join(child.cmdline())]
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_who_stops_early_ends_the_rows_behind_the_bar_too(monkeypatch):
+    ended = []
+
+    def rows(_task, designs):
+        try:
+            yield from (Row(run, values) for run, values in designs)
+        finally:
+            ended.append(True)
+
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr(Farm, "_here", staticmethod(rows))
+    with Farm(workers=0, progress=True) as farm:
+        shown = farm.rows(None, [(run, {}) for run in range(3)])
+        assert next(shown).run == 0 and not ended
+        shown.close()
+        assert ended
+    assert "0/3" in sys.stderr.getvalue()
 
 
 def test_chunks_of_a_killed_worker_run_again(scene, expected):

@@ -8,7 +8,7 @@ import time
 from collections import deque
 from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import CancelledError
-from contextlib import suppress
+from contextlib import closing, suppress
 from typing import Any, Protocol, Self, TypeVar
 
 from ..extras import needed
@@ -163,4 +163,6 @@ class _Run:
 
 
 def _with_bar(rows, total):
-    return needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+    # who stops early closes what is returned, and with it the rows: designs under way are cancelled
+    with closing(rows):
+        yield from needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
