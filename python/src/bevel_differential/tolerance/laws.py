@@ -16,7 +16,7 @@ from .grade import Gear, grade
 
 
 class Law(ABC):
-    """A law without a grade and without a spread: what others replace."""
+    """A law, of no grade."""
 
     varies = True
 
