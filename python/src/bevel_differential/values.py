@@ -7,17 +7,18 @@ import re
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
+import numpy as np
+
 if TYPE_CHECKING:
-    import numpy as np
     from fmpy.model_description import ScalarVariable, Unit
 
 # a value as the FMU takes it: SI, number of a literal, bool
 Number: TypeAlias = float | int | bool
 # as a user writes it: SI, text with a unit or a literal's name, or a pair (number, unit), without a unit SI
-Value: TypeAlias = float | int | bool | str | tuple[float | str, str | None]
+Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
 FileName: TypeAlias = str | os.PathLike[str]
 
-_Shown = TypeVar("_Shown", float, "np.ndarray")
+_Shown = TypeVar("_Shown", float, np.ndarray)
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
@@ -97,7 +98,7 @@ class Variable:
         words = {"true": True, "false": False}
         if isinstance(value, str) and value.lower() in words:
             return words[value.lower()]
-        if isinstance(value, (bool, int)) or type(value).__name__ == "bool_":
+        if isinstance(value, (bool, int, np.bool_)):
             if value in (0, 1):
                 return bool(value)
         raise DifferentialError(f"{self.name} = {value!r}: it is true or false")
