@@ -6,9 +6,10 @@ import importlib.resources
 import os
 import shutil
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
+from zipfile import BadZipFile
 
 from fmpy import extract, read_model_description
 
@@ -46,7 +47,10 @@ class Fmu:
             if key not in _loaded:
                 if not file.is_file():
                     raise DifferentialError(f"{file}: there is no such FMU")
-                _loaded[key] = cls(file)
+                try:
+                    _loaded[key] = cls(file)
+                except (BadZipFile, OSError) as error:
+                    raise DifferentialError(f"{file}: it is no FMU ({error}); name a file that ends with .fmu") from None
             return _loaded[key]
 
     @classmethod
@@ -73,6 +77,12 @@ class Fmu:
             return self.variables[name]
         except KeyError:
             raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
+
+    def named(self, names: Iterable[str]) -> tuple[Variable, ...]:
+        """The variables of these names, in their order."""
+        if isinstance(names, str):
+            raise DifferentialError(f"{names!r}: names are a list, such as [{names!r}]")
+        return tuple(self.variable(name) for name in names)
 
     def numbers(self, values: Mapping | None = None, **keywords) -> list[tuple[Variable, float | int | bool]]:
         """Values of parameters and inputs as the FMU takes them, [(variable, number)]; given as to `Differential.set`."""

@@ -2,7 +2,7 @@
 
 import argparse
 
-from .arguments import add_fmu, add_set, assignment
+from .arguments import add_fmu, add_set, assignment, once
 
 HELP = "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"
 EXTRA = "sweep"
@@ -63,7 +63,7 @@ def _merged(arguments):
         if getattr(arguments, name) is not None:
             given[name] = getattr(arguments, name)
     for name in ("set", "vary"):
-        given[name] = {**given.get(name, {}), **dict(getattr(arguments, name))}
+        given[name] = {**given.get(name, {}), **once(f"--{name}", getattr(arguments, name))}
     for name in ("want", "condition"):
         given[name] = [*given.get(name, []), *getattr(arguments, name)]
     return given

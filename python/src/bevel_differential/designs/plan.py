@@ -82,7 +82,7 @@ def _split(space):
 
 
 def _size_of_grid(space, runs):
-    size = math.prod(len(one.levels()) for one in _split(space)[0].dimensions)
+    size = math.prod(one.size() for one in _split(space)[0].dimensions)
     if runs not in (None, size):
         raise DifferentialError(f"this grid has {size} runs, not {runs}: leave the number out")
     return size

@@ -10,6 +10,7 @@ from pathlib import Path
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from ..output_file import checked
 from ..values import DifferentialError
 from .table import metadata_of, with_metadata
 
@@ -29,15 +30,13 @@ class Store:
         self.folder = self.file.with_name(self.file.name + ".parts")
         self._rows, self._flushed = [], time.monotonic()
         self.finished = None
+        checked(self.file)
         if force:
-            self._check_place()
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
             self.finished = self._finished(resume)
         elif self.folder.exists():
             self._check_parts(resume)
-        else:
-            self._check_place()
         if self.finished is None:
             self._begin()
         self.kept = self._read_parts() if self.finished is None else self.finished
@@ -82,12 +81,6 @@ class Store:
         # a disk that could not be written to is not tried again
         if kind is not None and not issubclass(kind, StoreError):
             self.flush()
-
-    def _check_place(self):
-        if not self.file.absolute().parent.is_dir():
-            raise DifferentialError(f"{self.file}: there is no folder {self.file.absolute().parent}; make it first")
-        if self.file.is_dir():
-            raise DifferentialError(f"{self.file}: it is a folder; name a file")
 
     def _finished(self, resume):
         try:

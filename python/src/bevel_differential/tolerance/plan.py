@@ -56,6 +56,7 @@ class Plan:
         scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu)
         try:
             scene.set(flat(found.get("set", {})))
+            scene.check_settable(flat(found["factors"]))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
             task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))
             return cls(file.stem, found["description"], scene, task, study)
@@ -95,7 +96,8 @@ class Plan:
             if variable.kind not in ("Real", "Integer"):
                 continue
             drawn = np.array([values[name] for values in designs], float)
-            bounds = [default if bound is None else float(bound) for bound, default in zip(variable.range, (-np.inf, np.inf))]
+            declared = zip((variable.minimum, variable.maximum), (-np.inf, np.inf))
+            bounds = [default if bound is None else float(bound) for bound, default in declared]
             outside = (drawn < bounds[0]) | (drawn > bounds[1])
             if np.any(outside):
                 least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))
