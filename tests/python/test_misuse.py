@@ -70,6 +70,8 @@ def test_the_limit_of_a_time_is_a_time(fmu):
 def test_a_grid_never_repeats_a_whole_number_and_stays_small(fmu):
     teeth = Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "grid").designs()
     assert [values["geometry.planet_teeth"] for _, values in teeth] == [10, 13, 17, 20]
+    with pytest.raises(DifferentialError, match="leave the count 4 out"):
+        Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "lhs", 4)
     with pytest.raises(DifferentialError, match="only 3 whole numbers"):
         Space.parse(fmu, {"geometry.planet_teeth": "18..20:9"})
     for vary in ({SPIN: "0..1:1000000000000000"}, {"tooth_errors.seed": "0..2000000000"}):
