@@ -108,6 +108,31 @@ def test_the_command_says_it_before_any_run(tmp_path, capsys, command, said):
     assert said in capsys.readouterr().err
 
 
+SCENE = """description = "short"
+stop_time = 0.01
+step = 0.001
+outputs = ["left.speed"]
+"""
+
+
+@pytest.mark.parametrize("old, new, said", [
+    ('["left.speed"]', '"left.speed"', "outputs: it is a list"), ('["left.speed"]', "[3]", "3 is no name"),
+    ('"short"', "5", "description: it is a text"), ("step", "set = 3\nstep", r"set: it is a table \[set\]"),
+    ('["left.speed"]', '["left.speed"]\n[at]\ntime = 0.005', r"at: it is written as \[\[at\]\]"),
+    ('["left.speed"]', '["left.speed"]\n[[table]]\ninput = "left.load_torque"\ntime = 5', r"\[\[table\]\] time: it is a list")])
+def test_wrong_kinds_in_a_scene_file_are_said(tmp_path, fmu, old, new, said):
+    (tmp_path / "short.toml").write_text(SCENE.replace(old, new, 1))
+    with pytest.raises(DifferentialError, match=said):
+        Scene.load(tmp_path / "short.toml", fmu)
+
+
+@pytest.mark.parametrize("line", ["scene = 3", 'runs = "many"', "seed = 1.5", "want = [3]", "plan = 7", "condition = [1]"])
+def test_wrong_kinds_in_a_plan_file_are_said(tmp_path, capsys, line):
+    (tmp_path / "plan.toml").write_text(line)
+    assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 1
+    assert f"plan.toml: {line.split()[0]} is a" in capsys.readouterr().err
+
+
 def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
     (tmp_path / "wide.toml").write_text(WIDE)
     with pytest.raises(DifferentialError, match="geometry.backlash: . of .* draws are outside 0 mm to"):

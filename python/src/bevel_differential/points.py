@@ -83,7 +83,7 @@ def _regular(stop, step, slack):
     if step is None:
         return np.array([0.0, stop])
     if stop / step > MOST_STEPS:
-        raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than {MOST_STEPS:g} steps: end earlier, or take longer "
-                                "steps")
+        raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than {MOST_STEPS:g} steps: end earlier, or take "
+                                "longer steps")
     regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
     return np.append(regular[regular < stop - slack], stop)

@@ -83,8 +83,12 @@ def _read(file):
     for key in found:
         if key not in KEYS:
             raise DifferentialError(f"{file}: {key}: there is no such key{suggestion(key, KEYS)}; known: {', '.join(KEYS)}")
-    for key, kind, written in [("set", dict, "a table"), ("vary", dict, "a table"), ("want", list, "a list"),
-                               ("condition", list, "a list")]:
-        if not isinstance(found.get(key, kind()), kind):
-            raise DifferentialError(f"{file}: {key} is {written}")
+    for kind, written, keys in [(dict, "a table", ("set", "vary")), (list, "a list", ("want", "condition")),
+                                (str, "a text", ("scene", "plan")), (int, "a whole number", ("runs", "seed"))]:
+        for key in keys:
+            if not isinstance(found.get(key, kind()), kind):
+                raise DifferentialError(f"{file}: {key} is {written}")
+    for key in ("want", "condition"):
+        if not all(isinstance(entry, str) for entry in found.get(key, [])):
+            raise DifferentialError(f"{file}: {key} is a list of texts, such as \"left.speed:mean\"")
     return {KEYS[key]: flat(value) if key in ("set", "vary") else value for key, value in found.items()}
