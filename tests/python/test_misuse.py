@@ -1,7 +1,10 @@
 """Slips that would give wrong results without a word, or a traceback: each is one error that says what to do."""
 
-import pytest
+import subprocess
+import sys
+from pathlib import Path
 
+import pytest
 from bevel_differential import Differential, DifferentialError, Fmu, Scene
 from bevel_differential.command import main
 from bevel_differential.designs import Space, Task
@@ -163,3 +166,9 @@ def test_outputs_are_a_list_without_repetition(fmu_file):
 def test_true_is_no_number(fmu, name):
     with pytest.raises(DifferentialError, match="it is a number"):
         fmu.variable(name).number(True)
+
+
+def test_an_extracted_fmu_is_removed_at_exit(fmu_file):
+    script = f"from bevel_differential import Fmu; print(Fmu({fmu_file!r}).folder); print(Fmu.of({fmu_file!r}).folder)"
+    folders = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert len(set(folders)) == 2 and not any(Path(folder).exists() for folder in folders)

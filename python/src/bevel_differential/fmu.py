@@ -17,6 +17,8 @@ from .instance import Instance
 from .values import DifferentialError, Variable, suggestion
 
 _loaded = {}
+# processes and the folders that they have made
+_extracted = []
 _lock = threading.Lock()
 
 
@@ -32,6 +34,8 @@ class Fmu:
     def __init__(self, file):
         self.file = Path(file)
         self.folder = str(file) if self.file.is_dir() else extract(str(file))
+        if not self.file.is_dir():
+            _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
         self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
@@ -114,7 +118,7 @@ def shipped():
 
 @atexit.register
 def _remove_folders():
-    for (process, _), fmu in _loaded.items():
+    for process, folder in _extracted:
         # a child that was forked has the entries of its parent
         if process == os.getpid():
-            shutil.rmtree(fmu.folder, ignore_errors=True)
+            shutil.rmtree(folder, ignore_errors=True)
