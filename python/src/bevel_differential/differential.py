@@ -10,10 +10,10 @@ from .batches import Batches
 from .extras import needed
 from .fmu import Fmu
 from .inputs import Inputs, Signals
-from .instance import Instance
+from .instance import DISCARD, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
-from .values import FileName, Number, Value, Variable
+from .values import DifferentialError, FileName, Number, Value, Variable
 
 if TYPE_CHECKING:
     import pandas
@@ -95,11 +95,14 @@ class Differential:
 
     def _simulate(self, steps, signals, outputs, values=None):
         """Starts, steps from point to point, and records."""
-        variables = [self.fmu.variable(name) for name in outputs]
+        variables = self.fmu.named(outputs)
+        if len(set(variables)) < len(variables):
+            twice = next(variable.name for variable in variables if variables.count(variable) > 1)
+            raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
         start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start())
         instance = self._instance()
         instance.start(list(start.items()), steps.points[-1])
-        batches = Batches.of(tuple(variables))
+        batches = Batches.of(variables)
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
@@ -143,7 +146,8 @@ def _advance(instance, batches, record, steps, signals):
                 driven.set(instance, signals.at(begin + steps.slack))
             instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
-            get(component, references, count, address + row * width)
+            if get(component, references, count, address + row * width) >= DISCARD:
+                instance.check(DISCARD, f"reading outputs at {begin + size:g} s")
 
 
 def _set(instance, pairs):

@@ -6,9 +6,10 @@ import importlib.resources
 import os
 import shutil
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
+from zipfile import BadZipFile
 
 from fmpy import extract, read_model_description
 
@@ -16,6 +17,8 @@ from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
 
 _loaded: dict[tuple[int, Path], "Fmu"] = {}
+# processes and the folders that they have made
+_extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
 
 
@@ -31,6 +34,8 @@ class Fmu:
     def __init__(self, file: FileName):
         self.file = Path(file)
         self.folder = str(file) if self.file.is_dir() else extract(str(file))
+        if not self.file.is_dir():
+            _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
         self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
@@ -46,7 +51,10 @@ class Fmu:
             if key not in _loaded:
                 if not file.is_file():
                     raise DifferentialError(f"{file}: there is no such FMU")
-                _loaded[key] = cls(file)
+                try:
+                    _loaded[key] = cls(file)
+                except (BadZipFile, OSError) as error:
+                    raise DifferentialError(f"{file}: it is no FMU ({error}); name a file that ends with .fmu") from None
             return _loaded[key]
 
     @classmethod
@@ -73,6 +81,12 @@ class Fmu:
             return self.variables[name]
         except KeyError:
             raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
+
+    def named(self, names: Iterable[str]) -> tuple[Variable, ...]:
+        """The variables of these names, in their order."""
+        if isinstance(names, str):
+            raise DifferentialError(f"{names!r}: names are a list, such as [{names!r}]")
+        return tuple(self.variable(name) for name in names)
 
     def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:
         """Values of parameters and inputs as the FMU takes them, [(variable, number)]; given as to `Differential.set`."""
@@ -104,7 +118,7 @@ def shipped() -> Path:
 
 @atexit.register
 def _remove_folders():
-    for (process, _), fmu in _loaded.items():
+    for process, folder in _extracted:
         # a child that was forked has the entries of its parent
         if process == os.getpid():
-            shutil.rmtree(fmu.folder, ignore_errors=True)
+            shutil.rmtree(folder, ignore_errors=True)

@@ -36,6 +36,7 @@ class Instance:
             raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
         self.fmu, self.time = fmu, 0.0
         self.messages: list[str] = []
+        self._failure: str | None = None
         description = fmu.description
         make, element = KINDS[kind]
         self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name,
@@ -71,11 +72,17 @@ class Instance:
         # only what goes wrong: a quiet log
         if status >= 1:
             self.messages.append(message.decode(errors="replace"))
+        if status >= DISCARD:
+            self._failure = self.messages[-1]
 
     def check(self, status: int, doing: str) -> None:
         """Raises the FMU's message if `status` is an error."""
         if status >= DISCARD:
-            raise DifferentialError(self.messages[-1] if self.messages else f"{doing} failed with status {status}", status)
+            if not self._component:
+                raise DifferentialError("the instance is closed; open another one", status)
+            # a warning from before is no reason
+            said, self._failure = self._failure, None
+            raise DifferentialError(said or f"{doing} failed with status {status}", status)
 
     def _through(self, call, *arguments):
         """Calls a method of `raw`; its error becomes that of `check`."""
@@ -106,7 +113,7 @@ class Instance:
 
     def read(self, names: Iterable[str]) -> list[Number]:
         """The values of several variables, as a list in their order."""
-        return Batches.of(tuple(self.fmu.variable(name) for name in names)).get(self)
+        return Batches.of(self.fmu.named(names)).get(self)
 
     def initialise(self, values: Mapping[str, Value] | None = None, stop: float | None = None) -> Self:
         """Initialises at time 0, with `values` beside those that were set; `stop` (s): no step will go beyond it.

@@ -56,6 +56,8 @@ def _draw(panel, times, unit, kind, curves):
                    drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     panel.ticklabel_format(axis="y", useOffset=False)
+    if kind != "Real":
+        panel.yaxis.get_major_locator().set_params(integer=True)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
 
 

@@ -13,6 +13,8 @@ TimeValue: TypeAlias = float | str
 
 # times that differ by less than this part of a step are the same
 SLACK = 1e-9
+# more communication points than this are a slip, and would not fit into memory
+MOST_STEPS = 1e8
 # how many of a unit make a second
 PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
@@ -84,5 +86,8 @@ def _regular_steps(stop, step, exact):
 def _regular(stop, step, slack):
     if step is None:
         return np.array([0.0, stop])
+    if stop / step > MOST_STEPS:
+        raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than {MOST_STEPS:g} steps: end earlier, or take "
+                                "longer steps")
     regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
     return np.append(regular[regular < stop - slack], stop)

@@ -1,7 +1,7 @@
 """Scenes: what to set, what to feed in and what to record."""
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
@@ -52,8 +52,16 @@ class Scene:
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""
+        self.check_settable({**(values or {}), **{name.replace("__", "."): None for name in keywords}})
         self._differential.set(values, **keywords)
         return self
+
+    def check_settable(self, names: Iterable[str]) -> None:
+        """Refuses names of inputs that follow a table, as a value for them would change nothing."""
+        driven = {table.variable.name for table in self._signals.tables}
+        for name in names:
+            if name in driven:
+                raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
 
     @property
     def values(self) -> dict[str, Number]:
@@ -74,6 +82,7 @@ class Scene:
 
         Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
         DataFrame, by time."""
+        self.check_settable(values or ())
         stop = self.stop if stop is None else span("stop", stop)
         steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
         record = self._differential._simulate(steps, self._signals, self._named(outputs), values)
@@ -81,6 +90,7 @@ class Scene:
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
+        self.check_settable(values or ())
         names = self._named(outputs)
         step = self.step if self._signals.tables else None
         steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)

@@ -14,6 +14,8 @@ from .values import DifferentialError, FileName, Number, suggestion
 # what a file may have
 KEYS = {"description", "stop_time", "step", "outputs", "set", "at", "table", "inputs"}
 NEEDED = ("description", "stop_time", "step", "outputs")
+KINDS = {"description": (str, "a text"), "outputs": (list, "a list of names"), "set": (dict, "a table [set]"),
+         "at": (list, "written as [[at]]"), "table": (list, "written as [[table]]"), "inputs": (list, "written as [[inputs]]")}
 
 
 def folder() -> Path:
@@ -43,6 +45,12 @@ def read_scene(file: Path, fmu: Fmu) -> dict[str, Any]:
         found = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise DifferentialError(f"{file}: {error}") from None
+    wrong = [f"{key}: it is {what}" for key, (kind, what) in KINDS.items() if not isinstance(found.get(key, kind()), kind)]
+    wrong += [f"outputs: {name!r} is no name" for name in found.get("outputs", []) if not wrong and not isinstance(name, str)]
+    wrong += [f"[[table]] {key}: it is a list" for entry in found.get("table", []) for key in ("time", "value")
+              if not wrong and not isinstance(entry.get(key, []), list)]
+    if wrong:
+        raise DifferentialError("\n".join(f"{file}: {problem}" for problem in wrong))
     problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in found.keys() - KEYS]
     problems += [f"{key} is missing" for key in NEEDED if key not in found]
     checked = _Checked(fmu, problems)

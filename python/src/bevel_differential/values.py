@@ -4,7 +4,7 @@ import difflib
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
 import numpy as np
@@ -88,6 +88,16 @@ class Variable:
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
 
+    def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
+        """Values of the texts in a list or range, `written` as a whole. A unit that only some of them have is an error: in
+        "4..5 mm" the first number would be 4 m."""
+        matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
+        bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
+        if bare and any(match and match[2] for match in matches):
+            raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
+                                    "number")
+        return tuple(self.number(part) for part in parts)
+
     def shown(self, values: _Shown) -> tuple[str, _Shown]:
         """Unit in which the variable is usually shown, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
@@ -131,6 +141,8 @@ class Variable:
 
     def _float(self, value, written):
         try:
+            if isinstance(value, bool) or type(value).__name__ == "bool_":
+                raise TypeError
             number = float(value)
         except (TypeError, ValueError):
             raise DifferentialError(f"{self.name} = {written!r}: it is a number{self._in_unit()}") from None
@@ -143,6 +155,8 @@ class Variable:
             return number
         if number != int(number):
             raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
+        if not -2**31 <= number < 2**31:
+            raise DifferentialError(f"{self.name} = {number:.15g}: it is a whole number from {-2**31} to {2**31 - 1}")
         return int(number)
 
     def _declared(self, text):

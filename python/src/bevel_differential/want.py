@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .points import seconds
 from .statistic import Statistic
 from .values import DifferentialError, Variables
 
@@ -60,7 +61,10 @@ class Condition:
             raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of "
                                     f"{', '.join(RELATIONS)}")
         want = Want.parse(fmu, parts[0])
-        return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
+        written = parts[2].strip()
+        is_time = want.statistic.word == "time_of_peak"
+        limit = seconds(f"condition {text!r}: the time", written) if is_time else fmu.variable(want.name).number(written)
+        return cls(want, parts[1], float(limit))
 
     def __str__(self) -> str:
         return f"{self.want} {self.relation} {self.limit:g}"

@@ -82,5 +82,5 @@ def _help(module):
 
 
 def _said(what, status):
-    print(f"{NAME}: {'; '.join(str(what).splitlines())}", file=sys.stderr)
+    print(f"{NAME}: {'; '.join(str(what).splitlines()).replace(':; ', ': ')}", file=sys.stderr)
     return status

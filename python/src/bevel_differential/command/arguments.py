@@ -1,6 +1,9 @@
 """Arguments that several sub-commands take."""
 
 import argparse
+from collections.abc import Iterable
+
+from ..values import DifferentialError
 
 
 def assignment(text: str) -> tuple[str, str]:
@@ -9,6 +12,16 @@ def assignment(text: str) -> tuple[str, str]:
     if not (name.strip() and sign and value.strip()):
         raise argparse.ArgumentTypeError(f"{text!r}: write NAME=VALUE")
     return name.strip(), value.strip()
+
+
+def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Values by name. A name that is given twice would lose a value without a word."""
+    values: dict[str, str] = {}
+    for name, value in pairs:
+        if name in values:
+            raise DifferentialError(f"{option} {name}: it is given twice; leave one of them out")
+        values[name] = value
+    return values
 
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:

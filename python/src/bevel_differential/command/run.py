@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Callable
 
-from .arguments import add_fmu, add_set
+from .arguments import add_fmu, add_set, once
 
 HELP = "simulate a scene"
 EXTRA = None
@@ -23,10 +23,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulates, prints a summary and writes files. Returns 0."""
+    from ..output_file import checked, checked_picture
     from ..scene import Scene
 
+    for file in (arguments.csv, arguments.parquet):
+        checked(file)
+    checked_picture(arguments.plot)
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
-        record = scene.set(dict(arguments.set)).run(arguments.output, stop=arguments.stop)
+        record = scene.set(once("--set", arguments.set)).run(arguments.output, stop=arguments.stop)
         for warning in scene.warnings:
             print(f"warning: {warning}")
         print(scene.summary(record))

@@ -44,7 +44,8 @@ class Dimension:
             raise DifferentialError(f"{name}: it is calculated and cannot be varied")
         text = given.strip() if isinstance(given, str) else None
         if text is None:
-            return cls._list(variable, given if isinstance(given, Iterable) else [given])
+            values = given if isinstance(given, Iterable) else [given]
+            return cls._list(variable, tuple(variable.number(value) for value in values))
         if text == "seed":
             return cls._seed(variable)
         call = _CALL.match(text)
@@ -52,11 +53,10 @@ class Dimension:
             return cls._distribution(variable, call[1], [part.strip() for part in call[2].split(",")], text)
         if ".." in text:
             return cls._range(variable, text)
-        return cls._list(variable, [part.strip() for part in text.split(",")])
+        return cls._list(variable, variable.numbers([part.strip() for part in text.split(",")], text))
 
     @classmethod
-    def _list(cls, variable: Variable, values: Iterable[Value]) -> "Dimension":
-        numbers = tuple(variable.number(value) for value in values)
+    def _list(cls, variable: Variable, numbers: tuple[Number, ...]) -> "Dimension":
         if not numbers:
             raise DifferentialError(f"{variable.name}: no values; {_USAGE}")
         return cls(variable.name, "list", numbers)
@@ -64,9 +64,9 @@ class Dimension:
     @classmethod
     def _range(cls, variable: Variable, text: str) -> "Dimension":
         bounds, _, count = text.partition(":")
-        low, high = (variable.number(part.strip()) for part in bounds.split("..", 1))
         if variable.kind not in ("Real", "Integer"):
             raise DifferentialError(f"{variable.name}: it has no ranges; list its values")
+        low, high = variable.numbers([part.strip() for part in bounds.split("..", 1)], text)
         if not low < high:
             raise DifferentialError(f"{variable.name} = {text}: the range ends at or before its beginning")
         try:
@@ -75,6 +75,8 @@ class Dimension:
             number = 0
         if number is not None and number < 2:
             raise DifferentialError(f"{variable.name} = {text}: a range has 2 values or more")
+        if number is not None and variable.kind == "Integer" and number > high - low + 1:
+            raise DifferentialError(f"{variable.name} = {text}: there are only {high - low + 1} whole numbers in it")
         return cls(variable.name, "range", (low, high), number, variable.kind == "Integer")
 
     @classmethod
@@ -97,7 +99,7 @@ class Dimension:
             # the factor has no unit
             numbers = (variable.number(parts[0]), _plain(variable, parts[1], text))
         else:
-            numbers = tuple(variable.number(part) for part in parts)
+            numbers = variable.numbers(parts, text)
         sane: dict[str, Callable[..., bool]] = {
             "uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
             "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}
@@ -115,19 +117,23 @@ class Dimension:
             return [low + int(i) for i in np.minimum(share * (high - low + 1), high - low)]
         return _quantile(self.kind, numbers, share).tolist()
 
-    def levels(self) -> list[Number]:
-        """Values on a grid, in SI."""
+    def size(self) -> int:
+        """How many values there are on a grid."""
         if self.kind == "list":
-            return list(self.numbers)
+            return len(self.numbers)
         if self.kind != "range":
             raise DifferentialError(f"{self.variable}: a grid needs a list or a range, not {self.kind}")
-        low, high = self.numbers
-        if self.whole:
-            step = 1 if self.count is None else (high - low) / (self.count - 1)
-            return [round(value) for value in np.arange(low, high + 0.5 * step, step)]
-        if self.count is None:
+        if self.count is None and not self.whole:
             raise DifferentialError(f"{self.variable}: a grid needs the number of values, such as FROM..TO:11")
-        return np.linspace(low, high, self.count).tolist()
+        return self.count or int(self.numbers[1] - self.numbers[0]) + 1
+
+    def levels(self) -> list[Number]:
+        """Values on a grid, in SI."""
+        size = self.size()
+        if self.kind == "list":
+            return list(self.numbers)
+        values = np.linspace(self.numbers[0], self.numbers[1], size).tolist()
+        return [round(value) for value in values] if self.whole else values
 
     def __str__(self) -> str:
         count = f":{self.count}" if self.count else ""

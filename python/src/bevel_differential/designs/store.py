@@ -11,6 +11,7 @@ from typing import Any, Self
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from ..output_file import checked
 from ..values import DifferentialError, FileName
 from .table import Columns, metadata_of, with_metadata
 from .task import Row
@@ -32,15 +33,13 @@ class Store:
         self._rows: list[Row] = []
         self._flushed = time.monotonic()
         self.finished: pa.Table | None = None
+        checked(self.file)
         if force:
-            self._check_place()
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
             self.finished = self._finished(resume)
         elif self.folder.exists():
             self._check_parts(resume)
-        else:
-            self._check_place()
         if self.finished is None:
             self._begin()
         self.kept = self._read_parts() if self.finished is None else self.finished
@@ -85,12 +84,6 @@ class Store:
         # a disk that could not be written to is not tried again
         if kind is not None and not issubclass(kind, StoreError):
             self.flush()
-
-    def _check_place(self):
-        if not self.file.absolute().parent.is_dir():
-            raise DifferentialError(f"{self.file}: there is no folder {self.file.absolute().parent}; make it first")
-        if self.file.is_dir():
-            raise DifferentialError(f"{self.file}: it is a folder; name a file")
 
     def _finished(self, resume):
         try:

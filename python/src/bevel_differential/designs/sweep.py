@@ -86,6 +86,7 @@ def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan
     `Stopped`."""
     scene = scene if isinstance(scene, Scene) else Scene.load(scene)
     space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
+    scene.check_settable(space.names)
     task = Task(scene, wants, conditions, seconds("from", start))
     plan = plan if isinstance(plan, Plan) else Plan.parse(space, plan, runs, seed)
     columns, metadata = Columns(task, space), describe(task, plan)

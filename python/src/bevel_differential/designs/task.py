@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from ..points import SLACK
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
@@ -48,6 +49,10 @@ class Task:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
         if not 0.0 <= start < scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
+        # fewer than two points have no mean and no swing
+        if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - SLACK):
+            raise DifferentialError(f"from = {start:g} s leaves less than two steps of {scene.step:g} s to the end at "
+                                    f"{scene.stop:g} s; begin earlier, or make the scene's step smaller")
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """The row of a design. What fails is a row, too."""
@@ -65,8 +70,11 @@ class Task:
         """Frees the scene's instances."""
         self.scene.close()
 
+    def _only_final(self):
+        return all(want.statistic.word == "final" for want in self.figures)
+
     def _figures(self, values):
-        if all(want.statistic.word == "final" for want in self.figures):
+        if self._only_final():
             last = self.scene.final([want.name for want in self.figures], values)
             return {str(want): float(last[want.name]) for want in self.figures}
         angles = {want.statistic.angle for want in self.figures} - {None}

@@ -200,6 +200,9 @@ class _Reader:
         found = Space.parse(self.fmu, {name: given}).dimensions[0]
         if found.kind not in ("list", "range"):
             raise DifferentialError(f"{name} = {given}: an optimisation varies over FROM..TO or a list, not over a distribution")
+        if found.count is not None:
+            raise DifferentialError(f"{name} = {given}: a search takes all values of a range; leave the count out, or "
+                                    "write a list")
         return found
 
     def named(self, key, others=()):

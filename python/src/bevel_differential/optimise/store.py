@@ -23,7 +23,10 @@ class Store:
             self._read()
         elif (self.folder / EVALUATIONS).exists():
             raise DifferentialError(f"{self.folder} has results already: go on by --resume, or name another folder by --out")
-        self.folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out") from None
         (self.folder / PROBLEM).write_text(json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n",
                                            encoding="utf-8")
 

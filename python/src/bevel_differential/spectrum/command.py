@@ -3,6 +3,8 @@
 import argparse
 import sys
 
+from ..command.arguments import once
+from ..output_file import checked, checked_picture
 from ..values import DifferentialError
 from .slow import ORDERS
 from .total import spectrum
@@ -21,13 +23,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
                         help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
     parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
-    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum")
+    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum (PNG, SVG or PDF)")
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or of BEVEL_DIFFERENTIAL_FMU)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Prints damage and life, and writes what is asked for."""
     settings = _settings(arguments.settings)
+    checked(arguments.table)
+    checked_picture(arguments.picture)
     result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
@@ -43,4 +47,4 @@ def _settings(given):
     for setting in given:
         if "=" not in setting:
             raise DifferentialError(f"--set {setting}: write NAME=VALUE, such as \"wheel_radius=334 mm\"")
-    return {name.strip(): value.strip() for name, _, value in (setting.partition("=") for setting in given)}
+    return once("--set", ((name.strip(), value.strip()) for name, _, value in (setting.partition("=") for setting in given)))

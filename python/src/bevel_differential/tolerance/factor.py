@@ -101,4 +101,4 @@ class Reader:
             raise DifferentialError(f"{variable.name} = {text}: {_USAGE}")
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name} = {text}: only real variables have a band; {_USAGE}")
-        return band(variable.name, *(variable.number(part) for part in parts), self.capability)
+        return band(variable.name, *variable.numbers(parts, text), self.capability)

@@ -57,6 +57,7 @@ class Plan:
         scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu)
         try:
             scene.set(flat(found.get("set", {})))
+            scene.check_settable(flat(found["factors"]))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
             task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))
             return cls(file.stem, found["description"], scene, task, study)
