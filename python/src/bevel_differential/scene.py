@@ -10,7 +10,7 @@ import numpy as np
 from .differential import Differential, as_frame
 from .extras import needed
 from .fmu import Fmu
-from .inputs import Signals, Table, Times, Values, input_variable
+from .inputs import Signals, Table, Values, input_variable
 from .plot import plot
 from .points import Steps, TimeValue, seconds, span
 from .scene_file import find, read_scene
@@ -26,13 +26,13 @@ class Scene:
     """A scene, with the meaning that its TOML file has for the command `scene`: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
-    `tables`: [(input, times, values, period or None)], straight from point to point. `stop` and `step` in s or with a unit.
+    `tables`: [(input, times, values, period or None)], straight from point to point. All times in s or with a unit.
     Values are written as for `Differential`."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
-                 tables: Sequence[tuple[str, Times, Values, float | None]] = (), fmu: FileName | Fmu | None = None):
+                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), fmu: FileName | Fmu | None = None):
         self.name, self.description = name, description
         self.fmu = Fmu.of(fmu)
         self.stop, self.step = span("stop_time", stop), span("step", step)
@@ -161,13 +161,18 @@ class Scene:
         return names
 
     def _checked_signals(self):
-        tables = [Table(input_variable(self.fmu, name), times, values, period) for name, times, values, period in self.tables]
+        tables = [Table(input_variable(self.fmu, name), [seconds("time", time) for time in times], values,
+                        None if period is None else span("period", period)) for name, times, values, period in self.tables]
+        driven = {table.variable for table in tables}
         changes = []
         for time, values in self.changes:
             if not 0.0 <= time <= self.stop:
                 raise DifferentialError(f"a change at {time:g} s is outside the scene's 0 to {self.stop:g} s")
             changes.append((time, self.fmu.numbers(values)))
             for variable, _ in changes[-1][1]:
+                if variable in driven:
+                    raise DifferentialError(f"the change at {time:g} s: {variable.name} follows a table, which overrides a value; "
+                                            "remove one")
                 if variable.variability == "fixed":
                     raise DifferentialError(f"{variable.name} is fixed: only inputs and tunable parameters change during a run")
         return Signals((), tables, changes)
