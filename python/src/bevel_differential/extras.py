@@ -8,7 +8,7 @@ from .values import DifferentialError
 
 def install(module: str, extra: str) -> str:
     """What to say where a package is missing."""
-    return f"{module.partition('.')[0]} is missing; install it by: pip install \"bevel-differential[{extra}]\""
+    return f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: pip install \"WHEEL[{extra}]\""
 
 
 def needed(module: str, extra: str) -> ModuleType:
