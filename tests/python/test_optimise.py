@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
 
 from bevel_differential import DifferentialError, Fmu, Scene
@@ -382,7 +383,7 @@ def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
 def command(folder, fmu_file, *arguments):
     environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "python/src"), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
     return subprocess.Popen([sys.executable, "-m", "bevel_differential", "optimise", *map(str, arguments)], cwd=folder,
-                            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=with_interrupts)
 
 
 def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file):

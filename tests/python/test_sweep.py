@@ -12,6 +12,7 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet as pq
 import pytest
+from interrupts import with_interrupts
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, store
@@ -204,7 +205,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
     running = subprocess.Popen(command(scene, out, wants), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, start_new_session=True)
+                               text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
     # to all processes of it, as a terminal does
