@@ -1,6 +1,5 @@
 """The picture of the comparison: what a run of the turn costs, and whether its ripple converges."""
 
-from pathlib import Path
 
 import style
 

@@ -62,9 +62,9 @@ def test_a_missing_package_is_said_with_its_extra(fmu_file, monkeypatch):
 
     monkeypatch.setattr(extras.importlib, "import_module", missing)
     with Differential(fmu=fmu_file) as straight:
-        with pytest.raises(DifferentialError, match=r"pandas.*bevel-differential\[sweep\]"):
+        with pytest.raises(DifferentialError, match=r"pandas.*extra sweep"):
             straight.run(stop=0.01, frame=True)
-        with pytest.raises(DifferentialError, match=r"matplotlib.*bevel-differential\[plot\]"):
+        with pytest.raises(DifferentialError, match=r"matplotlib.*extra plot"):
             straight.plot(straight.run(stop=0.01))
 
 

@@ -4,6 +4,7 @@ import pickle
 import shutil
 import zipfile
 
+import numpy as np
 import pytest
 from bevel_differential import Differential, DifferentialError, Fmu
 from driving import TURN
@@ -129,3 +130,8 @@ def test_another_machine_takes_its_own_copy_of_the_same_fmu_and_no_other(fmu, fm
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(other))
     with pytest.raises(DifferentialError, match="gone.fmu.*install the same wheel"):
         pickle.loads(packed)
+
+
+def test_truth_values_of_numpy_are_true_or_false(fmu):
+    variable = fmu.variable("inertia.from_geometry")
+    assert [variable.number(value) for value in np.array([True, False])] == [True, False]

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
 
 from bevel_differential import DifferentialError, Fmu, Scene
@@ -202,6 +203,41 @@ def test_a_search_that_goes_on_gives_the_front_of_one_that_was_not_interrupted(t
     assert [row.flat() for row in again] == [row.flat() for row in store.rows.values()]
 
 
+class Interrupted:
+    """A farm whose rows come in another order, as those of several workers do, and that is interrupted in a generation."""
+
+    def __init__(self, after):
+        self.left = after
+
+    def rows(self, task, designs):
+        for run, values in [*designs[::2], *designs[1::2]]:
+            if not self.left:
+                raise KeyboardInterrupt
+            self.left -= 1
+            yield task.evaluate(run, values)
+
+
+def test_a_generation_that_was_interrupted_keeps_the_numbers_of_its_designs(two, folder):
+    problem = two.sized(population=12, generations=3)
+    whole, rows = found(problem, folder / "whole")
+    with pytest.raises(KeyboardInterrupt):
+        search(problem, Interrupted(after=20), Store(folder / "parts", problem))
+    store = Store(folder / "parts", problem, resume=True)
+    kept = [row.run for row in store.rows.values()]
+    assert kept == sorted(kept) and len(kept) == 20 and kept != list(range(20))
+    with Farm(0) as farm:
+        on = search(problem, farm, store)
+    assert [(row.run, row.values) for row in store.rows.values()] == [(row.run, row.values) for row in rows]
+    assert [(row.run, row.values, row.figures) for row in on] == [(row.run, row.values, row.figures) for row in whole]
+
+
+def test_a_range_of_a_search_has_no_count(folder, fmu_file):
+    file = folder / "two.toml"
+    file.write_text(file.read_text(encoding="utf-8").replace("3.5 mm..6 mm", "3.5 mm..6 mm:4"), encoding="utf-8")
+    with pytest.raises(DifferentialError, match="leave the count out"):
+        Problem.load(file, fmu_file)
+
+
 def test_designs_that_break_something_are_not_on_the_front(two, folder):
     best, rows = found(two.sized(population=20, generations=6), folder / "out")
     broken = [row for row in rows if row.refused]
@@ -347,7 +383,7 @@ def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
 def command(folder, fmu_file, *arguments):
     environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "python/src"), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
     return subprocess.Popen([sys.executable, "-m", "bevel_differential", "optimise", *map(str, arguments)], cwd=folder,
-                            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+                            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=with_interrupts)
 
 
 def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file):

@@ -66,6 +66,7 @@ def test_the_summary_is_in_the_usual_units(fmu_file):
     ("tooth_friction.coefficient = 0.07", "tooth_friction.static_ratio = 1.2", ["tooth_friction.static_ratio is fixed"]),
     ("\"700 N.m\", 100.3", "\"700 N.m\"", ["[[table]]", "3 times and 2 values"]),
     ("\"700 N.m\"", "\"heavy\"", ["[[table]]", "right.load_torque", "heavy"]),
+    ("left.load_torque = 300", "right.load_torque = 300", ["0.01 s", "right.load_torque follows a table"]),
     ("cycle.csv", "circle.csv", ["circle.csv"]),
     ("\"carrier.torque\"", "\"carrier.tork\"", ["outputs", "carrier.tork", "did you mean carrier.torque"]),
     ("description =", "description ", ["everything.toml"]),
@@ -97,3 +98,14 @@ def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything, fmu_f
 def test_an_unknown_scene_is_answered_with_the_known_ones(fmu_file):
     with pytest.raises(DifferentialError, match="did you mean clunk.*study_straight"):
         Scene.load("clonk", fmu=fmu_file)
+
+
+@pytest.mark.parametrize("table, parts", [
+    (("left.load_torque", ["0 s", "soon"], [1.0, 2.0], None), ["time", "soon"]),
+    (("left.load_torque", [0.0, 1.0], [1.0, 2.0], -1.0), ["period", "more than 0"]),
+    (("left.load_torque", [0.0, 1.0], [1.0], None), ["2 times for 1 values"]),
+])
+def test_errors_in_tables_from_python_are_named(fmu_file, table, parts):
+    with pytest.raises(DifferentialError) as error:
+        Scene(outputs=["left.speed"], tables=[table], fmu=fmu_file)
+    assert all(part in str(error.value) for part in parts), error.value

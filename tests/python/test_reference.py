@@ -1,6 +1,6 @@
 """The packaged FMU against solutions that the program did not make: plain.py, integrated by scipy."""
 
-from math import atan2, cos, sin, tan
+from math import atan2, cos, sin
 
 import make_reference
 import numpy as np

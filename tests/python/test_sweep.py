@@ -1,5 +1,6 @@
 """Sweeps: the same rows whatever evaluates them, and nothing lost by a killed worker, an interrupt, a crash or a full disk."""
 
+import io
 import json
 import os
 import signal
@@ -11,6 +12,7 @@ from pathlib import Path
 import psutil
 import pyarrow.parquet as pq
 import pytest
+from interrupts import with_interrupts
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, store
@@ -63,6 +65,30 @@ def test_rows_are_the_same_whatever_evaluates_them(scene, expected, farm):
 def workers_of_this_process():
     children = psutil.Process().children(recursive=True)
     return [child for child in children if "multiprocessing.spawn" in " ".join(child.cmdline())]
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_who_stops_early_ends_the_rows_behind_the_bar_too(monkeypatch):
+    ended = []
+
+    def rows(_task, designs):
+        try:
+            yield from (Row(run, values) for run, values in designs)
+        finally:
+            ended.append(True)
+
+    monkeypatch.setattr(sys, "stderr", Terminal())
+    monkeypatch.setattr(Farm, "_here", staticmethod(rows))
+    with Farm(workers=0, progress=True) as farm:
+        shown = farm.rows(None, [(run, {}) for run in range(3)])
+        assert next(shown).run == 0 and not ended
+        shown.close()
+        assert ended
+    assert "0/3" in sys.stderr.getvalue()
 
 
 def test_chunks_of_a_killed_worker_run_again(scene, expected):
@@ -179,7 +205,7 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
     running = subprocess.Popen(command(scene, out, wants), env=environment(fmu_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                               text=True, start_new_session=True)
+                               text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
     # to all processes of it, as a terminal does

@@ -1,9 +1,19 @@
 """Many variables in one call of the FMU."""
 
 import ctypes
+from collections.abc import Callable, Sequence
 from functools import lru_cache
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+from .values import Number, Variable
+
+if TYPE_CHECKING:
+    from .instance import Instance
+
+# function, component, references, count, address of the first row, bytes of a row
+Reader: TypeAlias = tuple[Callable[..., int], ctypes.c_void_p | None, ctypes.c_void_p, int, int, int]
 
 # what the functions for each kind of variable are called
 CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean"}
@@ -14,8 +24,8 @@ class Batches:
 
     Values are as the FMU takes them, and nothing but the FMU checks them."""
 
-    def __init__(self, variables):
-        self.groups = []
+    def __init__(self, variables: Sequence[Variable]):
+        self.groups: list[tuple[str, list[int], np.ndarray, type[np.float64 | np.int32]]] = []
         for call in ("Real", "Integer", "Boolean"):
             places = [place for place, variable in enumerate(variables) if CALLS[variable.kind] == call]
             if places:
@@ -25,32 +35,32 @@ class Batches:
 
     @staticmethod
     @lru_cache(256)
-    def of(variables: tuple) -> "Batches":
+    def of(variables: tuple[Variable, ...]) -> "Batches":
         """Those of these variables, kept: designs of a sweep share them."""
         return Batches(variables)
 
-    def set(self, instance, values):
+    def set(self, instance: "Instance", values: Sequence[Number]) -> None:
         """Sets all."""
         for call, places, references, dtype in self.groups:
-            numbers = np.array([values[place] for place in places], dtype)
+            numbers: np.ndarray = np.array([values[place] for place in places], dtype)
             status = instance._set[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
             instance.check(status, f"setting {call} variables")
 
-    def get(self, instance):
+    def get(self, instance: "Instance") -> list[Number]:
         """Gets all, as a list in the order of the variables."""
-        values = {}
+        values: dict[int, Number] = {}
         for call, places, references, dtype in self.groups:
-            numbers = np.empty(len(places), dtype)
+            numbers: np.ndarray = np.empty(len(places), dtype)
             status = instance._get[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
             instance.check(status, f"getting {call} variables")
             values.update(zip(places, (numbers != 0 if call == "Boolean" else numbers).tolist()))
         return [values[place] for place in range(len(values))]
 
-    def record(self, rows):
+    def record(self, rows: int) -> list[np.ndarray]:
         """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""
         return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
 
-    def readers(self, instance, record):
+    def readers(self, instance: "Instance", record: Sequence[np.ndarray]) -> list[Reader]:
         """For each group a function and its arguments, to which the address of a row is added: (function, component, references,
         count, address of the first row, bytes of a row)."""
         return [(instance._get[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),

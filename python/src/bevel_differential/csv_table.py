@@ -2,10 +2,12 @@
 
 import csv
 import re
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 from .points import PER_SECOND
-from .values import DifferentialError, Variable, suggestion
+from .values import DifferentialError, FileName, Number, Variable, suggestion
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
 
@@ -13,7 +15,7 @@ _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
 class Quantity(Variable):
     """A quantity that the FMU does not know, with its units: {unit: SI units in one}; the first one is SI."""
 
-    def __init__(self, name, units):
+    def __init__(self, name: str, units: Mapping[str, float]):
         self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
         self.unit = next(iter(units))
         self.units = {unit: (1.0 / size, 0.0) for unit, size in units.items()}
@@ -22,7 +24,7 @@ class Quantity(Variable):
 class Time(Quantity):
     """A time."""
 
-    def __init__(self, name):
+    def __init__(self, name: str):
         super().__init__(name, {"s": 1.0})
         self.units = {unit: (number, 0.0) for unit, number in PER_SECOND.items() if unit}
 
@@ -30,10 +32,11 @@ class Time(Quantity):
 class Text:
     """A column of words."""
 
-    def __init__(self, name):
-        self.name, self.kind, self.units = name, "Text", {}
+    def __init__(self, name: str):
+        self.name, self.kind = name, "Text"
+        self.units: dict[str, tuple[float, float]] = {}
 
-    def number(self, word):
+    def number(self, word: str) -> str:
         """The word itself."""
         return word
 
@@ -41,12 +44,12 @@ class Text:
 class Column:
     """A column: its `head` as written, its `variable`, and its place in a row."""
 
-    def __init__(self, head, variable, unit, place):
+    def __init__(self, head: str, variable: Variable | Text, unit: str | None, place: int):
         self.head, self.variable, self.unit, self.place = head, variable, unit, place
 
-    def value(self, cell):
+    def value(self, cell: str) -> Number | str:
         """The value of a cell in SI."""
-        if self.variable.kind in ("Real", "Integer"):
+        if isinstance(self.variable, Variable) and self.variable.kind in ("Real", "Integer"):
             return self.variable.number((cell, self.unit))
         if self.unit is not None:
             raise DifferentialError(f"{self.head}: it has no unit; remove the brackets")
@@ -56,7 +59,7 @@ class Column:
 class CsvTable:
     """The columns of a file by name, and its rows as pairs (line, {name: value in SI}); empty cells are left out."""
 
-    def __init__(self, file, known, needed=()):
+    def __init__(self, file: FileName, known: Callable[[str], Variable | Text], needed: Iterable[str] = ()):
         """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing."""
         self.file = Path(file)
         lines = list(_lines(self.file))
@@ -64,7 +67,7 @@ class CsvTable:
             raise DifferentialError(f"{self.file}: it is empty; its first line names the columns")
         (line, heads), *rows = lines
         self._need(heads, needed)
-        self.columns = {}
+        self.columns: dict[str, Column] = {}
         for place, head in enumerate(heads):
             column = self._column(line, head, place, known)
             if column.variable.name in self.columns:
@@ -72,14 +75,14 @@ class CsvTable:
             self.columns[column.variable.name] = column
         if not rows:
             raise DifferentialError(f"{self.file}: there is no line below the header")
-        self.rows = [(line, self._row(line, cells)) for line, cells in rows]
+        self.rows: list[tuple[int, dict[str, Any]]] = [(line, self._row(line, cells)) for line, cells in rows]
 
-    def problem(self, line, head=None, text="", cell=None):
+    def problem(self, line: int, head: str | None = None, text: str = "", cell: str | None = None) -> DifferentialError:
         """The error of a line, or of a cell in the column `head`."""
         place = f"{self.file}, line {line}" + (f", column {head}" if head else "")
         return DifferentialError(f"{place}{'' if cell is None else f', value {chr(34)}{cell}{chr(34)}'}: {text}")
 
-    def problem_at(self, line, name, text, cell=None):
+    def problem_at(self, line: int, name: str, text: str, cell: str | None = None) -> DifferentialError:
         """The error of a cell, by the name of its column."""
         return self.problem(line, self.columns[name].head if name in self.columns else name, text, cell)
 
@@ -122,7 +125,7 @@ class CsvTable:
         return values
 
 
-def unknown(name, names):
+def unknown(name: str, names: Iterable[str]) -> DifferentialError:
     """The error of a column that nobody knows."""
     return DifferentialError(f"{name}: there is no such column{suggestion(name, names)}")
 

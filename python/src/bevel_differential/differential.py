@@ -1,16 +1,23 @@
 """The differential, as a user has it."""
 
 import threading
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
 from .batches import Batches
 from .extras import needed
 from .fmu import Fmu
-from .inputs import Signals
-from .instance import Instance
+from .inputs import Inputs, Signals
+from .instance import DISCARD, Instance
 from .plot import plot
-from .points import Steps, span
+from .points import Steps, TimeValue, span
+from .values import DifferentialError, FileName, Number, Value, Variable
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
 
 # what `run` records if nothing is said
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
@@ -24,19 +31,31 @@ class Differential:
     a unit, literals by name. What is not given has its start value. An instance is kept for all runs and reset in between; each
     thread has its own."""
 
-    def __init__(self, parameters=None, *, fmu=None, **keywords):
+    def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None, **keywords: Value):
         self.fmu = Fmu.of(fmu)
-        self._values = {}
+        self._values: dict[Variable, Number] = {}
         self._instances = threading.local()
-        self._all = []
+        self._all: list[Instance] = []
         self.set(parameters, **keywords)
 
-    def set(self, parameters=None, **keywords):
+    def set(self, parameters: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and start values of inputs."""
         self._values.update(self.fmu.numbers(parameters, **keywords))
         return self
 
-    def run(self, inputs=None, outputs=USUAL_OUTPUTS, stop=0.5, step=0.001, values=None, frame=False):
+    @overload
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
+            frame: Literal[False] = False) -> np.ndarray: ...
+
+    @overload
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None, *,
+            frame: Literal[True]) -> "pandas.DataFrame": ...
+
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
+            frame: bool = False) -> "np.ndarray | pandas.DataFrame":
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
 
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
@@ -48,26 +67,27 @@ class Differential:
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
         return as_frame(record) if frame else record
 
-    def final(self, outputs, inputs=None, stop=0.5, values=None):
+    def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
+              values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
-    def plot(self, record, file=None):
+    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, file=file)
 
     @property
-    def values(self):
+    def values(self) -> dict[str, Number]:
         """What has been set, by name, as the FMU takes it: SI numbers, numbers of literals."""
         return {variable.name: value for variable, value in self._values.items()}
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """What the FMU warned of in the last run of this thread."""
         return list(self._instance().messages)
 
-    def close(self):
+    def close(self) -> None:
         """Frees all instances."""
         while self._all:
             self._all.pop().close()
@@ -75,11 +95,14 @@ class Differential:
 
     def _simulate(self, steps, signals, outputs, values=None):
         """Starts, steps from point to point, and records."""
-        variables = [self.fmu.variable(name) for name in outputs]
+        variables = self.fmu.named(outputs)
+        if len(set(variables)) < len(variables):
+            twice = next(variable.name for variable in variables if variables.count(variable) > 1)
+            raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
         start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start())
         instance = self._instance()
         instance.start(list(start.items()), steps.points[-1])
-        batches = Batches.of(tuple(variables))
+        batches = Batches.of(variables)
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
@@ -90,21 +113,21 @@ class Differential:
             self._all.append(self._instances.own)
         return self._instances.own
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def __getstate__(self):
+    def __getstate__(self) -> dict[str, Any]:
         # to other processes go the values alone
         return {"fmu": self.fmu, "values": self.values}
 
-    def __setstate__(self, state):
-        self.__init__(state["values"], fmu=state["fmu"])
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        Differential.__init__(self, state["values"], fmu=state["fmu"])
 
 
-def as_frame(record):
+def as_frame(record: np.ndarray) -> "pandas.DataFrame":
     """A record as a pandas DataFrame, by time."""
     return needed("pandas", "sweep").DataFrame(record).set_index("time")
 
@@ -123,7 +146,8 @@ def _advance(instance, batches, record, steps, signals):
                 driven.set(instance, signals.at(begin + steps.slack))
             instance.do_step(begin, size)
         for get, component, references, count, address, width in readers:
-            get(component, references, count, address + row * width)
+            if get(component, references, count, address + row * width) >= DISCARD:
+                instance.check(DISCARD, f"reading outputs at {begin + size:g} s")
 
 
 def _set(instance, pairs):

@@ -1,16 +1,17 @@
 """Packages that only some uses need."""
 
 import importlib
+from types import ModuleType
 
 from .values import DifferentialError
 
 
 def install(module: str, extra: str) -> str:
     """What to say where a package is missing."""
-    return f"{module.partition('.')[0]} is missing; install it by: pip install \"bevel-differential[{extra}]\""
+    return f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: pip install \"WHEEL[{extra}]\""
 
 
-def needed(module: str, extra: str):
+def needed(module: str, extra: str) -> ModuleType:
     """The module, or an error that says which extra of this package brings it."""
     try:
         return importlib.import_module(module)

@@ -6,16 +6,19 @@ import importlib.resources
 import os
 import shutil
 import threading
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
+from zipfile import BadZipFile
 
 from fmpy import extract, read_model_description
 
 from .instance import Instance
-from .values import DifferentialError, Variable, suggestion
+from .values import DifferentialError, FileName, Number, Value, Variable, suggestion
 
-_loaded = {}
+_loaded: dict[tuple[int, Path], "Fmu"] = {}
+# processes and the folders that they have made
+_extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
 
 
@@ -28,17 +31,19 @@ class Fmu:
 
     Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as fmpy reads it."""
 
-    def __init__(self, file):
+    def __init__(self, file: FileName):
         self.file = Path(file)
         self.folder = str(file) if self.file.is_dir() else extract(str(file))
+        if not self.file.is_dir():
+            _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
         self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
 
     @classmethod
-    def of(cls, file=None):
+    def of(cls, file: "FileName | Fmu | None" = None) -> "Fmu":
         """The FMU of `file`, extracted when it is asked for first. An `Fmu` stays what it is."""
-        if isinstance(file, cls):
+        if isinstance(file, Fmu):
             return file
         file = Path(file or usual()).resolve()
         key = (os.getpid(), file)
@@ -46,7 +51,10 @@ class Fmu:
             if key not in _loaded:
                 if not file.is_file():
                     raise DifferentialError(f"{file}: there is no such FMU")
-                _loaded[key] = cls(file)
+                try:
+                    _loaded[key] = cls(file)
+                except (BadZipFile, OSError) as error:
+                    raise DifferentialError(f"{file}: it is no FMU ({error}); name a file that ends with .fmu") from None
             return _loaded[key]
 
     @classmethod
@@ -58,7 +66,7 @@ class Fmu:
         raise DifferentialError(f"{file}: neither this file nor the FMU of the package on this machine is the one that was asked for "
                                 f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines")
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple:
         # other processes and machines have files of their own
         return Fmu.alike, (str(self.file), self.sha256)
 
@@ -67,14 +75,20 @@ class Fmu:
         """SHA-256 of the file."""
         return hashlib.sha256(self.file.read_bytes()).hexdigest()
 
-    def variable(self, name):
+    def variable(self, name: str) -> Variable:
         """The variable `name`."""
         try:
             return self.variables[name]
         except KeyError:
             raise DifferentialError(f"{name}: there is no such variable{suggestion(name, self.variables)}") from None
 
-    def numbers(self, values: Mapping | None = None, **keywords) -> list[tuple[Variable, float | int | bool]]:
+    def named(self, names: Iterable[str]) -> tuple[Variable, ...]:
+        """The variables of these names, in their order."""
+        if isinstance(names, str):
+            raise DifferentialError(f"{names!r}: names are a list, such as [{names!r}]")
+        return tuple(self.variable(name) for name in names)
+
+    def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:
         """Values of parameters and inputs as the FMU takes them, [(variable, number)]; given as to `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
@@ -92,19 +106,19 @@ class Fmu:
         return Instance(self, kind, name)
 
 
-def usual():
+def usual() -> FileName:
     """The FMU that is taken where none is named."""
     return os.environ.get("BEVEL_DIFFERENTIAL_FMU") or shipped()
 
 
-def shipped():
+def shipped() -> Path:
     """The FMU in this package."""
     return Path(str(importlib.resources.files(__package__) / "BevelDifferential.fmu"))
 
 
 @atexit.register
 def _remove_folders():
-    for (process, _), fmu in _loaded.items():
+    for process, folder in _extracted:
         # a child that was forked has the entries of its parent
         if process == os.getpid():
-            shutil.rmtree(fmu.folder, ignore_errors=True)
+            shutil.rmtree(folder, ignore_errors=True)

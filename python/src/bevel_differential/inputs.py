@@ -1,15 +1,25 @@
 """Inputs over time."""
 
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Self, TypeAlias
+
 import numpy as np
 
-from .values import DifferentialError
+from .fmu import Fmu
+from .values import DifferentialError, Number, Value, Variable
+
+# times, s, and values at them, shape (points,)
+Times: TypeAlias = Sequence[float] | np.ndarray
+Values: TypeAlias = Sequence[Value] | np.ndarray
+# inputs as a user writes them, by name: values, or pairs (times, values); or a structured array with a field "time"
+Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 
 class Table:
     """A variable over time: Reals straight between their points, others held; constant before the first point and after the last,
     or repeated after `period` (s). Two points at one time are a jump."""
 
-    def __init__(self, variable, times, values, period=None):
+    def __init__(self, variable: Variable, times: Times, values: Values, period: float | None = None):
         self.variable, self.period = variable, period
         self.times = np.asarray(times, float)
         self.values = np.array([variable.number(value) for value in values])
@@ -18,7 +28,7 @@ class Table:
         if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
             raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
 
-    def at(self, time):
+    def at(self, time: float) -> Any:
         """Value just after a time."""
         times, values = self.times, self.values
         if self.period is not None:
@@ -31,7 +41,7 @@ class Table:
         share = (time - times[after - 1]) / (times[after] - times[after - 1])
         return values[after - 1] + share * (values[after] - values[after - 1])
 
-    def jumps(self):
+    def jumps(self) -> np.ndarray:
         """Times at which the value jumps, s."""
         return self.times[1:][self.times[1:] == self.times[:-1]]
 
@@ -41,14 +51,15 @@ class Signals:
 
     `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time."""
 
-    def __init__(self, constants=(), tables=(), changes=()):
+    def __init__(self, constants: Iterable[tuple[Variable, Number]] = (), tables: Iterable[Table] = (),
+                 changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = ()):
         self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
         times = [table.jumps() for table in self.tables] + [np.array([time for time, _ in self.changes])]
         self.jumps = np.unique(np.concatenate(times)) if self.tables or self.changes else np.empty(0)
 
     @classmethod
-    def of(cls, fmu, inputs):
+    def of(cls, fmu: Fmu, inputs: Inputs | None) -> Self:
         """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
         structured array with a field "time", as fmpy takes it."""
         constants, tables = [], []
@@ -60,16 +71,16 @@ class Signals:
                 constants.append((variable, variable.number(given)))
         return cls(constants, tables)
 
-    def start(self):
+    def start(self) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""
         return self.constants + [(table.variable, table.at(0.0)) for table in self.tables]
 
-    def at(self, time):
+    def at(self, time: float) -> list[Number]:
         """Values of all tables after a time."""
         return [table.at(time) for table in self.tables]
 
 
-def input_variable(fmu, name):
+def input_variable(fmu: Fmu, name: str) -> Variable:
     """The input `name`."""
     variable = fmu.variable(name)
     if variable.causality != "input":

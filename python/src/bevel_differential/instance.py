@@ -3,13 +3,16 @@
 import contextlib
 import ctypes
 from collections.abc import Iterable, Mapping
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from .batches import Batches
-from .values import DifferentialError
+from .values import DifferentialError, Number, Value, Variable
+
+if TYPE_CHECKING:
+    from .fmu import Fmu
 
 # what the log is to have
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
@@ -28,10 +31,12 @@ class Instance:
     Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `time` (s), to
     which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
 
-    def __init__(self, fmu, kind: str = "CoSimulation", name: str = "differential"):
+    def __init__(self, fmu: "Fmu", kind: str = "CoSimulation", name: str = "differential"):
         if kind not in KINDS:
             raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
-        self.fmu, self.messages, self.time = fmu, [], 0.0
+        self.fmu, self.time = fmu, 0.0
+        self.messages: list[str] = []
+        self._failure: str | None = None
         description = fmu.description
         make, element = KINDS[kind]
         self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name,
@@ -46,7 +51,7 @@ class Instance:
         # a library behind fmpy's remoting cannot be told, and logs errors alone
         with contextlib.suppress(FMICallException):
             self.raw.setDebugLogging(True, [category for category in LOGGED if category in known])
-        self._component = ctypes.c_void_p(self.raw.component)
+        self._component: ctypes.c_void_p | None = ctypes.c_void_p(self.raw.component)
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
                                  for call in ("Real", "Integer", "Boolean")} for verb in ("Get", "Set"))
@@ -67,11 +72,17 @@ class Instance:
         # only what goes wrong: a quiet log
         if status >= 1:
             self.messages.append(message.decode(errors="replace"))
+        if status >= DISCARD:
+            self._failure = self.messages[-1]
 
-    def check(self, status, doing):
+    def check(self, status: int, doing: str) -> None:
         """Raises the FMU's message if `status` is an error."""
         if status >= DISCARD:
-            raise DifferentialError(self.messages[-1] if self.messages else f"{doing} failed with status {status}", status)
+            if not self._component:
+                raise DifferentialError("the instance is closed; open another one", status)
+            # a warning from before is no reason
+            said, self._failure = self._failure, None
+            raise DifferentialError(said or f"{doing} failed with status {status}", status)
 
     def _through(self, call, *arguments):
         """Calls a method of `raw`; its error becomes that of `check`."""
@@ -81,7 +92,7 @@ class Instance:
             failure = caught
         self.check(failure.status, failure.function)
 
-    def set(self, values: Mapping | None = None, **keywords) -> Self:
+    def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Sets parameters and inputs, given as to `Differential.set`."""
         self._write(self.fmu.numbers(values, **keywords))
         return self
@@ -96,22 +107,22 @@ class Instance:
         references = [self.fmu.variable(name).reference for name in slopes]
         self._through(self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
 
-    def get(self, name: str) -> float | int | bool:
+    def get(self, name: str) -> Number:
         """The value of one variable, in SI; of an enumeration its number."""
         return self.read((name,))[0]
 
-    def read(self, names: Iterable[str]) -> list[float | int | bool]:
+    def read(self, names: Iterable[str]) -> list[Number]:
         """The values of several variables, as a list in their order."""
-        return Batches.of(tuple(self.fmu.variable(name) for name in names)).get(self)
+        return Batches.of(self.fmu.named(names)).get(self)
 
-    def initialise(self, values: Mapping | None = None, stop: float | None = None) -> Self:
+    def initialise(self, values: Mapping[str, Value] | None = None, stop: float | None = None) -> Self:
         """Initialises at time 0, with `values` beside those that were set; `stop` (s): no step will go beyond it.
 
         After a run the instance is reset first."""
         self.start(self.fmu.numbers(values), stop)
         return self
 
-    def start(self, values, stop):
+    def start(self, values: list[tuple[Variable, Number]], stop: float | None) -> None:
         """The same with `values` as the FMU takes them: [(variable, number)]."""
         if not self._is_fresh:
             self.reset()
@@ -164,13 +175,13 @@ class Instance:
             # what is called after this gets no instance, and is refused
             self._component = self.raw.component = None
 
-    def __del__(self):
+    def __del__(self) -> None:
         # of a thread that has ended, or where nobody has closed it
         if getattr(self, "_component", None):
             self.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()

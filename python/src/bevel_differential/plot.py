@@ -2,17 +2,22 @@
 
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .extras import needed
-from .values import DifferentialError
+from .fmu import Fmu
+from .values import DifferentialError, FileName
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 # inches
 WIDTH, PANEL, REST = 10.0, 2.3, 1.2
 
 
-def plot(fmu, record: np.ndarray, title: str = "", caption: str = "", file=None):
+def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file: FileName | None = None) -> "Figure":
     """Draws all outputs of a record (structured array with a field "time") over time, in the units that are usually shown.
 
     Writes `file` (PNG, SVG or PDF) if there is one. Returns the matplotlib figure; it is not one of pyplot's, so that nothing is
@@ -20,10 +25,10 @@ def plot(fmu, record: np.ndarray, title: str = "", caption: str = "", file=None)
     matplotlib = needed("matplotlib", "plot")
     from matplotlib.figure import Figure
 
-    names = record.dtype.names[1:]
+    names = (record.dtype.names or ())[1:]
     if not names:
         raise DifferentialError("the record has no outputs to draw")
-    panels = {}
+    panels: dict[tuple[str, str], list[tuple[str, np.ndarray]]] = {}
     for name in names:
         variable = fmu.variable(name)
         unit, values = variable.shown(record[name].astype(float))
@@ -51,6 +56,8 @@ def _draw(panel, times, unit, kind, curves):
                    drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     panel.ticklabel_format(axis="y", useOffset=False)
+    if kind != "Real":
+        panel.yaxis.get_major_locator().set_params(integer=True)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
 
 

@@ -2,18 +2,24 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TypeAlias
 
 import numpy as np
 
 from .values import DifferentialError
 
+# a time as a user writes it: s, or text such as "5 ms"
+TimeValue: TypeAlias = float | str
+
 # times that differ by less than this part of a step are the same
 SLACK = 1e-9
+# more communication points than this are a slip, and would not fit into memory
+MOST_STEPS = 1e8
 # how many of a unit make a second
 PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
 
-def seconds(what, time):
+def seconds(what: str, time: TimeValue) -> float:
     """A time: seconds, or text such as "5 ms". `what` names it in errors."""
     if isinstance(time, str):
         number, _, unit = time.strip().partition(" ")
@@ -30,7 +36,7 @@ def seconds(what, time):
     return float(time)
 
 
-def span(what, time):
+def span(what: str, time: TimeValue) -> float:
     """A time above 0, s."""
     time = seconds(what, time)
     if not time > 0.0:
@@ -64,7 +70,7 @@ class Steps:
         return cls._between(np.union1d(regular, inner[~near]), slack, exact)
 
     @classmethod
-    def _between(cls, points, slack, exact):
+    def _between(cls, points: np.ndarray, slack: float, exact: bool) -> "Steps":
         return cls(points, points[1:] - np.diff(points) if exact else points[:-1], slack)
 
 
@@ -80,5 +86,8 @@ def _regular_steps(stop, step, exact):
 def _regular(stop, step, slack):
     if step is None:
         return np.array([0.0, stop])
+    if stop / step > MOST_STEPS:
+        raise DifferentialError(f"{stop:g} s in steps of {step:g} s are more than {MOST_STEPS:g} steps: end earlier, or take "
+                                "longer steps")
     regular = np.arange(int(stop / step * (1.0 + SLACK)) + 1) * step
     return np.append(regular[regular < stop - slack], stop)

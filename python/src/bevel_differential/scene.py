@@ -1,31 +1,38 @@
 """Scenes: what to set, what to feed in and what to record."""
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
 from .differential import Differential, as_frame
 from .extras import needed
 from .fmu import Fmu
-from .inputs import Signals, Table, input_variable
+from .inputs import Signals, Table, Values, input_variable
 from .plot import plot
-from .points import Steps, seconds, span
+from .points import Steps, TimeValue, seconds, span
 from .scene_file import find, read_scene
 from .text import aligned
-from .values import DifferentialError
+from .values import DifferentialError, FileName, Number, Value
+
+if TYPE_CHECKING:
+    import pandas
+    from matplotlib.figure import Figure
 
 
 class Scene:
     """A scene, with the meaning that its TOML file has for the command `scene`: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
-    `tables`: [(input, times, values, period or None)], straight from point to point. `stop` and `step` in s or with a unit.
+    `tables`: [(input, times, values, period or None)], straight from point to point. All times in s or with a unit.
     Values are written as for `Differential`."""
 
-    def __init__(self, name: str = "scene", *, description: str = "", stop=0.5, step=1e-3, outputs: Sequence[str] = (),
-                 set: Mapping | None = None, changes: Sequence = (), tables: Sequence = (), fmu=None):
+    def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
+                 outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
+                 changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
+                 tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), fmu: FileName | Fmu | None = None):
         self.name, self.description = name, description
         self.fmu = Fmu.of(fmu)
         self.stop, self.step = span("stop_time", stop), span("step", step)
@@ -33,38 +40,57 @@ class Scene:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
-        self.tables = [tuple(table) for table in tables]
+        self.tables = [(name, times, values, period) for name, times, values, period in tables]
         self._differential = Differential(set, fmu=self.fmu)
         self._signals = self._checked_signals()
 
     @classmethod
-    def load(cls, what, fmu=None) -> "Scene":
+    def load(cls, what: FileName, fmu: FileName | Fmu | None = None) -> Self:
         """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once."""
         file = find(what)
         return cls(fmu=fmu, **read_scene(file, Fmu.of(fmu)))
 
-    def set(self, values=None, **keywords) -> "Scene":
+    def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""
+        self.check_settable({**(values or {}), **{name.replace("__", "."): None for name in keywords}})
         self._differential.set(values, **keywords)
         return self
 
+    def check_settable(self, names: Iterable[str]) -> None:
+        """Refuses names of inputs that follow a table, as a value for them would change nothing."""
+        driven = {table.variable.name for table in self._signals.tables}
+        for name in names:
+            if name in driven:
+                raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
+
     @property
-    def values(self) -> dict:
+    def values(self) -> dict[str, Number]:
         """What is set at the start, as the FMU takes it."""
         return self._differential.values
 
-    def run(self, outputs: Sequence[str] | None = None, values: Mapping | None = None, stop=None, frame: bool = False):
+    @overload
+    def run(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None,
+            frame: Literal[False] = False) -> np.ndarray: ...
+
+    @overload
+    def run(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None,
+            *, frame: Literal[True]) -> "pandas.DataFrame": ...
+
+    def run(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None,
+            frame: bool = False) -> "np.ndarray | pandas.DataFrame":
         """Simulates; `values` change parameters for this run, `stop` the end.
 
         Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
         DataFrame, by time."""
+        self.check_settable(values or ())
         stop = self.stop if stop is None else span("stop", stop)
         steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
         record = self._differential._simulate(steps, self._signals, self._named(outputs), values)
         return as_frame(record) if frame else record
 
-    def final(self, outputs: Sequence[str] | None = None, values: Mapping | None = None) -> dict:
+    def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
+        self.check_settable(values or ())
         names = self._named(outputs)
         step = self.step if self._signals.tables else None
         steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
@@ -78,55 +104,55 @@ class Scene:
 
     def summary(self, record: np.ndarray) -> str:
         """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown."""
-        lines = [("output", "unit", "min", "mean", "max", "end")]
+        lines: list[tuple[str, ...]] = [("output", "unit", "min", "mean", "max", "end")]
         span_of_time = record["time"][-1] - record["time"][0]
-        for name in record.dtype.names[1:]:
+        for name in _outputs(record):
             unit, values = self.fmu.variable(name).shown(record[name])
             mean = np.trapezoid(values, record["time"]) / span_of_time
             lines.append((name, unit, *(f"{number:.6g}" for number in (values.min(), mean, values.max(), values[-1]))))
         return "\n".join(aligned(lines))
 
-    def to_csv(self, record: np.ndarray, file) -> Path:
+    def to_csv(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI, with the units in a comment; numbers read back to the same bits."""
-        units = [self.fmu.variable(name).unit or "1" for name in record.dtype.names[1:]]
+        units = [self.fmu.variable(name).unit or "1" for name in _outputs(record)]
         with open(file, "w", newline="", encoding="utf-8") as out:
             out.write(f"# scene {self.name}: {self.description}\n# units: s,{','.join(units)}\n")
             writer = csv.writer(out, lineterminator="\n")
-            writer.writerow(record.dtype.names)
+            writer.writerow(["time", *_outputs(record)])
             writer.writerows(record.tolist())
         return Path(file)
 
-    def to_parquet(self, record: np.ndarray, file) -> Path:
+    def to_parquet(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI as Parquet; fields name their units."""
         pa = needed("pyarrow", "sweep")
-        units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in record.dtype.names[1:]}}
+        units = {"time": "s", **{name: self.fmu.variable(name).unit or "1" for name in _outputs(record)}}
         fields = [pa.field(name, pa.from_numpy_dtype(record.dtype[name]), metadata={"unit": unit})
                   for name, unit in units.items()]
         table = pa.table([np.ascontiguousarray(record[name]) for name in units], pa.schema(fields))
         needed("pyarrow.parquet", "sweep").write_table(table, file)
         return Path(file)
 
-    def plot(self, record: np.ndarray, file=None):
+    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, self.name, self.description, file)
 
-    def close(self):
+    def close(self) -> None:
         """Frees all instances."""
         self._differential.close()
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def __getstate__(self):
+    def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
                 "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
                 "fmu": self.fmu}
 
-    def __setstate__(self, state):
-        self.__init__(**state)
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        Scene.__init__(self, **state)
 
     def _named(self, outputs):
         names = self.outputs if outputs is None else list(outputs)
@@ -135,13 +161,23 @@ class Scene:
         return names
 
     def _checked_signals(self):
-        tables = [Table(input_variable(self.fmu, name), times, values, period) for name, times, values, period in self.tables]
+        tables = [Table(input_variable(self.fmu, name), [seconds("time", time) for time in times], values,
+                        None if period is None else span("period", period)) for name, times, values, period in self.tables]
+        driven = {table.variable for table in tables}
         changes = []
         for time, values in self.changes:
             if not 0.0 <= time <= self.stop:
                 raise DifferentialError(f"a change at {time:g} s is outside the scene's 0 to {self.stop:g} s")
             changes.append((time, self.fmu.numbers(values)))
             for variable, _ in changes[-1][1]:
+                if variable in driven:
+                    raise DifferentialError(f"the change at {time:g} s: {variable.name} follows a table, which overrides a value; "
+                                            "remove one")
                 if variable.variability == "fixed":
                     raise DifferentialError(f"{variable.name} is fixed: only inputs and tunable parameters change during a run")
         return Signals((), tables, changes)
+
+
+def _outputs(record: np.ndarray) -> tuple[str, ...]:
+    """What a record holds beside the time."""
+    return (record.dtype.names or ())[1:]

@@ -2,15 +2,20 @@
 
 import importlib.resources
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from .csv_table import CsvTable, Time
+from .fmu import Fmu
 from .points import seconds, span
-from .values import DifferentialError, suggestion
+from .values import DifferentialError, FileName, Number, suggestion
 
 # what a file may have
 KEYS = {"description", "stop_time", "step", "outputs", "set", "at", "table", "inputs"}
 NEEDED = ("description", "stop_time", "step", "outputs")
+KINDS = {"description": (str, "a text"), "outputs": (list, "a list of names"), "set": (dict, "a table [set]"),
+         "at": (list, "written as [[at]]"), "table": (list, "written as [[table]]"), "inputs": (list, "written as [[inputs]]")}
 
 
 def folder() -> Path:
@@ -24,7 +29,7 @@ def shipped_scenes() -> list[str]:
     return sorted(file.stem for file in folder().glob("*.toml"))
 
 
-def find(what) -> Path:
+def find(what: FileName) -> Path:
     """The file `what`, or that of the shipped scene of this name."""
     for file in (Path(what), folder() / f"{what}.toml"):
         if file.is_file():
@@ -34,12 +39,18 @@ def find(what) -> Path:
                             f"{suggestion(str(what), names)}; shipped: {', '.join(names)}")
 
 
-def read_scene(file: Path, fmu) -> dict:
+def read_scene(file: Path, fmu: Fmu) -> dict[str, Any]:
     """The arguments of `Scene` that a file holds. All errors are reported at once."""
     try:
         found = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise DifferentialError(f"{file}: {error}") from None
+    wrong = [f"{key}: it is {what}" for key, (kind, what) in KINDS.items() if not isinstance(found.get(key, kind()), kind)]
+    wrong += [f"outputs: {name!r} is no name" for name in found.get("outputs", []) if not wrong and not isinstance(name, str)]
+    wrong += [f"[[table]] {key}: it is a list" for entry in found.get("table", []) for key in ("time", "value")
+              if not wrong and not isinstance(entry.get(key, []), list)]
+    if wrong:
+        raise DifferentialError("\n".join(f"{file}: {problem}" for problem in wrong))
     problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in found.keys() - KEYS]
     problems += [f"{key} is missing" for key in NEEDED if key not in found]
     checked = _Checked(fmu, problems)
@@ -106,7 +117,7 @@ class _Checked:
         return [(name, times, values, period) for name, times, values in tables]
 
 
-def read_inputs(file: Path, fmu) -> list:
+def read_inputs(file: Path, fmu: Fmu) -> list[tuple[str, list[float], list[Number]]]:
     """Inputs over time from a CSV file: a column of times and one for each input, with units in brackets in the header.
 
     Returns [(input, times in s, values in SI)]."""
@@ -120,9 +131,9 @@ def read_inputs(file: Path, fmu) -> list:
     return [(name, times, values) for name, values in columns.items()]
 
 
-def flat(table: dict, prefix: str = "") -> dict:
+def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     """Values by their dotted names."""
-    values = {}
+    values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
         values.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})

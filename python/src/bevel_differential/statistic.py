@@ -1,6 +1,7 @@
 """Figures that a series over time is judged by: those of the command `accuracy`."""
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,18 +14,18 @@ _ORDER = re.compile(r"(mesh|shaft)_order_([1-9]\d*)$")
 _OTHER_ORDER = re.compile(r"order_([1-9]\d*)_of_(mesh|shaft)$")
 
 
-def mean(times, values):
+def mean(times: np.ndarray, values: np.ndarray) -> float:
     """Mean over time, straight from point to point."""
     span = times[-1] - times[0]
     return float(np.trapezoid(values, times) / span) if span > 0.0 else float(values[0])
 
 
-def rms(times, values):
+def rms(times: np.ndarray, values: np.ndarray) -> float:
     """Effective value."""
     return float(np.sqrt(mean(times, np.square(values))))
 
 
-def time_of_peak(times, values):
+def time_of_peak(times: np.ndarray, values: np.ndarray) -> float:
     """Time of the largest magnitude, by a parabola through it and its neighbours, s."""
     size = np.abs(values)
     k = len(size) - 1 - int(np.argmax(size[::-1]))
@@ -38,7 +39,7 @@ def time_of_peak(times, values):
     return float(times[k] - 0.5 * down + 0.5 * (down + up) * left / (left - right))
 
 
-FIGURES = {
+FIGURES: dict[str, Callable[[np.ndarray, np.ndarray], float]] = {
     "final": lambda times, values: float(values[-1]),
     "mean": mean,
     "rms": rms,
@@ -83,8 +84,11 @@ class Statistic:
         """The figure of `values` at `times` (s), shape (points,); `phase` (rad, 2π a period of order 1) for orders."""
         if self.word in FIGURES:
             return FIGURES[self.word](times, values)
+        order = _ORDER.match(self.word)
+        if order is None or phase is None:
+            raise DifferentialError(f"{self.word}: an order needs the angle that it is counted by")
         try:
-            return amplitude(phase, values, int(_ORDER.match(self.word)[2]))
+            return amplitude(phase, values, int(order[2]))
         except DifferentialError as error:
             raise DifferentialError(f"{self.word}: {error}") from None
 

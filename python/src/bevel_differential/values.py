@@ -2,7 +2,23 @@
 
 import difflib
 import math
+import os
 import re
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from fmpy.model_description import ScalarVariable, Unit
+
+# a value as the FMU takes it: SI, number of a literal, bool
+Number: TypeAlias = float | int | bool
+# as a user writes it: SI, text with a unit or a literal's name, or a pair (number, unit), without a unit SI
+Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
+FileName: TypeAlias = str | os.PathLike[str]
+
+_Shown = TypeVar("_Shown", float, np.ndarray)
 
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
@@ -15,7 +31,7 @@ class DifferentialError(ValueError):
 
     `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None."""
 
-    def __init__(self, message, status=None):
+    def __init__(self, message: str, status: int | None = None):
         super().__init__(message)
         self.status = status
 
@@ -27,7 +43,20 @@ class Variable:
     `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
     name."""
 
-    def __init__(self, described, units):
+    name: str
+    kind: str
+    causality: str
+    variability: str
+    reference: int
+    unit: str | None
+    description: str | None
+    start: Number | None
+    minimum: Number | None
+    maximum: Number | None
+    literals: dict[str, int]
+    units: dict[str, tuple[float, float]]
+
+    def __init__(self, described: "ScalarVariable", units: "Mapping[str, Unit]"):
         self.name = described.name
         self.kind = described.type
         self.causality = described.causality
@@ -38,14 +67,14 @@ class Variable:
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
-        shown = units.get(self.unit)
+        shown = units.get(self.unit) if self.unit else None
         # a value in SI is (value in the shown unit - offset) / factor
         self.units = {self.unit: (1.0, 0.0)} if self.unit else {}
         for unit in shown.displayUnits if shown is not None else []:
             self.units[unit.name] = (float(unit.factor), float(unit.offset or 0.0))
         self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
-    def number(self, value):
+    def number(self, value: Value) -> Number:
         """`value` as the FMU takes it: SI, number of a literal, bool.
 
         `value` may be a number, a pair (number, unit), text such as "4.5 mm", or a literal's name."""
@@ -59,7 +88,17 @@ class Variable:
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
 
-    def shown(self, values):
+    def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
+        """Values of the texts in a list or range, `written` as a whole. A unit that only some of them have is an error: in
+        "4..5 mm" the first number would be 4 m."""
+        matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
+        bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
+        if bare and any(match and match[2] for match in matches):
+            raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
+                                    "number")
+        return tuple(self.number(part) for part in parts)
+
+    def shown(self, values: _Shown) -> tuple[str, _Shown]:
         """Unit in which the variable is usually shown, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
@@ -69,7 +108,7 @@ class Variable:
         words = {"true": True, "false": False}
         if isinstance(value, str) and value.lower() in words:
             return words[value.lower()]
-        if isinstance(value, (bool, int)) or type(value).__name__ == "bool_":
+        if isinstance(value, (bool, int, np.bool_)):
             if value in (0, 1):
                 return bool(value)
         raise DifferentialError(f"{self.name} = {value!r}: it is true or false")
@@ -102,6 +141,8 @@ class Variable:
 
     def _float(self, value, written):
         try:
+            if isinstance(value, bool) or type(value).__name__ == "bool_":
+                raise TypeError
             number = float(value)
         except (TypeError, ValueError):
             raise DifferentialError(f"{self.name} = {written!r}: it is a number{self._in_unit()}") from None
@@ -114,6 +155,8 @@ class Variable:
             return number
         if number != int(number):
             raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
+        if not -2**31 <= number < 2**31:
+            raise DifferentialError(f"{self.name} = {number:.15g}: it is a whole number from {-2**31} to {2**31 - 1}")
         return int(number)
 
     def _declared(self, text):
@@ -126,7 +169,14 @@ class Variable:
         return f" in {self.unit}" if self.unit else ""
 
 
-def suggestion(word, known):
+class Variables(Protocol):
+    """What finds a variable by its name: an `Fmu`, or a catalogue that knows more than its variables."""
+
+    def variable(self, name: str) -> Variable:
+        """The variable `name`. Raises `DifferentialError` if there is none."""
+
+
+def suggestion(word: str, known: Iterable[str]) -> str:
     """" (did you mean …?)", or nothing."""
     near = difflib.get_close_matches(word, list(known), n=3, cutoff=0.6)
     return f" (did you mean {' or '.join(near)}?)" if near else ""

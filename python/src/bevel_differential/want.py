@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .points import seconds
 from .statistic import Statistic
-from .values import DifferentialError
+from .values import DifferentialError, Variables
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 
@@ -20,7 +21,7 @@ class Want:
     statistic: Statistic
 
     @classmethod
-    def parse(cls, fmu, text: str) -> "Want":
+    def parse(cls, fmu: Variables, text: str) -> "Want":
         """Of "OUTPUT:STATISTIC"; without a statistic it is the final value."""
         name, _, word = text.strip().partition(":")
         variable = fmu.variable(name.strip())
@@ -28,10 +29,10 @@ class Want:
             raise DifferentialError(f"{variable.name}: it is an input; wanted are outputs")
         return cls(variable.name, Statistic.parse(word or "final"))
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.name}:{self.statistic.word}"
 
-    def unit(self, fmu) -> str:
+    def unit(self, fmu: Variables) -> str:
         """SI unit of the figure; "1" where it has none."""
         return "s" if self.statistic.word == "time_of_peak" else fmu.variable(self.name).unit or "1"
 
@@ -40,7 +41,8 @@ class Want:
         angle = self.statistic.angle
         # a pitch of the planet is a period of the mesh
         teeth = planet_teeth if angle == "planet[1].spin_angle" else 1
-        return self.statistic.of(record["time"], record[self.name].astype(float), angle and record[angle] * teeth)
+        return self.statistic.of(record["time"], record[self.name].astype(float),
+                                 None if angle is None else record[angle] * teeth)
 
 
 @dataclass(frozen=True)
@@ -52,16 +54,19 @@ class Condition:
     limit: float
 
     @classmethod
-    def parse(cls, fmu, text: str) -> "Condition":
+    def parse(cls, fmu: Variables, text: str) -> "Condition":
         """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
         parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
         if len(parts) != 3:
             raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of "
                                     f"{', '.join(RELATIONS)}")
         want = Want.parse(fmu, parts[0])
-        return cls(want, parts[1], float(fmu.variable(want.name).number(parts[2].strip())))
+        written = parts[2].strip()
+        is_time = want.statistic.word == "time_of_peak"
+        limit = seconds(f"condition {text!r}: the time", written) if is_time else fmu.variable(want.name).number(written)
+        return cls(want, parts[1], float(limit))
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{self.want} {self.relation} {self.limit:g}"
 
     def holds(self, figure: float) -> bool:

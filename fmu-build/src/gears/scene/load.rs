@@ -95,6 +95,7 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
         add_input_file(input_file, file, &mut input_tables, &mut problems);
     }
     let outputs = outputs(&entry.outputs, &mut problems);
+    overridden(&events, &input_tables, &mut problems);
     if !problems.is_empty() {
         bail!("{}", problems.join("\n"));
     }
@@ -174,6 +175,19 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Vec<String>) -> Option
         problems.push(format!("{place} {name} is fixed: only inputs and tunable parameters change during a run"));
     }
     Some(Event { time, settings })
+}
+
+/// Values at a time for inputs that follow a table have no effect.
+fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Vec<String>) {
+    for event in events {
+        for name in event.settings.iter().map(|setting| setting.row.name) {
+            if input_tables.iter().any(|table| table.row.name == name) {
+                let time = event.time;
+                problems
+                    .push(format!("[[at]] time = {time}: {name} follows a table, which overrides a value; remove one"));
+            }
+        }
+    }
 }
 
 fn input_table(entry: InputTableEntry, problems: &mut Vec<String>) -> Option<InputTable> {

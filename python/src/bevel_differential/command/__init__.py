@@ -6,6 +6,8 @@ import importlib
 import importlib.util
 import os
 import sys
+from collections.abc import Sequence
+from typing import NoReturn
 
 from ..extras import install
 from ..values import DifferentialError, suggestion
@@ -21,11 +23,11 @@ FAILED, WRONG_USE, INTERRUPTED = 1, 2, 130
 class Parser(argparse.ArgumentParser):
     """Says what is wrong in one line."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         self.exit(WRONG_USE, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
-def main(argv=None) -> int:
+def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command with these arguments, or those of the process. Returns its exit status."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
@@ -80,5 +82,5 @@ def _help(module):
 
 
 def _said(what, status):
-    print(f"{NAME}: {'; '.join(str(what).splitlines())}", file=sys.stderr)
+    print(f"{NAME}: {'; '.join(str(what).splitlines()).replace(':; ', ': ')}", file=sys.stderr)
     return status

@@ -1,6 +1,9 @@
 """Arguments that several sub-commands take."""
 
 import argparse
+from collections.abc import Iterable
+
+from ..values import DifferentialError
 
 
 def assignment(text: str) -> tuple[str, str]:
@@ -11,12 +14,22 @@ def assignment(text: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def add_fmu(parser: argparse.ArgumentParser):
+def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Values by name. A name that is given twice would lose a value without a word."""
+    values: dict[str, str] = {}
+    for name, value in pairs:
+        if name in values:
+            raise DifferentialError(f"{option} {name}: it is given twice; leave one of them out")
+        values[name] = value
+    return values
+
+
+def add_fmu(parser: argparse.ArgumentParser) -> None:
     """The FMU to use."""
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
 
 
-def add_set(parser: argparse.ArgumentParser):
+def add_set(parser: argparse.ArgumentParser) -> None:
     """Values that differ from the scene's."""
     parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")

@@ -1,14 +1,15 @@
 """The command `run`: simulates a scene."""
 
 import argparse
+from collections.abc import Callable
 
-from .arguments import add_fmu, add_set
+from .arguments import add_fmu, add_set, once
 
 HELP = "simulate a scene"
 EXTRA = None
 
 
-def add_arguments(parser: argparse.ArgumentParser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
@@ -22,14 +23,20 @@ def add_arguments(parser: argparse.ArgumentParser):
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulates, prints a summary and writes files. Returns 0."""
+    from ..output_file import checked, checked_picture
     from ..scene import Scene
 
+    for file in (arguments.csv, arguments.parquet):
+        checked(file)
+    checked_picture(arguments.plot)
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
-        record = scene.set(dict(arguments.set)).run(arguments.output, stop=arguments.stop)
+        record = scene.set(once("--set", arguments.set)).run(arguments.output, stop=arguments.stop)
         for warning in scene.warnings:
             print(f"warning: {warning}")
         print(scene.summary(record))
-        for write, file in [(scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet), (scene.plot, arguments.plot)]:
+        writers: list[tuple[Callable[..., object], str | None]] = [
+            (scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet), (scene.plot, arguments.plot)]
+        for write, file in writers:
             if file:
                 write(record, file)
                 print(f"written: {file}")

@@ -2,7 +2,7 @@
 
 import argparse
 
-from .arguments import add_fmu, add_set, assignment
+from .arguments import add_fmu, add_set, assignment, once
 
 HELP = "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"
 EXTRA = "sweep"
@@ -12,7 +12,7 @@ KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": 
 USUAL = {"plan": "random", "seed": 0, "start": 0.0}
 
 
-def add_arguments(parser: argparse.ArgumentParser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     parser.add_argument("--scene", help="a scene file (TOML), or the name of a shipped scene")
     parser.add_argument("--vary", metavar="NAME=VALUES", type=assignment, action="append", default=[],
@@ -63,7 +63,7 @@ def _merged(arguments):
         if getattr(arguments, name) is not None:
             given[name] = getattr(arguments, name)
     for name in ("set", "vary"):
-        given[name] = {**given.get(name, {}), **dict(getattr(arguments, name))}
+        given[name] = {**given.get(name, {}), **once(f"--{name}", getattr(arguments, name))}
     for name in ("want", "condition"):
         given[name] = [*given.get(name, []), *getattr(arguments, name)]
     return given
@@ -83,8 +83,12 @@ def _read(file):
     for key in found:
         if key not in KEYS:
             raise DifferentialError(f"{file}: {key}: there is no such key{suggestion(key, KEYS)}; known: {', '.join(KEYS)}")
-    for key, kind, written in [("set", dict, "a table"), ("vary", dict, "a table"), ("want", list, "a list"),
-                               ("condition", list, "a list")]:
-        if not isinstance(found.get(key, kind()), kind):
-            raise DifferentialError(f"{file}: {key} is {written}")
+    for kind, written, keys in [(dict, "a table", ("set", "vary")), (list, "a list", ("want", "condition")),
+                                (str, "a text", ("scene", "plan")), (int, "a whole number", ("runs", "seed"))]:
+        for key in keys:
+            if not isinstance(found.get(key, kind()), kind):
+                raise DifferentialError(f"{file}: {key} is {written}")
+    for key in ("want", "condition"):
+        if not all(isinstance(entry, str) for entry in found.get(key, [])):
+            raise DifferentialError(f"{file}: {key} is a list of texts, such as \"left.speed:mean\"")
     return {KEYS[key]: flat(value) if key in ("set", "vary") else value for key, value in found.items()}

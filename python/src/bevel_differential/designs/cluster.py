@@ -5,11 +5,16 @@ import multiprocessing
 import os
 import signal
 import warnings
+from collections.abc import Iterator
 from contextlib import contextmanager
 from multiprocessing import resource_tracker
+from typing import TYPE_CHECKING
 
 from ..extras import needed
 from ..values import DifferentialError
+
+if TYPE_CHECKING:
+    from distributed import Client
 
 # no message has this level
 SILENT = logging.CRITICAL + 1
@@ -29,7 +34,7 @@ SETTINGS = {
 
 
 @contextmanager
-def client(workers: int | None, processes: bool, scheduler: str | None):
+def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iterator[Client]":
     """A dask client: of the scheduler at an address, or of an own cluster with one thread per worker."""
     dask, distributed = needed("dask", "sweep"), needed("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):

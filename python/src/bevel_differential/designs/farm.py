@@ -6,14 +6,15 @@ import queue
 import sys
 import time
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import CancelledError
-from contextlib import suppress
+from contextlib import closing, suppress
+from typing import Any, Protocol, Self, TypeVar
 
 from ..extras import needed
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from . import cluster
-from .task import Row, Task
+from .task import Row
 
 # time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
 SHORTEST, LONGEST = 0.1, 1.0
@@ -23,6 +24,20 @@ LAST_CHUNKS = 4
 AT_HAND = 2
 # time without any worker after which none will come any more, s
 DESERTED = 60.0
+
+
+R = TypeVar("R", bound=Row)
+R_co = TypeVar("R_co", bound=Row, covariant=True)
+
+
+class Evaluator(Protocol[R_co]):
+    """What a farm evaluates designs by: a `Task`, or what can do the same. It can be pickled."""
+
+    def evaluate(self, run: int, values: Mapping[str, Number]) -> R_co:
+        """The row of a design."""
+
+    def close(self) -> None:
+        """Frees what it holds."""
 
 
 class Farm:
@@ -36,24 +51,25 @@ class Farm:
         if workers is not None and workers < 0:
             raise DifferentialError(f"workers = {workers}: it is 0 or more")
         self.workers, self.processes, self.scheduler, self.progress = workers, processes, scheduler, progress
-        self._client = self._opened = None
+        self._client: Any = None
+        self._opened: Any = None
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         if self.workers != 0 or self.scheduler:
             self._opened = cluster.client(self.workers, self.processes, self.scheduler)
             self._client = self._opened.__enter__()
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         if self._client is not None:
             self._client = None
             self._opened.__exit__(None, None, None)
 
-    def evaluate(self, task: Task, designs: Iterable) -> list[Row]:
+    def evaluate(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> list[R]:
         """Rows of all designs [(run, values)], in order of run."""
         return sorted(self.rows(task, designs), key=lambda row: row.run)
 
-    def rows(self, task: Task, designs: Iterable) -> Iterator[Row]:
+    def rows(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[R, None, None]:
         """Rows as they complete. `task`: a `Task`, or what has its `evaluate` and `close` and can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()
@@ -147,4 +163,6 @@ class _Run:
 
 
 def _with_bar(rows, total):
-    return needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+    # who stops early closes what is returned, and with it the rows: designs under way are cancelled
+    with closing(rows):
+        yield from needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import qmc
 
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, Number, suggestion
 from .space import Space
 
 KINDS = {"grid": "all combinations of lists and ranges", "lhs": "a Latin hypercube", "sobol": "a scrambled Sobol sequence",
@@ -37,6 +37,10 @@ class Plan:
             raise DifferentialError(f"there is no plan {kind!r}{suggestion(kind, KINDS)}; known: {', '.join(KINDS)}")
         if seed != int(seed) or seed < 0:
             raise DifferentialError(f"seed = {seed!r}: it is a whole number, 0 or more")
+        counted = next((one for one in space.dimensions if one.count is not None), None)
+        if kind != "grid" and counted is not None:
+            raise DifferentialError(f"{counted.variable}: plan {kind} draws from the whole range; leave the count "
+                                    f"{counted.count} out, or choose the plan grid")
         if kind == "grid":
             runs = _size_of_grid(space, runs)
         elif runs is None or runs != int(runs) or runs < 1:
@@ -48,7 +52,7 @@ class Plan:
             raise DifferentialError(f"plan {kind}: {runs} runs are more than {MOST_RUNS}")
         return cls(space, kind, int(runs), int(seed))
 
-    def designs(self) -> list[tuple[int, dict]]:
+    def designs(self) -> list[tuple[int, dict[str, Number]]]:
         """All designs by run: [(run, {name: value in SI})]."""
         planned, seeds = _split(self.space)
         designs = planned.grid() if self.kind == "grid" else planned.at(self._shares(len(planned.dimensions)))
@@ -82,7 +86,7 @@ def _split(space):
 
 
 def _size_of_grid(space, runs):
-    size = math.prod(len(one.levels()) for one in _split(space)[0].dimensions)
+    size = math.prod(one.size() for one in _split(space)[0].dimensions)
     if runs not in (None, size):
         raise DifferentialError(f"this grid has {size} runs, not {runs}: leave the number out")
     return size

@@ -29,8 +29,7 @@ def text(result: SweepResult, asked: int | None = None) -> str:
         lines.append(f"{result.new} runs in {result.seconds:.1f} s: {result.new / result.seconds:.1f} designs/s")
     if result.new < table.num_rows:
         lines.append(f"{table.num_rows - result.new} runs were kept from before")
-    if result.file is not None:
-        lines.append(f"written: {result.file}")
+    lines.append("rows are not kept: name a file by --out" if result.file is None else f"written: {result.file}")
     return "\n".join(lines)
 
 

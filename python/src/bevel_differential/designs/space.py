@@ -2,13 +2,18 @@
 
 import itertools
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from scipy import stats
 
-from ..values import DifferentialError
+from ..fmu import Fmu
+from ..values import DifferentialError, Number, Value, Variable
+
+# values to try as a user writes them: text such as "4 mm..5 mm:11", a sequence of values, or one value
+Given: TypeAlias = Number | str | Iterable[Value]
 
 _CALL = re.compile(r"(uniform|normal|triangular|lognormal)\((.*)\)$")
 _USAGE = ("write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
@@ -27,19 +32,20 @@ class Dimension:
 
     variable: str
     kind: str
-    numbers: tuple
+    numbers: tuple[Number, ...]
     count: int | None = None
     whole: bool = False
 
     @classmethod
-    def parse(cls, fmu, name: str, given) -> "Dimension":
+    def parse(cls, fmu: Fmu, name: str, given: Given) -> "Dimension":
         """Of text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or of a sequence of values."""
         variable = fmu.variable(name)
         if variable.causality not in ("parameter", "input"):
             raise DifferentialError(f"{name}: it is calculated and cannot be varied")
         text = given.strip() if isinstance(given, str) else None
         if text is None:
-            return cls._list(variable, given if isinstance(given, Iterable) else [given])
+            values = given if isinstance(given, Iterable) else [given]
+            return cls._list(variable, tuple(variable.number(value) for value in values))
         if text == "seed":
             return cls._seed(variable)
         call = _CALL.match(text)
@@ -47,21 +53,20 @@ class Dimension:
             return cls._distribution(variable, call[1], [part.strip() for part in call[2].split(",")], text)
         if ".." in text:
             return cls._range(variable, text)
-        return cls._list(variable, [part.strip() for part in text.split(",")])
+        return cls._list(variable, variable.numbers([part.strip() for part in text.split(",")], text))
 
     @classmethod
-    def _list(cls, variable, values):
-        numbers = tuple(variable.number(value) for value in values)
+    def _list(cls, variable: Variable, numbers: tuple[Number, ...]) -> "Dimension":
         if not numbers:
             raise DifferentialError(f"{variable.name}: no values; {_USAGE}")
         return cls(variable.name, "list", numbers)
 
     @classmethod
-    def _range(cls, variable, text):
+    def _range(cls, variable: Variable, text: str) -> "Dimension":
         bounds, _, count = text.partition(":")
-        low, high = (variable.number(part.strip()) for part in bounds.split("..", 1))
         if variable.kind not in ("Real", "Integer"):
             raise DifferentialError(f"{variable.name}: it has no ranges; list its values")
+        low, high = variable.numbers([part.strip() for part in bounds.split("..", 1)], text)
         if not low < high:
             raise DifferentialError(f"{variable.name} = {text}: the range ends at or before its beginning")
         try:
@@ -70,10 +75,12 @@ class Dimension:
             number = 0
         if number is not None and number < 2:
             raise DifferentialError(f"{variable.name} = {text}: a range has 2 values or more")
+        if number is not None and variable.kind == "Integer" and number > high - low + 1:
+            raise DifferentialError(f"{variable.name} = {text}: there are only {high - low + 1} whole numbers in it")
         return cls(variable.name, "range", (low, high), number, variable.kind == "Integer")
 
     @classmethod
-    def _seed(cls, variable):
+    def _seed(cls, variable: Variable) -> "Dimension":
         if variable.kind != "Integer":
             raise DifferentialError(f"{variable.name}: only whole numbers can be seeds")
         bounds = zip((variable.minimum, variable.maximum), (0, 2**31 - 1))
@@ -81,24 +88,26 @@ class Dimension:
         return cls(variable.name, "seed", (low, high), whole=True)
 
     @classmethod
-    def _distribution(cls, variable, kind, parts, text):
+    def _distribution(cls, variable: Variable, kind: str, parts: Sequence[str], text: str) -> "Dimension":
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name}: only real variables have distributions")
         wanted = {"uniform": 2, "normal": 2, "triangular": 3, "lognormal": 2}[kind]
         if len(parts) != wanted:
             raise DifferentialError(f"{variable.name} = {text}: {kind} takes {wanted} numbers; {_USAGE}")
+        numbers: tuple[Number, ...]
         if kind == "lognormal":
             # the factor has no unit
             numbers = (variable.number(parts[0]), _plain(variable, parts[1], text))
         else:
-            numbers = tuple(variable.number(part) for part in parts)
-        sane = {"uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
-                "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}[kind]
-        if not sane(*numbers):
+            numbers = variable.numbers(parts, text)
+        sane: dict[str, Callable[..., bool]] = {
+            "uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
+            "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}
+        if not sane[kind](*numbers):
             raise DifferentialError(f"{variable.name} = {text}: these numbers make no distribution; {_USAGE}")
         return cls(variable.name, kind, numbers)
 
-    def at(self, share: np.ndarray) -> list:
+    def at(self, share: np.ndarray) -> list[Number]:
         """Values at shares of probability in [0, 1), shape (runs,), in SI."""
         share, numbers = np.asarray(share, float), self.numbers
         if self.kind == "list":
@@ -108,21 +117,25 @@ class Dimension:
             return [low + int(i) for i in np.minimum(share * (high - low + 1), high - low)]
         return _quantile(self.kind, numbers, share).tolist()
 
-    def levels(self) -> list:
-        """Values on a grid, in SI."""
+    def size(self) -> int:
+        """How many values there are on a grid."""
         if self.kind == "list":
-            return list(self.numbers)
+            return len(self.numbers)
         if self.kind != "range":
             raise DifferentialError(f"{self.variable}: a grid needs a list or a range, not {self.kind}")
-        low, high = self.numbers
-        if self.whole:
-            step = 1 if self.count is None else (high - low) / (self.count - 1)
-            return [round(value) for value in np.arange(low, high + 0.5 * step, step)]
-        if self.count is None:
+        if self.count is None and not self.whole:
             raise DifferentialError(f"{self.variable}: a grid needs the number of values, such as FROM..TO:11")
-        return np.linspace(low, high, self.count).tolist()
+        return self.count or int(self.numbers[1] - self.numbers[0]) + 1
 
-    def __str__(self):
+    def levels(self) -> list[Number]:
+        """Values on a grid, in SI."""
+        size = self.size()
+        if self.kind == "list":
+            return list(self.numbers)
+        values = np.linspace(self.numbers[0], self.numbers[1], size).tolist()
+        return [round(value) for value in values] if self.whole else values
+
+    def __str__(self) -> str:
         count = f":{self.count}" if self.count else ""
         return f"{self.kind}({', '.join(map(repr, self.numbers))}){count}"
 
@@ -153,7 +166,7 @@ class Space:
     dimensions: tuple[Dimension, ...]
 
     @classmethod
-    def parse(cls, fmu, given: Mapping) -> "Space":
+    def parse(cls, fmu: Fmu, given: Mapping[str, Given]) -> "Space":
         """Of a mapping from names to what `Dimension.parse` takes."""
         if not given:
             raise DifferentialError("nothing varies: name a variable and its values")
@@ -164,16 +177,16 @@ class Space:
         """Names of the variables."""
         return [dimension.variable for dimension in self.dimensions]
 
-    def at(self, shares: np.ndarray) -> list[dict]:
+    def at(self, shares: np.ndarray) -> list[dict[str, Number]]:
         """Designs at points of the unit cube, shape (runs, dimensions)."""
         shares = np.asarray(shares, float)
         columns = [dimension.at(column) for dimension, column in zip(self.dimensions, shares.T)]
         return self.designs(zip(*columns) if columns else [()] * len(shares))
 
-    def grid(self) -> list[dict]:
+    def grid(self) -> list[dict[str, Number]]:
         """All combinations of the levels of all dimensions; the last one changes fastest."""
         return self.designs(itertools.product(*(dimension.levels() for dimension in self.dimensions)))
 
-    def designs(self, rows: Iterable[Sequence]) -> list[dict]:
+    def designs(self, rows: Iterable[Sequence[Number]]) -> list[dict[str, Number]]:
         """Designs from rows of values, SI."""
         return [dict(zip(self.names, row)) for row in rows]

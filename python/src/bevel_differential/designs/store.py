@@ -6,12 +6,15 @@ import os
 import shutil
 import time
 from pathlib import Path
+from typing import Any, Self
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ..values import DifferentialError
-from .table import metadata_of, with_metadata
+from ..output_file import checked
+from ..values import DifferentialError, FileName
+from .table import Columns, metadata_of, with_metadata
+from .task import Row
 
 # time between two parts, s
 INTERVAL = 1.0
@@ -24,20 +27,19 @@ class Store:
     A context: what has been added is kept, whatever ends it. `resume` goes on with the parts
     that are there, `force` starts over."""
 
-    def __init__(self, file, columns, metadata: dict, resume: bool = False, force: bool = False):
+    def __init__(self, file: FileName, columns: Columns, metadata: dict[str, Any], resume: bool = False, force: bool = False):
         self.file, self.columns, self.metadata = Path(file), columns, metadata
         self.folder = self.file.with_name(self.file.name + ".parts")
-        self._rows, self._flushed = [], time.monotonic()
-        self.finished = None
+        self._rows: list[Row] = []
+        self._flushed = time.monotonic()
+        self.finished: pa.Table | None = None
+        checked(self.file)
         if force:
-            self._check_place()
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():
             self.finished = self._finished(resume)
         elif self.folder.exists():
             self._check_parts(resume)
-        else:
-            self._check_place()
         if self.finished is None:
             self._begin()
         self.kept = self._read_parts() if self.finished is None else self.finished
@@ -47,13 +49,13 @@ class Store:
         """Runs that are kept."""
         return set(self.kept["run"].to_pylist())
 
-    def add(self, row):
+    def add(self, row: Row) -> None:
         """Keeps a row."""
         self._rows.append(row)
         if time.monotonic() - self._flushed > INTERVAL:
             self.flush()
 
-    def flush(self):
+    def flush(self) -> None:
         """Writes what has been added into a part."""
         if self._rows:
             number = len(list(self.folder.glob("part-*.parquet")))
@@ -75,19 +77,13 @@ class Store:
         return (f"{self._count} of {self.metadata['runs']} runs are kept in {self.folder}; "
                 "the same command with --resume (resume=True) goes on")
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, kind, *_):
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         # a disk that could not be written to is not tried again
         if kind is not None and not issubclass(kind, StoreError):
             self.flush()
-
-    def _check_place(self):
-        if not self.file.absolute().parent.is_dir():
-            raise DifferentialError(f"{self.file}: there is no folder {self.file.absolute().parent}; make it first")
-        if self.file.is_dir():
-            raise DifferentialError(f"{self.file}: it is a folder; name a file")
 
     def _finished(self, resume):
         try:

@@ -5,23 +5,28 @@ import importlib.metadata
 import json
 import time
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from ..points import seconds
+from ..points import TimeValue, seconds
 from ..scene import Scene
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName
+from ..want import Condition, Want
 from .farm import Farm
 from .plan import Plan
-from .space import Space
+from .space import Given, Space
 from .store import Store, StoreError
 from .table import Columns, digest, metadata_of, with_metadata
 from .task import Task
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Stopped(KeyboardInterrupt):
@@ -37,13 +42,13 @@ class SweepResult:
     `new`: how many these were, as others were kept from before."""
 
     table: pa.Table
-    metadata: dict
+    metadata: dict[str, Any]
     file: Path | None = None
     seconds: float = 0.0
     new: int = 0
 
     @classmethod
-    def load(cls, file) -> "SweepResult":
+    def load(cls, file: FileName) -> "SweepResult":
         """Of a file."""
         try:
             table = pq.read_table(file)
@@ -54,7 +59,7 @@ class SweepResult:
             raise DifferentialError(f"{file}: it holds no sweep")
         return cls(table, metadata, Path(file))
 
-    def frame(self):
+    def frame(self) -> "pandas.DataFrame":
         """As a pandas DataFrame, by run."""
         return self.table.to_pandas().set_index("run")
 
@@ -62,7 +67,7 @@ class SweepResult:
         """A hash of all rows without the times they took."""
         return digest(self.table)
 
-    def failures(self) -> Counter:
+    def failures(self) -> Counter[str]:
         """How many designs failed, by message."""
         return Counter(message for message in self.table["message"].to_pylist() if message)
 
@@ -71,9 +76,9 @@ class SweepResult:
         return self.table.schema.field(column).metadata[b"unit"].decode()
 
 
-def sweep(scene, vary, plan: str = "random", runs: int | None = None, seed: int = 0, wants: Sequence = (),
-          conditions: Sequence = (), start=0.0, out=None, resume: bool = False, force: bool = False,
-          **farm) -> SweepResult:
+def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan | str = "random", runs: int | None = None,
+          seed: int = 0, wants: Sequence[str | Want] = (), conditions: Sequence[str | Condition] = (), start: TimeValue = 0.0,
+          out: FileName | None = None, resume: bool = False, force: bool = False, **farm: Any) -> SweepResult:
     """Runs a scene (a `Scene`, or what `Scene.load` takes) for all designs of a plan.
 
     `vary`: values by variable, see `Dimension.parse`. `plan`, `runs`, `seed`: see `Plan`. `wants`, `conditions`, `start`: see
@@ -81,6 +86,7 @@ def sweep(scene, vary, plan: str = "random", runs: int | None = None, seed: int 
     `Stopped`."""
     scene = scene if isinstance(scene, Scene) else Scene.load(scene)
     space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
+    scene.check_settable(space.names)
     task = Task(scene, wants, conditions, seconds("from", start))
     plan = plan if isinstance(plan, Plan) else Plan.parse(space, plan, runs, seed)
     columns, metadata = Columns(task, space), describe(task, plan)
@@ -112,7 +118,7 @@ def sweep(scene, vary, plan: str = "random", runs: int | None = None, seed: int 
     return SweepResult(table, metadata, Path(out), taken, len(missing))
 
 
-def describe(task: Task, plan: Plan) -> dict:
+def describe(task: Task, plan: Plan) -> dict[str, Any]:
     """What results follow from, for their metadata; "hash" is the hash of it all."""
     scene = {key: value for key, value in task.scene.__getstate__().items() if key != "fmu"}
     from_all = {

@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Sequence
+from typing import Any
 
 import pyarrow as pa
 
@@ -32,7 +33,7 @@ class Columns:
     def table(self, rows: Sequence[Row]) -> pa.Table:
         """The table of rows, in order of run. Figures of designs that failed are null."""
         rows = sorted(rows, key=lambda row: row.run)
-        columns = [[row.run for row in rows]]
+        columns: list[list] = [[row.run for row in rows]]
         columns += [self._values(variable.name, rows) for variable in self._variables]
         columns += [[row.figures.get(name) for row in rows] for name, _ in self._figures]
         columns += [[row.feasible for row in rows], [row.message for row in rows], [row.seconds for row in rows]]
@@ -48,12 +49,12 @@ def _field(name, kind, unit):
     return pa.field(name, kind, metadata={"unit": unit})
 
 
-def with_metadata(table: pa.Table, metadata: dict) -> pa.Table:
+def with_metadata(table: pa.Table, metadata: dict[str, Any]) -> pa.Table:
     """The table with metadata as JSON."""
     return table.replace_schema_metadata({KEY: json.dumps(metadata)})
 
 
-def metadata_of(schema: pa.Schema) -> dict | None:
+def metadata_of(schema: pa.Schema) -> dict[str, Any] | None:
     """The metadata of a table of this package; None for others."""
     text = (schema.metadata or {}).get(KEY)
     return None if text is None else json.loads(text)

@@ -3,9 +3,11 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
+from ..points import SLACK
 from ..scene import Scene
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from ..want import Condition, Want
 
 
@@ -17,13 +19,13 @@ class Row:
     `seconds`: what it took."""
 
     run: int
-    values: dict
-    figures: dict = field(default_factory=dict)
+    values: dict[str, Number]
+    figures: dict[str, float] = field(default_factory=dict)
     feasible: bool = False
     message: str = ""
     seconds: float = 0.0
 
-    def flat(self) -> dict:
+    def flat(self) -> dict[str, Any]:
         """As a row of a table."""
         return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
                 "seconds": self.seconds}
@@ -36,7 +38,8 @@ class Task:
     `start` (s) on; `figures` are all that are taken, in order. Where only final values are wanted the scene takes one
     long step."""
 
-    def __init__(self, scene: Scene, wants: Sequence, conditions: Sequence = (), start: float = 0.0):
+    def __init__(self, scene: Scene, wants: Sequence[str | Want], conditions: Sequence[str | Condition] = (),
+                 start: float = 0.0):
         self.scene, self.start = scene, start
         fmu = scene.fmu
         self.wants = [want if isinstance(want, Want) else Want.parse(fmu, want) for want in wants]
@@ -46,8 +49,12 @@ class Task:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
         if not 0.0 <= start < scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
+        # fewer than two points have no mean and no swing
+        if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - SLACK):
+            raise DifferentialError(f"from = {start:g} s leaves less than two steps of {scene.step:g} s to the end at "
+                                    f"{scene.stop:g} s; begin earlier, or make the scene's step smaller")
 
-    def evaluate(self, run: int, values: Mapping) -> Row:
+    def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """The row of a design. What fails is a row, too."""
         begun = time.perf_counter()
         row = Row(run, dict(values))
@@ -59,12 +66,15 @@ class Task:
         row.seconds = time.perf_counter() - begun
         return row
 
-    def close(self):
+    def close(self) -> None:
         """Frees the scene's instances."""
         self.scene.close()
 
+    def _only_final(self):
+        return all(want.statistic.word == "final" for want in self.figures)
+
     def _figures(self, values):
-        if all(want.statistic.word == "final" for want in self.figures):
+        if self._only_final():
             last = self.scene.final([want.name for want in self.figures], values)
             return {str(want): float(last[want.name]) for want in self.figures}
         angles = {want.statistic.angle for want in self.figures} - {None}

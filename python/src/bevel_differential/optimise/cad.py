@@ -4,7 +4,7 @@ import shlex
 import subprocess
 from pathlib import Path
 
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName
 from .design_task import DesignRow
 from .problem import Problem
 from .quantities import Catalogue
@@ -26,7 +26,7 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def arguments(problem: Problem, row: DesignRow, folder) -> list[str]:
+def arguments(problem: Problem, row: DesignRow, folder: FileName) -> list[str]:
     """Arguments of the command `geometry` for the design's gears."""
     catalogue = Catalogue(problem.scene.fmu)
     starts = catalogue.starts()
@@ -40,12 +40,12 @@ def arguments(problem: Problem, row: DesignRow, folder) -> list[str]:
     return [*told, "--out", str(folder)]
 
 
-def command_line(problem: Problem, row: DesignRow, folder) -> str:
+def command_line(problem: Problem, row: DesignRow, folder: FileName) -> str:
     """The same as a line for the shell, at the top of the repository."""
     return shlex.join(["cargo", "run", "--release", "--", *arguments(problem, row, folder)])
 
 
-def write_gears(program, problem: Problem, row: DesignRow, folder) -> bool:
+def write_gears(program: FileName, problem: Problem, row: DesignRow, folder: FileName) -> bool:
     """Writes curves and solids by `program`; whether its check with fillets finds the gears free of interference."""
     folder = Path(folder)
     try:

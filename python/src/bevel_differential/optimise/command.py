@@ -11,7 +11,7 @@ EXTRA = "design"
 QUICK = {"population": 32, "generations": 12, "starts": 1}
 
 
-def add_arguments(parser: argparse.ArgumentParser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     parser.add_argument("problem", type=Path, help="problem file (TOML); see docs/optimisation.md")
     parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")

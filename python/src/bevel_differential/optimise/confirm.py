@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from ..designs.farm import Farm
 from .design_task import DesignRow, DesignTask
 from .problem import Problem
 
@@ -32,9 +33,9 @@ class Confirmed:
         return told
 
 
-def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm) -> list[Confirmed]:
+def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm: Farm) -> list[Confirmed]:
     """Runs rows with each model of the problem; with models for chosen designs alone only those."""
-    found = {row.run: {} for row in rows}
+    found: dict[int, dict[str, DesignRow]] = {row.run: {} for row in rows}
     for name, model in problem.confirm.items():
         task = DesignTask(problem.at(model), thorough=True)
         wanted = chosen if model.only_chosen else rows

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from ..designs.task import Row, Task
 from ..statistic import Statistic
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from ..want import Condition, Want
 from .checks import violations
 from .pair import Pair
@@ -40,7 +40,8 @@ class DesignTask(Task):
 
     def __init__(self, problem: Problem, thorough: bool = False):
         self.problem, self.thorough = problem, thorough
-        self.wanted = list(dict.fromkeys(each.want for each in [*problem.objectives, *problem.conditions]))
+        self.wanted = list(dict.fromkeys([*(each.want for each in problem.objectives),
+                                          *(each.want for each in problem.conditions)]))
         self.on_dimensions = [each for each in problem.conditions if _on_dimensions(each.want)]
         self.on_figures = [each for each in problem.conditions if not _on_dimensions(each.want)]
         final = Statistic("final")
@@ -50,7 +51,7 @@ class DesignTask(Task):
         super().__init__(problem.scene, simulated or [Want("geometry.contact_ratio", final)])
         self.known = {**Catalogue(problem.scene.fmu).starts(), **problem.scene.values}
 
-    def evaluate(self, run: int, values: Mapping) -> DesignRow:
+    def evaluate(self, run: int, values: Mapping[str, Number]) -> DesignRow:
         """The row of a design."""
         begun = time.perf_counter()
         row = DesignRow(run, dict(values))

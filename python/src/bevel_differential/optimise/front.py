@@ -68,7 +68,7 @@ def choice(rows: Sequence[DesignRow], objectives: Sequence[Objective], compared:
             found.append(("better in all than the compared design", better[int(np.argmax(gains))]))
     found += [(f"{'least' if each.sign > 0 else 'most'} {each.want.name}", int(np.argmin(cost[:, k])))
               for k, each in enumerate(objectives)]
-    chosen = {}
+    chosen: dict[int, str] = {}
     for reason, i in found:
         chosen[i] = f"{chosen[i]}; {reason}" if i in chosen else reason
     while len(chosen) < min(CHOICES, len(rows)):

@@ -72,7 +72,7 @@ class Pair:
             gears.append(Gear(teeth[i], pitch[i], math.asin(sin(pitch[i]) * cos(alpha)), pitch[i] + atan2(addenda[i], outer),
                               pitch[i] - atan2(dedenda[i], outer), half, addenda[i], dedenda[i],
                               given[("planet_bore", "side_bore")[i]]))
-        return cls(tuple(gears), module, alpha, given["face_width"], given["planet_count"], outer)
+        return cls((gears[0], gears[1]), module, alpha, given["face_width"], given["planet_count"], outer)
 
     @property
     def inner_cone(self) -> float:
@@ -117,7 +117,8 @@ def heights(given: Mapping) -> tuple[tuple[float, float], tuple[float, float]]:
     """Addenda and dedenda at the heel (planet, side gear), m, by the addendum system."""
     module, system = given["module"], given["addendum_system"]
     if system == EXPLICIT:
-        return tuple(tuple(given[f"{gear}_{what}"] * module for gear in ("planet", "side")) for what in ("addendum", "dedendum"))
+        return ((given["planet_addendum"] * module, given["side_addendum"] * module),
+                (given["planet_dedendum"] * module, given["side_dedendum"] * module))
     if system == STANDARD:
         return (module, module), (1.25 * module, 1.25 * module)
     # long and short addenda by the ratio of virtual teeth, which is the square of that of the teeth at 90 degrees

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from ..values import FileName
 from .design_task import DesignRow
 from .front import costs, dominates
 from .problem import Objective, Problem
@@ -9,7 +10,8 @@ from .quantities import Catalogue
 from .report import LETTERS
 
 
-def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem, file):
+def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem,
+            file: FileName) -> None:
     """Draws the front in panels, with the chosen designs by letter and the compared ones as stars; PNG."""
     import matplotlib
     matplotlib.use("Agg")

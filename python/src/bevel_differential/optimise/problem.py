@@ -6,12 +6,13 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from ..designs.space import Space
 from ..fmu import Fmu
 from ..scene import Scene
 from ..scene_file import find, flat
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, FileName, Number, Value, Variables, suggestion
 from ..want import Condition, Want
 from .quantities import QUANTITIES, Catalogue
 
@@ -31,14 +32,14 @@ class Objective:
     sign: float
 
     @classmethod
-    def parse(cls, catalogue, text: str) -> "Objective":
+    def parse(cls, catalogue: Variables, text: str) -> "Objective":
         """Of "maximise safety.root_min" or "minimise gears.mass"."""
         sense, _, what = text.strip().partition(" ")
         if sense not in SENSES:
             raise DifferentialError(f"objective {text!r}: write \"maximise OUTPUT\" or \"minimise OUTPUT\"")
         return cls(Want.parse(catalogue, what), SENSES[sense])
 
-    def __str__(self):
+    def __str__(self) -> str:
         return f"{'minimise' if self.sign > 0.0 else 'maximise'} {self.want}"
 
 
@@ -50,10 +51,10 @@ class Follower:
     source: str
     factor: float = 1.0
     plus: float = 0.0
-    table: dict | None = None
+    table: dict[Number, Number] | None = None
 
     @classmethod
-    def parse(cls, fmu, name: str, given) -> "Follower":
+    def parse(cls, fmu: Fmu, name: str, given: Mapping[str, Any]) -> "Follower":
         """Of { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
         unknown = set(given) - {"from", "factor", "plus", "table"} if isinstance(given, Mapping) else {"?"}
         if unknown or "from" not in given or ("table" in given and len(given) > 2):
@@ -65,7 +66,7 @@ class Follower:
             table = {source.number(key): variable.number(value) for key, value in table.items()}
         return cls(variable.name, source.name, float(given.get("factor", 1.0)), float(given.get("plus", 0.0)), table)
 
-    def of(self, values: Mapping):
+    def of(self, values: Mapping[str, Number]) -> Number:
         """Its value. Raises where the table has no entry."""
         given = values[self.source]
         if self.table is None:
@@ -80,7 +81,7 @@ class Model:
     """A richer model: settings of the scene, and conditions in the place of those on the same figure. `only_chosen`: it runs for
     the designs to choose from alone, not for the whole front."""
 
-    settings: dict
+    settings: dict[str, Value]
     conditions: list[Condition] = field(default_factory=list)
     only_chosen: bool = False
 
@@ -96,8 +97,8 @@ class Problem:
     objectives: list[Objective]
     conditions: list[Condition]
     followers: list[Follower] = field(default_factory=list)
-    compare: dict = field(default_factory=dict)
-    confirm: dict = field(default_factory=dict)
+    compare: dict[str, dict[str, Number]] = field(default_factory=dict)
+    confirm: dict[str, Model] = field(default_factory=dict)
     population: int = 96
     generations: int = 100
     starts: int = 1
@@ -105,11 +106,11 @@ class Problem:
     front: int = 64
 
     @classmethod
-    def load(cls, file, fmu=None) -> "Problem":
+    def load(cls, file: FileName, fmu: FileName | Fmu | None = None) -> "Problem":
         """Of a file. All errors in it are reported at once."""
         return _Reader(Path(file), Fmu.of(fmu)).problem()
 
-    def complete(self, values: Mapping) -> dict:
+    def complete(self, values: Mapping[str, Number]) -> dict[str, Number]:
         """A design with the parameters that follow from it."""
         known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
         followed = {}
@@ -127,7 +128,8 @@ class Problem:
 
     def sized(self, **effort: int) -> "Problem":
         """The same problem with another population, generations, starts, seed or front."""
-        problem = replace(self, **effort)
+        changed: dict[str, Any] = {**effort}
+        problem = replace(self, **changed)
         for key, least in EFFORT.items():
             if getattr(problem, key) < least:
                 raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
@@ -198,6 +200,9 @@ class _Reader:
         found = Space.parse(self.fmu, {name: given}).dimensions[0]
         if found.kind not in ("list", "range"):
             raise DifferentialError(f"{name} = {given}: an optimisation varies over FROM..TO or a list, not over a distribution")
+        if found.count is not None:
+            raise DifferentialError(f"{name} = {given}: a search takes all values of a range; leave the count out, or "
+                                    "write a list")
         return found
 
     def named(self, key, others=()):

@@ -9,7 +9,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import cos, pi, sin
 
-from ..values import DifferentialError, Variable, suggestion
+from ..fmu import Fmu
+from ..values import DifferentialError, Number, Variable, suggestion
 from .checks import tool_room
 from .pair import Pair
 
@@ -27,7 +28,7 @@ class Quantity:
     @property
     def description(self) -> str:
         """What it is."""
-        return self.of.__doc__
+        return self.of.__doc__ or ""
 
 
 QUANTITIES: dict[str, Quantity] = {}
@@ -145,12 +146,13 @@ def _pin(values):
 class Catalogue:
     """Variables of the FMU and the quantities, by name, as `Want.parse` and `Condition.parse` look them up."""
 
-    def __init__(self, fmu):
+    def __init__(self, fmu: Fmu):
         self.fmu = fmu
 
-    def starts(self) -> dict:
+    def starts(self) -> dict[str, Number]:
         """Start values of all parameters by name, SI, as the FMU declares them."""
-        read = {"Real": float, "Integer": int, "Enumeration": int, "Boolean": lambda text: text == "true"}
+        read: dict[str, Callable[[str], Number]] = {"Real": float, "Integer": int, "Enumeration": int,
+                                                    "Boolean": lambda text: text == "true"}
         return {each.name: read[each.type](each.start) for each in self.fmu.description.modelVariables
                 if each.causality == "parameter"}
 

@@ -1,9 +1,10 @@
 """Tables of a front and of the designs to choose from."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
+from ..values import FileName
 from .confirm import Confirmed
 from .design_task import DesignRow
 from .front import costs, dominates
@@ -14,7 +15,7 @@ from .quantities import Catalogue
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
-def to_csv(confirmed: Sequence[Confirmed], problem: Problem, file):
+def to_csv(confirmed: Iterable[Confirmed], problem: Problem, file: FileName) -> None:
     """The front, SI; numbers read back to the same bits."""
     pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(file, index=False)
 
@@ -27,7 +28,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     known = [_with_heights({**catalogue.starts(), **problem.scene.values, **problem.complete(row.values)}) for row in columns]
     for name in problem.space.names:
         lines.append(_line(catalogue, name, name, [each[name] for each in known]))
-    wants = dict.fromkeys(str(each.want) for each in [*problem.objectives, *problem.conditions])
+    wants = dict.fromkeys([*(str(each.want) for each in problem.objectives), *(str(each.want) for each in problem.conditions)])
     for want in wants:
         lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
                            [row.figures.get(want) for row in columns]))

@@ -1,5 +1,6 @@
 """The search: NSGA-II of pymoo on the unit cube, a generation at a time."""
 
+import itertools
 from collections import Counter
 from collections.abc import Callable
 
@@ -12,6 +13,7 @@ from pymoo.operators.mutation.pm import PM
 from pymoo.operators.sampling.lhs import LHS
 from pymoo.problems.static import StaticProblem
 
+from ..designs.farm import Farm
 from ..designs.space import Dimension, Space
 from ..values import DifferentialError
 from .design_task import DesignRow, DesignTask
@@ -46,7 +48,7 @@ def _cells(dimension: Dimension) -> float:
     return dimension.numbers[1] - dimension.numbers[0] + 1.0 if dimension.whole else np.inf
 
 
-def search(problem: Problem, farm, store: Store,
+def search(problem: Problem, farm: Farm, store: Store,
            each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
     """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
 
@@ -109,13 +111,16 @@ def _evaluated(designs, task, farm, store):
     """Rows of designs, in their order; new ones are evaluated and stored."""
     keys = [tuple(values.values()) for values in designs]
     new = {key: values for key, values in zip(keys, designs) if key not in store.rows}
-    numbered = [(len(store.rows) + k, values) for k, values in enumerate(new.values())]
+    # of a generation that was interrupted some rows are there: the others get the numbers that are left, as without the interrupt
+    taken = {row.run for row in store.rows.values()}
+    numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
     try:
         for row in farm.rows(task, numbered):
             arrived.append(row)
     finally:
-        store.rows.update((tuple(row.values.values()), row) for row in sorted(arrived, key=lambda row: row.run))
+        rows = sorted([*store.rows.values(), *arrived], key=lambda row: row.run)
+        store.rows = {tuple(row.values.values()): row for row in rows}
         if arrived:
             store.save()
     return [store.rows[key] for key in keys]

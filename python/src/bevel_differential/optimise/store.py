@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from ..designs.space import Space
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName, Number
 from .design_task import DesignRow
 from .problem import Problem
 
@@ -16,17 +16,21 @@ EVALUATIONS, PROBLEM = "evaluations.parquet", "problem.json"
 class Store:
     """Rows of a problem in a folder. `rows`: by the values of a design, in order of run."""
 
-    def __init__(self, folder, problem: Problem, resume: bool = False):
-        self.folder, self.problem, self.rows = Path(folder), problem, {}
+    def __init__(self, folder: FileName, problem: Problem, resume: bool = False):
+        self.folder, self.problem = Path(folder), problem
+        self.rows: dict[tuple[Number, ...], DesignRow] = {}
         if resume:
             self._read()
         elif (self.folder / EVALUATIONS).exists():
             raise DifferentialError(f"{self.folder} has results already: go on by --resume, or name another folder by --out")
-        self.folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out") from None
         (self.folder / PROBLEM).write_text(json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n",
                                            encoding="utf-8")
 
-    def save(self):
+    def save(self) -> None:
         """Writes all rows. A file is replaced as a whole, so that an interruption leaves the one before."""
         table = pd.DataFrame([row.flat() for row in self.rows.values()])
         part = self.folder / f"{EVALUATIONS}.part"

@@ -1,7 +1,10 @@
 """The sub-command `spectrum`: damage and life over a duty cycle."""
 
+import argparse
 import sys
 
+from ..command.arguments import once
+from ..output_file import checked, checked_picture
 from ..values import DifferentialError
 from .slow import ORDERS
 from .total import spectrum
@@ -10,7 +13,7 @@ HELP = "damage and life of the gears over a duty cycle: events with counts, torq
 EXTRA = "design"
 
 
-def add_arguments(parser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the options of the sub-command to an `argparse` parser."""
     parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
     parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
@@ -20,13 +23,15 @@ def add_arguments(parser):
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
                         help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
     parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
-    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum")
+    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum (PNG, SVG or PDF)")
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or of BEVEL_DIFFERENTIAL_FMU)")
 
 
-def run(arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Prints damage and life, and writes what is asked for."""
     settings = _settings(arguments.settings)
+    checked(arguments.table)
+    checked_picture(arguments.picture)
     result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
@@ -42,4 +47,4 @@ def _settings(given):
     for setting in given:
         if "=" not in setting:
             raise DifferentialError(f"--set {setting}: write NAME=VALUE, such as \"wheel_radius=334 mm\"")
-    return {name.strip(): value.strip() for name, _, value in (setting.partition("=") for setting in given)}
+    return once("--set", ((name.strip(), value.strip()) for name, _, value in (setting.partition("=") for setting in given)))

@@ -1,16 +1,19 @@
 """A duty cycle from a CSV file: a line for each event."""
 
+from collections.abc import Mapping
 from math import nan
 
 import numpy as np
 
 from ..csv_table import CsvTable, Quantity, Text, Time, unknown
-from ..values import DifferentialError
+from ..fmu import Fmu
+from ..values import DifferentialError, FileName, Variable
 from .event import Event
 from .vehicle import LENGTH, QUANTITIES, inputs_of, wheel_radius
 
-OWN = {column.name: column for column in [
-    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]}
+_COLUMNS: list[Quantity | Text] = [
+    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
+OWN = {column.name: column for column in _COLUMNS}
 # they hold for the whole cycle: gears do not change from event to event
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
 # quantities of which one says how the vehicle turns
@@ -19,10 +22,10 @@ TURNS = {"turn_radius", "speed_difference"}
 LONGEST, SHORTEST = 0.01, 1e-4
 
 
-def read_cycle(file, fmu, vehicle, teeth):
+def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int]) -> list[Event]:
     """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
     SI; `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
-    def known(name):
+    def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
 
     table = CsvTable(file, known, needed=["name", "count"])

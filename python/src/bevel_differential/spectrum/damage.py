@@ -5,6 +5,7 @@ from math import ceil, nan, pi
 
 import numpy as np
 
+from ..differential import Differential
 from .event import Event
 
 # outputs of damage, in the order of all arrays of modes
@@ -38,10 +39,10 @@ class EventDamage:
     root_stress: float
     safety_root: float
     safety_flank: float
-    warnings: tuple
+    warnings: tuple[str, ...]
 
 
-def evaluate(event, differential, teeth):
+def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -> EventDamage:
     """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
     nothing, and it and its arguments can be sent to other processes."""
     return _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)

@@ -3,7 +3,9 @@
 from dataclasses import dataclass, field
 from math import isfinite, nan
 
-from ..values import DifferentialError
+import numpy as np
+
+from ..values import DifferentialError, Value
 
 
 @dataclass(frozen=True)
@@ -18,11 +20,11 @@ class Event:
     count: float
     duration: float
     distance: float = nan
-    values: dict = field(default_factory=dict)
-    signals: dict = field(default_factory=dict)
+    values: dict[str, Value] = field(default_factory=dict)
+    signals: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
     step: float = 0.01
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not (isfinite(self.count) and self.count >= 0.0):
             raise DifferentialError(f"count = {self.count!r}: event {self.name!r} occurs 0 times or more")
         if not (isfinite(self.duration) and self.duration > 0.0):

@@ -2,11 +2,15 @@
 
 from pathlib import Path
 from textwrap import fill
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName
 from .load_spectrum import curves, rolling_spectrum, standing_spectrum
+
+if TYPE_CHECKING:
+    from .result import SpectrumResult
 
 MPA = 1e6
 ROLLING, STANDING = "tab:blue", "tab:orange"
@@ -14,7 +18,7 @@ ROLLING, STANDING = "tab:blue", "tab:orange"
 MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 
-def draw(result, file):
+def draw(result: "SpectrumResult", file: FileName) -> Path:
     """Draws `result` into `file`; returns its path."""
     try:
         from matplotlib.figure import Figure

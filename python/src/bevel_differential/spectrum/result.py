@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName
 from .damage import MODES, EventDamage
 from .slow import SlowCycles
 from .sn import Strength
@@ -95,7 +95,7 @@ class SpectrumResult:
     @property
     def warnings(self) -> list[str]:
         """What the FMU warned of, each once with the events that it is about."""
-        events = {}
+        events: dict[str, list[str]] = {}
         for one in self.events:
             for warning in one.warnings:
                 events.setdefault(warning, []).append(one.event.name)
@@ -121,7 +121,7 @@ class SpectrumResult:
         found = np.array(rows, [(name, texts.get(name, float)) for name in fields])
         return found[np.argsort(-found["share"], kind="stable")]
 
-    def save(self, file) -> Path:
+    def save(self, file: FileName) -> Path:
         """Writes the table: CSV, or Parquet by the name's end (for which pandas with pyarrow is needed)."""
         file, table = Path(file), self.table()
         if file.suffix == ".parquet":
@@ -134,11 +134,11 @@ class SpectrumResult:
             with open(file, "w", newline="", encoding="utf-8") as out:
                 out.write("# Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa\n")
                 writer = csv.writer(out, lineterminator="\n")
-                writer.writerow(table.dtype.names)
+                writer.writerow(table.dtype.names or ())
                 writer.writerows(table.tolist())
         return file
 
-    def plot(self, file) -> Path:
+    def plot(self, file: FileName) -> Path:
         """Draws damage by event and the load spectrum into a picture; the file's end is its format."""
         from .picture import draw
         return draw(self, file)

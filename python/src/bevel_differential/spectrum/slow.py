@@ -3,12 +3,14 @@
 Every occurrence of an event is a history of root stress [Pa], signed: positive on the drive flank. It begins and ends without
 load. Cycles are counted for a duty cycle that repeats, so that all of them close."""
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..extras import needed
 from ..values import DifferentialError
+from .sn import Strength
 
 ORDERS = ("unknown", "written")
 
@@ -26,32 +28,32 @@ class SlowCycles:
     high_event: np.ndarray
 
     @property
-    def span(self):
+    def span(self) -> np.ndarray:
         """Peak minus valley [Pa]."""
         return self.high - self.low
 
     @property
-    def mean(self):
+    def mean(self) -> np.ndarray:
         """Middle between both [Pa]."""
         return 0.5 * (self.high + self.low)
 
-    def scaled(self, factor):
+    def scaled(self, factor: float) -> "SlowCycles":
         """The same cycles at `factor` times the stress: those of the mating gear."""
         return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
 
-    def pulsating(self, strength):
+    def pulsating(self, strength: Strength) -> np.ndarray:
         """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the
         mean has the other sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
-    def matrix(self, bins=10):
+    def matrix(self, bins: int = 10) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
         counts, spans, means = np.histogram2d(self.span, self.mean, bins, weights=self.count)
         return spans, means, counts
 
 
-def count_slow_cycles(histories, counts, order, least=0.0):
+def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0) -> SlowCycles:
     """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur
     `counts` times; ranges up to `least` [Pa] are left out.
 
@@ -70,7 +72,7 @@ def count_slow_cycles(histories, counts, order, least=0.0):
                       np.array(high_event, int))
 
 
-def closed_cycles(stress):
+def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
     """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
     rainflow = needed("rainflow", "design")
     begin = int(np.argmax(stress))

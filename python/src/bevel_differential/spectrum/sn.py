@@ -6,8 +6,10 @@ D   = Σ n_i/N_f(σ_i)                                            Palmgren and M
 σ   = 2σ_a/((1 + M) K(σ_m/σ_a)),   M = 2 Y_M − 1                FKM guideline; Y_M idler factor
 ```"""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import log
+from typing import Self
 
 import numpy as np
 
@@ -26,16 +28,16 @@ class SnCurve:
     slope: float
 
     @classmethod
-    def through(cls, strength, cycles, life_factor, static_cycles):
+    def through(cls, strength: float, cycles: float, life_factor: float, static_cycles: float) -> Self:
         """The curve through `strength` at `cycles` and `life_factor` times it at `static_cycles`."""
         return cls(strength, cycles, log(cycles / static_cycles) / log(life_factor))
 
-    def damage(self, stress):
+    def damage(self, stress: np.ndarray) -> np.ndarray:
         """Damage of one cycle from 0 to each `stress` [Pa]: 1/N_f, at most 1; 0 without stress. Same shape."""
         ratio = np.maximum(np.asarray(stress, float), 0.0) / self.strength
         return np.minimum(ratio ** self.slope / self.cycles, 1.0)
 
-    def life(self, stress):
+    def life(self, stress: np.ndarray) -> np.ndarray:
         """Cycles to failure at each `stress` > 0 [Pa]. Same shape."""
         return self.cycles * (self.strength / np.asarray(stress, float)) ** self.slope
 
@@ -54,7 +56,7 @@ class Strength:
         "contact_life_factor", "idler_factor"))
 
     @classmethod
-    def of(cls, values):
+    def of(cls, values: Mapping[str, float]) -> Self:
         """From the FMU's parameters `PARAMETERS`: a mapping from name to number, SI."""
         bending, cycles, factor, contact, contact_cycles, contact_factor, idler = (values[name] for name in cls.PARAMETERS)
         return cls(SnCurve.through(bending, cycles, factor, STATIC_BENDING),
@@ -62,7 +64,7 @@ class Strength:
                    SnCurve.through(contact, contact_cycles, contact_factor, STATIC_PITTING),
                    min(max(2.0 * idler - 1.0, 0.0), MOST_SENSITIVE))
 
-    def pulsating(self, span, mean):
+    def pulsating(self, span: np.ndarray, mean: np.ndarray) -> np.ndarray:
         """The cycle from 0 to its peak that does the damage of a cycle of the range `span` > 0 about `mean` [Pa], tension
         positive. Same shape."""
         m, ratio = self.sensitivity, 2.0 * np.asarray(mean) / np.asarray(span)

@@ -1,5 +1,6 @@
 """The damage of a duty cycle: its events one by one, and the slow cycles between them."""
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -7,9 +8,9 @@ import numpy as np
 from ..differential import Differential
 from ..fmu import Fmu
 from ..scene import Scene
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, FileName, Value, suggestion
 from .cycle import read_cycle
-from .damage import evaluate
+from .damage import EventDamage, evaluate
 from .event import Event
 from .result import SpectrumResult
 from .slow import ORDERS, count_slow_cycles
@@ -22,7 +23,9 @@ PLANETS = "geometry.planet_count"
 GATE = 0.01
 
 
-def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, mapper=map):
+def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value] | None = None, scene: FileName | None = None, *,
+             order: str = "unknown", fmu: FileName | Fmu | None = None,
+             mapper: Callable[..., Iterable[EventDamage]] = map) -> SpectrumResult:
     """Damage and life of the gears over a duty cycle, a `SpectrumResult`.
 
     `cycle`: a CSV file (docs/spectrum.md), or a sequence of `Event`. `parameters`: {name: value} for all events, of the FMU as
@@ -39,7 +42,7 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
         raise DifferentialError(f"{name}: there is no such variable or quantity{suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
         facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS], stop=1e-3)
-        teeth = tuple(facts[name] for name in TEETH)
+        teeth = int(facts[TEETH[0]]), int(facts[TEETH[1]])
         events = read_cycle(cycle, differential.fmu, vehicle, teeth) if isinstance(cycle, (str, Path)) else list(cycle)
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
@@ -50,7 +53,7 @@ def spectrum(cycle, parameters=None, scene=None, *, order="unknown", fmu=None, m
     histories, counts = [damage.standing for damage in damages], [event.count for event in events]
     slow = count_slow_cycles(histories, counts, order, GATE * strength.bending.strength)
     by_event = np.stack([_slow_by_event(cycles, strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
-    return SpectrumResult(damages, slow, by_event, strength, teeth, facts[PLANETS], ratio, order)
+    return SpectrumResult(damages, slow, by_event, strength, teeth, int(facts[PLANETS]), ratio, order)
 
 
 class _Evaluation:

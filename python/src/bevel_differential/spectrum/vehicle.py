@@ -10,6 +10,7 @@ load torques          = T/2 on each side         T torque of the ring gear; an o
 The left wheel is the inner one of a turn to the left, at R − w/2; nothing slips (Ackermann). Torque is positive when the engine
 drives forward, speed when the vehicle goes forward."""
 
+from collections.abc import Mapping
 from math import pi
 
 import numpy as np
@@ -30,10 +31,10 @@ QUANTITIES = {quantity.name: quantity for quantity in [
 SPIN = "scene.planet_spin"
 
 
-def inputs_of(vehicle, teeth):
+def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int]) -> dict[str, float | str | np.ndarray]:
     """Inputs and parameters of the FMU, SI, that follow from the quantities of `vehicle` ({name: number or array of shape
     (points,)}, SI) with the numbers of `teeth` (planet, side gear). Raises `DifferentialError` for what is missing."""
-    found = {}
+    found: dict[str, float | str | np.ndarray] = {}
     if "torque" in vehicle:
         found["left.load_torque"] = found["right.load_torque"] = vehicle["torque"] / 2.0
     if "speed" in vehicle:
@@ -45,7 +46,7 @@ def inputs_of(vehicle, teeth):
     return found
 
 
-def wheel_radius(vehicle, needed_by):
+def wheel_radius(vehicle: Mapping[str, float | np.ndarray], needed_by: str) -> float | np.ndarray:
     """Radius of the wheels [m], given or from the circumference of the tyres."""
     if "wheel_radius" not in vehicle and "tyre_circumference" not in vehicle:
         raise DifferentialError(f"{needed_by}: it needs wheel_radius or tyre_circumference; give one as a column or a parameter")

@@ -1,5 +1,6 @@
 """The command `tolerance`: what manufacturing tolerances do."""
 
+import argparse
 from pathlib import Path
 
 from ..command.arguments import add_fmu
@@ -9,7 +10,7 @@ EXTRA = "design"
 QUICK = 64
 
 
-def add_arguments(parser):
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
     parser.add_argument("file", help="tolerance file (docs/tolerances.md)")
     parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
@@ -20,17 +21,20 @@ def add_arguments(parser):
     parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
     parser.add_argument("--csv", type=Path, help="write all runs to this file")
-    parser.add_argument("--picture", type=Path, help="write a picture (PNG) to this file")
+    parser.add_argument("--picture", type=Path, help="write a picture (PNG, SVG or PDF) to this file")
     add_fmu(parser)
 
 
-def run(arguments) -> int:
+def run(arguments: argparse.Namespace) -> int:
     """Runs the command."""
     from ..designs import Farm
+    from ..output_file import checked, checked_picture
     from . import report
     from .plan import Plan
 
-    runs = arguments.runs or (QUICK if arguments.quick else None)
+    checked(arguments.csv)
+    checked_picture(arguments.picture)
+    runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
     plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
     with Farm(arguments.workers, not arguments.threads, arguments.scheduler, progress=True) as farm:
         result = plan.run(farm)

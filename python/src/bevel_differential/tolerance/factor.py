@@ -6,8 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..designs import Dimension
-from ..values import DifferentialError
-from .grade import gears, grade
+from ..designs.space import Given as GivenValues
+from ..scene import Scene
+from ..values import DifferentialError, Number
+from .grade import Gear, gears, grade
 from .laws import Fixed, Given, Law, PitchGrade, RunoutGrade, band
 
 PITCH = "tooth_errors.accuracy_grade"
@@ -28,7 +30,7 @@ class Factor:
     text: str
     law: Law
 
-    def at(self, shares: np.ndarray) -> list:
+    def at(self, shares: np.ndarray) -> list[Number]:
         """Values (SI) at shares of probability, shape (runs,)."""
         return self.law.at(np.clip(shares, 1e-9, 1.0 - 1e-9))
 
@@ -37,13 +39,14 @@ class Reader:
     """Reads tolerances for the gears of a scene. `capability`: C_p of bands and grades; 1 makes a tolerance ± 3 standard
     deviations."""
 
-    def __init__(self, scene, capability: float = 1.0):
+    def __init__(self, scene: Scene, capability: float = 1.0):
         if isinstance(capability, bool) or not isinstance(capability, (int, float)) or not 0.1 <= capability <= 10.0:
             raise DifferentialError(f"capability = {capability!r}: it is a number from 0.1 to 10, the C_p of the process")
         self.fmu, self.capability = scene.fmu, float(capability)
-        self._scene, self._gears = scene, None
+        self._scene = scene
+        self._gears: dict[str, Gear] | None = None
 
-    def read(self, name: str, given) -> Factor:
+    def read(self, name: str, given: GivenValues) -> Factor:
         """The factor of a tolerance as it is written in a file."""
         variable = self.fmu.variable(name)
         if variable.causality not in ("parameter", "input"):
@@ -55,9 +58,9 @@ class Reader:
             known = str(error).startswith(name)
             raise DifferentialError(f"{'' if known else name + ': '}{error}") from None
 
-    def other(self, factor: Factor, given) -> Factor:
+    def other(self, factor: Factor, given: GivenValues) -> Factor:
         """The factor with another tolerance: as in a file, or "finer" or "coarser" (a grade, or half and twice the spread)."""
-        if given not in WORDS:
+        if not isinstance(given, str) or given not in WORDS:
             return self.read(factor.variable, given)
         ratio, steps, said = WORDS[given]
         try:
@@ -98,4 +101,4 @@ class Reader:
             raise DifferentialError(f"{variable.name} = {text}: {_USAGE}")
         if variable.kind != "Real":
             raise DifferentialError(f"{variable.name} = {text}: only real variables have a band; {_USAGE}")
-        return band(variable.name, *(variable.number(part) for part in parts), self.capability)
+        return band(variable.name, *variable.numbers(parts, text), self.capability)

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from ..scene import Scene
 from ..values import DifferentialError
 
 GRADES = range(2, 12)
@@ -43,7 +44,7 @@ class Gear:
         """Runout tolerance F_rT of a grade, m, peak to peak."""
         return 0.8 * self.cumulative_pitch(number)
 
-    def check(self, name: str):
+    def check(self, name: str) -> None:
         """Raises what lies outside the ranges of the standard; `name` is the variable that a grade is given for."""
         ranges = (("mean module", self.module, MODULES, " m"), ("number of teeth", self.teeth, TEETH, ""),
                   ("tolerance diameter", self.diameter, DIAMETERS, " m"))
@@ -66,7 +67,7 @@ def _step(number):
     return 1e-6 * math.sqrt(2.0) ** (number - 4)
 
 
-def gears(scene) -> dict[str, Gear]:
+def gears(scene: Scene) -> dict[str, Gear]:
     """The gears of a scene, "planet" and "side"."""
     first = scene.run(_GEOMETRY, stop=scene.step)[0]
     value = {name.removeprefix("geometry."): first[name].item() for name in _GEOMETRY}

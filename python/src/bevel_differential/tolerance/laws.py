@@ -4,22 +4,31 @@ Each has `at(shares)`: values (SI) at shares of probability in (0, 1), shape (ru
 with a spread `ratio` times as large; and `graded(steps)`: the same with a grade that is so many steps coarser."""
 
 import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
 
 from ..designs import Dimension
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from .grade import Gear, grade
 
 
-class Law:
-    """A law without a grade and without a spread: what others replace."""
+class Law(ABC):
+    """A law, of no grade."""
 
     varies = True
 
-    def graded(self, _steps: int) -> "Law | None":
+    @abstractmethod
+    def at(self, shares: np.ndarray) -> list[Number]:
+        """Values (SI) at shares of probability in (0, 1), shape (runs,)."""
+
+    @abstractmethod
+    def scaled(self, ratio: float) -> "Law":
+        """The same law with a spread `ratio` times as large. Raises `DifferentialError` where there is none."""
+
+    def graded(self, steps: int) -> "Law | None":
         """None: this law is no grade's."""
         return None
 
@@ -28,13 +37,13 @@ class Law:
 class Fixed(Law):
     """One value for all."""
 
-    value: float | int | bool
+    value: Number
     varies = False
 
-    def at(self, shares):
+    def at(self, shares: np.ndarray) -> list[Number]:
         return [self.value] * len(shares)
 
-    def scaled(self, _ratio):
+    def scaled(self, ratio: float) -> Law:
         raise DifferentialError("it has one value and no spread")
 
 
@@ -44,10 +53,10 @@ class Given(Law):
 
     dimension: Dimension
 
-    def at(self, shares):
+    def at(self, shares: np.ndarray) -> list[Number]:
         return self.dimension.at(shares)
 
-    def scaled(self, ratio):
+    def scaled(self, ratio: float) -> Law:
         numbers, whole = self.dimension.numbers, self.dimension.whole
         if self.dimension.kind == "lognormal":
             # the logarithm is what is spread
@@ -70,13 +79,13 @@ class PitchGrade(Law):
     number: int
     varies = False
 
-    def at(self, shares):
+    def at(self, shares: np.ndarray) -> list[Number]:
         return [self.number] * len(shares)
 
-    def scaled(self, _ratio):
+    def scaled(self, ratio: float) -> Law:
         raise DifferentialError("the pitch has grades: write the grade")
 
-    def graded(self, steps):
+    def graded(self, steps: int) -> Law:
         return PitchGrade(grade("pitch", self.number + steps))
 
 
@@ -96,14 +105,14 @@ class RunoutGrade(Law):
         """Runout tolerance F_rT, m."""
         return self.gear.runout(self.number)
 
-    def at(self, shares):
+    def at(self, shares: np.ndarray) -> list[Number]:
         shares = np.asarray(shares, float)
         return (self.tolerance * np.sqrt(np.log1p(-shares) / math.log(beyond(self.capability)))).tolist()
 
-    def scaled(self, _ratio):
+    def scaled(self, ratio: float) -> Law:
         raise DifferentialError("it has a grade: write the grade")
 
-    def graded(self, steps):
+    def graded(self, steps: int) -> Law:
         return replace(self, number=grade("runout", self.number + steps))
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..extras import needed
-from ..values import DifferentialError
+from ..values import DifferentialError, FileName
 from .figures import proportion
 from .plan import Plan
 from .report import limit_text
@@ -20,7 +20,7 @@ STYLE = {"font.size": 10, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow"
          "axes.spines.right": False, "legend.frameon": False}
 
 
-def draw(plan: Plan, result: Result, file) -> Path:
+def draw(plan: Plan, result: Result, file: FileName) -> Path:
     """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
     matplotlib = needed("matplotlib", "plot")
     from matplotlib.figure import Figure
@@ -32,7 +32,7 @@ def draw(plan: Plan, result: Result, file) -> Path:
     heights = [figures, *([yields] if found else []), CAPTION * (len(lines) + 1)]
     with matplotlib.rc_context(STYLE):
         picture = Figure(figsize=(WIDTH, sum(heights)), layout="constrained")
-        parts = iter(picture.subfigures(len(heights), 1, height_ratios=heights))
+        parts = iter(picture.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0])
         panels = next(parts).subplots(len(plan.study.wants), 2, squeeze=False)
         for i, want in enumerate(plan.study.wants):
             _histogram(panels[i, 0], plan, result, want)

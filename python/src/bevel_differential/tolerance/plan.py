@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..designs import Task
+from ..designs import Farm, Task
 from ..fmu import Fmu
 from ..points import seconds
 from ..scene import Scene
 from ..scene_file import flat
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, FileName, suggestion
 from ..want import Condition, Want
 from .factor import PITCH, RUNOUT, Factor, Reader
 from .study import Alternative, Result, Study
@@ -35,7 +35,8 @@ class Plan:
         self.notes = self._remarks()
 
     @classmethod
-    def load(cls, file, fmu=None, runs: int | None = None, seed: int | None = None, indices: bool = True) -> "Plan":
+    def load(cls, file: FileName, fmu: FileName | Fmu | None = None, runs: int | None = None, seed: int | None = None,
+             indices: bool = True) -> "Plan":
         """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
         try:
@@ -56,13 +57,14 @@ class Plan:
         scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu)
         try:
             scene.set(flat(found.get("set", {})))
+            scene.check_settable(flat(found["factors"]))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
             task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))
             return cls(file.stem, found["description"], scene, task, study)
         except DifferentialError as error:
             raise DifferentialError("\n".join(f"{file}: {line}" for line in str(error).splitlines())) from None
 
-    def run(self, farm) -> Result:
+    def run(self, farm: Farm) -> Result:
         """The result, its runs made by a `Farm`."""
         return self.study.run(lambda designs: farm.evaluate(self.task, designs))
 
@@ -95,7 +97,8 @@ class Plan:
             if variable.kind not in ("Real", "Integer"):
                 continue
             drawn = np.array([values[name] for values in designs], float)
-            bounds = [default if bound is None else float(bound) for bound, default in zip(variable.range, (-np.inf, np.inf))]
+            ends = (variable.minimum, variable.maximum)
+            bounds = [default if bound is None else float(bound) for bound, default in zip(ends, (-np.inf, np.inf))]
             outside = (drawn < bounds[0]) | (drawn > bounds[1])
             if np.any(outside):
                 least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))

@@ -6,6 +6,8 @@ from collections import Counter
 from pathlib import Path
 
 from ..text import aligned
+from ..values import FileName
+from ..want import Condition
 from .figures import Estimate, Spread, proportion
 from .plan import Plan
 from .study import Indices, Result
@@ -20,7 +22,7 @@ def text(plan: Plan, result: Result) -> str:
     return "\n\n".join(part for part in parts if part)
 
 
-def write_runs(plan: Plan, result: Result, file) -> Path:
+def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
     """Writes all runs as CSV in SI: number, factors, figures, message."""
     names, wants = list(plan.study.factors), [str(want) for want in plan.study.wants]
     with open(file, "w", newline="", encoding="utf-8") as out:
@@ -78,7 +80,7 @@ def _yields(plan, result):
     return f"{drawn}; those count as out of limits\n\n{_table(lines)}"
 
 
-def limit_text(plan: Plan, limit) -> str:
+def limit_text(plan: Plan, limit: Condition) -> str:
     """A limit in the usual unit."""
     unit, value = plan.scene.fmu.variable(limit.want.name).shown(limit.limit)
     return f"{limit.want} {limit.relation} {value:.6g} {unit}".strip()

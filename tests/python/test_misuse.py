@@ -1,0 +1,174 @@
+"""Slips that would give wrong results without a word, or a traceback: each is one error that says what to do."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bevel_differential import Differential, DifferentialError, Fmu, Scene
+from bevel_differential.command import main
+from bevel_differential.designs import Space, Task
+from bevel_differential.designs.plan import Plan
+from bevel_differential.designs.sweep import sweep
+from bevel_differential.tolerance.plan import Plan as Tolerances
+from bevel_differential.want import Condition
+
+SPIN, TORQUE = "planet.spin_command", "left.load_torque"
+WIDE = """description = "a backlash below 0"
+scene = "study_turning"
+wants = ["left.speed:mean"]
+runs = 8
+[factors]
+geometry.backlash = "0.02 mm +- 0.2 mm"
+"""
+
+
+@pytest.fixture(autouse=True)
+def with_fmu(fmu_file, monkeypatch):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+
+
+@pytest.fixture
+def driven(fmu_file):
+    """A scene whose load at the left follows a table."""
+    table = (TORQUE, [0.0, 0.01], [0.0, 1.0], None)
+    with Scene(stop=0.01, outputs=[TORQUE, "left.speed"], tables=[table], fmu=fmu_file) as scene:
+        yield scene
+
+
+@pytest.mark.parametrize("text", ["1..200 deg/s", "1 deg/s..200", "1, 2 deg/s", "uniform(1, 2 deg/s)", "normal(4, 0.1 deg/s)"])
+def test_a_unit_of_some_numbers_alone_is_an_error(fmu, text):
+    with pytest.raises(DifferentialError, match="write it at each number"):
+        Space.parse(fmu, {SPIN: text})
+
+
+@pytest.mark.parametrize("text", ["0..10 deg/s", "1 deg/s..2 rpm", "1..2", "0, 5 deg/s", "normal(0, 1 deg/s)"])
+def test_zero_needs_no_unit_and_units_may_differ(fmu, text):
+    assert Space.parse(fmu, {SPIN: text}).names == [SPIN]
+
+
+def test_a_value_for_an_input_that_follows_a_table_is_an_error(driven):
+    two = {TORQUE: 2.0}
+    for use in (lambda: driven.set(two), lambda: driven.set(left__load_torque=2.0), lambda: driven.run(values=two),
+                lambda: driven.final(values=two),
+                lambda: sweep(driven, {TORQUE: "1, 2"}, "grid", wants=["left.speed"], workers=0)):
+        with pytest.raises(DifferentialError, match=f"{TORQUE} follows a table"):
+            use()
+
+
+def test_figures_need_two_points(driven):
+    Task(driven, ["left.speed:peak_to_peak"], start=0.008)
+    Task(driven, ["left.speed"], start=0.0099)
+    for start in (0.0085, 0.009, 0.0099):
+        with pytest.raises(DifferentialError, match="less than two steps"):
+            Task(driven, ["left.speed:peak_to_peak"], start=start)
+
+
+def test_the_limit_of_a_time_is_a_time(fmu):
+    assert Condition.parse(fmu, "left.speed:time_of_peak > 20 ms").limit == 0.02
+    with pytest.raises(DifferentialError, match="write seconds"):
+        Condition.parse(fmu, "left.speed:time_of_peak > 20 deg/s")
+
+
+def test_a_grid_never_repeats_a_whole_number_and_stays_small(fmu):
+    teeth = Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "grid").designs()
+    assert [values["geometry.planet_teeth"] for _, values in teeth] == [10, 13, 17, 20]
+    with pytest.raises(DifferentialError, match="leave the count 4 out"):
+        Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "lhs", 4)
+    with pytest.raises(DifferentialError, match="only 3 whole numbers"):
+        Space.parse(fmu, {"geometry.planet_teeth": "18..20:9"})
+    for vary in ({SPIN: "0..1:1000000000000000"}, {"tooth_errors.seed": "0..2000000000"}):
+        with pytest.raises(DifferentialError, match="are more than"):
+            Plan.parse(Space.parse(fmu, vary), "grid")
+
+
+@pytest.mark.parametrize("value", [3_000_000_000, -2**31 - 1, 1e300])
+def test_whole_numbers_beyond_those_of_fmi_are_an_error(fmu, value):
+    with pytest.raises(DifferentialError, match="whole number from -2147483648 to 2147483647"):
+        fmu.variable("tooth_errors.seed").number(value)
+
+
+@pytest.mark.parametrize("content", [b"", b"no archive"])
+def test_what_is_no_fmu_is_said(tmp_path, content):
+    (tmp_path / "my.fmu").write_bytes(content)
+    with pytest.raises(DifferentialError, match="it is no FMU"):
+        Fmu.of(tmp_path / "my.fmu")
+
+
+@pytest.mark.parametrize("command, said", [
+    (["run", "study_turning", "--set", f"{TORQUE}=1", "--set", f"{TORQUE}=2"], "given twice"),
+    (["run", "study_turning", "--csv", "{folder}/none/a.csv"], "there is no folder"),
+    (["sweep", "--scene", "study_turning", "--vary", f"{TORQUE}=1", "--vary", f"{TORQUE}=2"], "given twice"),
+    (["sweep", "--scene", "study_turning", "--vary", f"{TORQUE}=1, 2", "--plan", "grid", "--want", "left.speed",
+      "--out", "{folder}"], "name a file"),
+    (["run", "study_turning", "--plot", "{folder}/picture"], "a picture ends with"),
+    (["tolerance", "none.toml", "--csv", "{folder}"], "name a file"),
+    (["tolerance", "{folder}/wide.toml", "--runs", "0"], "runs = 0"),
+    (["spectrum", "none.csv", "--picture", "{folder}/none/a.png"], "there is no folder")])
+def test_the_command_says_it_before_any_run(tmp_path, capsys, command, said):
+    (tmp_path / "wide.toml").write_text(WIDE)
+    assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 1
+    assert said in capsys.readouterr().err
+
+
+SCENE = """description = "short"
+stop_time = 0.01
+step = 0.001
+outputs = ["left.speed"]
+"""
+
+
+@pytest.mark.parametrize("old, new, said", [
+    ('["left.speed"]', '"left.speed"', "outputs: it is a list"), ('["left.speed"]', "[3]", "3 is no name"),
+    ('"short"', "5", "description: it is a text"), ("step", "set = 3\nstep", r"set: it is a table \[set\]"),
+    ('["left.speed"]', '["left.speed"]\n[at]\ntime = 0.005', r"at: it is written as \[\[at\]\]"),
+    ('["left.speed"]', '["left.speed"]\n[[table]]\ninput = "left.load_torque"\ntime = 5', r"\[\[table\]\] time: it is a list")])
+def test_wrong_kinds_in_a_scene_file_are_said(tmp_path, fmu, old, new, said):
+    (tmp_path / "short.toml").write_text(SCENE.replace(old, new, 1))
+    with pytest.raises(DifferentialError, match=said):
+        Scene.load(tmp_path / "short.toml", fmu)
+
+
+@pytest.mark.parametrize("line", ["scene = 3", 'runs = "many"', "seed = 1.5", "want = [3]", "plan = 7", "condition = [1]"])
+def test_wrong_kinds_in_a_plan_file_are_said(tmp_path, capsys, line):
+    (tmp_path / "plan.toml").write_text(line)
+    assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 1
+    assert f"plan.toml: {line.split()[0]} is a" in capsys.readouterr().err
+
+
+def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
+    (tmp_path / "wide.toml").write_text(WIDE)
+    with pytest.raises(DifferentialError, match="geometry.backlash: . of .* draws are outside 0 mm to"):
+        Tolerances.load(tmp_path / "wide.toml")
+
+
+def test_a_closed_instance_says_so_and_not_an_old_warning(fmu):
+    with fmu.open() as instance:
+        # the face width of the study is warned of
+        instance.initialise()
+        assert instance.messages
+    for use in (lambda: instance.get("left.speed"), lambda: instance.step(1e-3), instance.reset, instance.save):
+        with pytest.raises(DifferentialError, match="the instance is closed"):
+            use()
+
+
+def test_outputs_are_a_list_without_repetition(fmu_file):
+    with Differential(fmu=fmu_file) as straight:
+        with pytest.raises(DifferentialError, match="names are a list"):
+            straight.run(outputs="left.speed", stop=0.01)
+        with pytest.raises(DifferentialError, match="left.speed: it is recorded twice"):
+            straight.run(outputs=["left.speed", "right.speed", "left.speed"], stop=0.01)
+        with pytest.raises(DifferentialError, match="more than 1e[+]08 steps"):
+            straight.run(stop=1e9, step=1e-9)
+
+
+@pytest.mark.parametrize("name", ["geometry.module", "geometry.planet_teeth"])
+def test_true_is_no_number(fmu, name):
+    with pytest.raises(DifferentialError, match="it is a number"):
+        fmu.variable(name).number(True)
+
+
+def test_an_extracted_fmu_is_removed_at_exit(fmu_file):
+    script = f"from bevel_differential import Fmu; print(Fmu({fmu_file!r}).folder); print(Fmu.of({fmu_file!r}).folder)"
+    folders = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True).stdout.split()
+    assert len(set(folders)) == 2 and not any(Path(folder).exists() for folder in folders)
