@@ -1,5 +1,5 @@
-// Builds the page, one HTML file: node build.mjs LIBRARY.wasm DATA.json OUT.html
-import { readFileSync, writeFileSync } from "node:fs";
+// Builds the page, one HTML file: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -7,7 +7,7 @@ import { build } from "esbuild";
 
 const HERE = dirname(fileURLToPath(import.meta.url));
 const MOST = 3e6; // bytes of the page
-const PACKAGES = ["three", "uplot"];
+const PACKAGES = ["three", "uplot", "xz-decompress"];
 const COMMON = { bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none" };
 
 const own = (file) => readFileSync(join(HERE, file), "utf8");
@@ -29,17 +29,20 @@ const workers = {
 };
 
 async function main([library, data, out]) {
-  if (!out) throw new Error("usage: node build.mjs LIBRARY.wasm DATA.json OUT.html");
+  if (!out) throw new Error("usage: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html");
   const { outputFiles } = await build({ ...COMMON, entryPoints: [join(HERE, "main.js")], plugins: [workers] });
   const licences = PACKAGES.map((name) => {
-    const { version } = JSON.parse(own(`node_modules/${name}/package.json`));
-    return `${name} ${version}\n\n${own(`node_modules/${name}/LICENSE`).trim()}`;
+    const { version, license, author } = JSON.parse(own(`node_modules/${name}/package.json`));
+    const file = `node_modules/${name}/LICENSE`;
+    const text = existsSync(join(HERE, file)) ? own(file).trim() : `Licence: ${license}, ${author}`;
+    return `${name} ${version}\n\n${text}`;
   });
   const parts = {
     style: asStyle(own("node_modules/uplot/dist/uPlot.min.css") + own("style.css")),
     licences: asHtml(licences.join("\n\n\n")),
     data: packed(JSON.stringify(JSON.parse(readFileSync(data, "utf8")))),
-    library: packed(readFileSync(library)),
+    // its code repeats at distances beyond the window of gzip
+    library: readFileSync(library).toString("base64"),
     program: packed(outputFiles[0].text),
   };
   const page = own("index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);

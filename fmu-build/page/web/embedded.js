@@ -1,10 +1,13 @@
-// What is packed into the page: gzip in base64.
+// What is packed into the page, in base64: data in gzip, the library in xz, which is half as large.
+import { XzReadableStream } from "xz-decompress";
 
-async function unpacked(id) {
+function packed(id) {
   const text = document.getElementById(id).textContent.trim();
-  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip")));
+  return new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]).stream();
 }
 
-export const embeddedBytes = async (id) => new Uint8Array(await (await unpacked(id)).arrayBuffer());
-export const embeddedJson = async (id) => (await unpacked(id)).json();
+export const embeddedJson = async (id) => new Response(packed(id).pipeThrough(new DecompressionStream("gzip"))).json();
+
+export async function embeddedLibrary(id) {
+  return new Uint8Array(await new Response(new XzReadableStream(packed(id))).arrayBuffer());
+}

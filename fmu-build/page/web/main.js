@@ -1,7 +1,7 @@
 // The page: the set-up goes to the worker, its points go into the record, and the picture follows the player's time.
 import { Assembly } from "./assembly.js";
 import { Controls } from "./controls.js";
-import { embeddedBytes, embeddedJson } from "./embedded.js";
+import { embeddedJson, embeddedLibrary } from "./embedded.js";
 import { listenToKeys } from "./keys.js";
 import { Player } from "./player.js";
 import { showFigures, showTransport, toothTime } from "./readings.js";
@@ -277,7 +277,7 @@ class Page {
   }
 }
 
-Promise.all([embeddedJson("data"), embeddedBytes("library")])
+Promise.all([embeddedJson("data"), embeddedLibrary("library")])
   .then(([data, library]) => { window.page = new Page(data, library); })
   .catch((error) => {
     $("message").hidden = false;

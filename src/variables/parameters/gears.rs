@@ -30,7 +30,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             Some(DEG),
             (0.17, 0.53),
             |p| &mut p.geometry.pressure_angle,
-            "SurfaceLoad angle",
+            "Pressure angle",
         ),
         real(
             "geometry.shaft_angle",

@@ -1,5 +1,7 @@
 //! What the page knows of the library: variables from the table, scenes from their files, prices of effects.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable, table};
@@ -52,6 +54,9 @@ enum Value {
     Boolean(bool),
 }
 
+/// Values by the names of their variables.
+type Values = BTreeMap<&'static str, Value>;
+
 #[derive(Serialize)]
 struct PageScene {
     name: String,
@@ -59,8 +64,8 @@ struct PageScene {
     stop: f64,
     step: f64,
     outputs: Vec<&'static str>,
-    set: Vec<(&'static str, Value)>,
-    changes: Vec<(f64, Vec<(&'static str, Value)>)>,
+    set: Values,
+    changes: Vec<(f64, Values)>,
     tables: Vec<PageTable>,
 }
 
@@ -75,7 +80,7 @@ struct PageTable {
 /// What a switch costs, as a multiple of plain teeth.
 #[derive(Serialize)]
 struct Price {
-    effect: String,
+    effect: &'static str,
     factor: f64,
 }
 
@@ -161,5 +166,9 @@ fn prices() -> Result<Vec<Price>> {
         csv::Reader::from_path(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)))?;
     let rows: Vec<(String, f64, f64)> = reader.deserialize().collect::<Result<_, _>>().context("data/prices.csv")?;
     let plain = rows.iter().find(|(on, ..)| on == "nothing").context("data/prices.csv has no row \"nothing\"")?.2;
-    Ok(rows.into_iter().map(|(effect, _, step)| Price { effect, factor: step / plain }).collect())
+    let price = |(on, _, step): &(String, f64, f64)| {
+        let switch = table().rows.iter().find(|row| row.name.strip_prefix("effects.") == Some(on))?;
+        Some(Price { effect: switch.name, factor: step / plain })
+    };
+    Ok(rows.iter().filter_map(price).collect())
 }
