@@ -212,7 +212,8 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
     os.killpg(running.pid, signal.SIGINT)
     said = running.communicate(timeout=60)
     assert running.returncode == 130 and said[1].count("\n") == 1 and "--resume" in said[1], said
-    kept = sum(pq.read_metadata(part).num_rows for part in parts.glob("part-*.parquet"))
+    # an interrupt while a part is written may write its rows twice; they count once
+    kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
     done = subprocess.run(command(scene, out, wants, "--resume"), env=environment(fmu_file), capture_output=True, text=True, timeout=300)
     assert done.returncode == 0 and done.stderr == "" and f"{kept} runs were kept from before" in done.stdout, done
