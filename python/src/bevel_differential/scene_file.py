@@ -39,12 +39,23 @@ def find(what: FileName) -> Path:
                             f"{suggestion(str(what), names)}; shipped: {', '.join(names)}")
 
 
-def read_scene(file: Path, fmu: Fmu) -> dict[str, Any]:
-    """The arguments of `Scene` that a file holds. All errors are reported at once."""
+def find_beside(file: Path, what: str) -> Path:
+    """The scene file `what` that a file names: beside it, or as `find` finds it."""
+    near = file.parent / what
+    return near if near.is_file() else find(what)
+
+
+def read_toml(file: Path) -> dict[str, Any]:
+    """What a TOML file holds."""
     try:
-        found = tomllib.loads(file.read_text(encoding="utf-8"))
+        return tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
         raise DifferentialError(f"{file}: {error}") from None
+
+
+def read_scene(file: Path, fmu: Fmu) -> dict[str, Any]:
+    """The arguments of `Scene` that a file holds. All errors are reported at once."""
+    found = read_toml(file)
     wrong = [f"{key}: it is {what}" for key, (kind, what) in KINDS.items() if not isinstance(found.get(key, kind()), kind)]
     wrong += [f"outputs: {name!r} is no name" for name in found.get("outputs", []) if not wrong and not isinstance(name, str)]
     wrong += [f"[[table]] {key}: it is a list" for entry in found.get("table", []) for key in ("time", "value")

@@ -1,6 +1,7 @@
 """The command `sweep`: runs a scene for all designs of a plan."""
 
 import argparse
+from pathlib import Path
 
 from .arguments import add_fmu, add_set, assignment, once
 
@@ -70,16 +71,10 @@ def _merged(arguments):
 
 
 def _read(file):
-    import tomllib
-
-    from ..scene_file import flat
+    from ..scene_file import flat, read_toml
     from ..values import DifferentialError, suggestion
 
-    try:
-        with open(file, "rb") as opened:
-            found = tomllib.load(opened)
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-        raise DifferentialError(f"{file}: {error}") from None
+    found = read_toml(Path(file))
     for key in found:
         if key not in KEYS:
             raise DifferentialError(f"{file}: {key}: there is no such key{suggestion(key, KEYS)}; known: {', '.join(KEYS)}")

@@ -2,7 +2,6 @@
 
 import hashlib
 import json
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 from ..designs.space import Space
 from ..fmu import Fmu
 from ..scene import Scene
-from ..scene_file import find, flat
+from ..scene_file import find_beside, flat, read_toml
 from ..values import DifferentialError, FileName, Number, Value, Variables, suggestion
 from ..want import Condition, Want
 from .quantities import QUANTITIES, Catalogue
@@ -150,10 +149,7 @@ class _Reader:
 
     def __init__(self, file: Path, fmu):
         self.file, self.fmu, self.catalogue = file, fmu, Catalogue(fmu)
-        try:
-            self.found = tomllib.loads(file.read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise DifferentialError(f"{file}: {error}") from None
+        self.found = read_toml(file)
         self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in self.found.keys() - KEYS]
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
 
@@ -191,9 +187,7 @@ class _Reader:
 
     def scene(self):
         """The scene of the file, which is looked for beside it too, with its changes."""
-        what = self.found.get("scene", "")
-        near = self.file.parent / what
-        scene = Scene.load(near if near.is_file() else find(what), fmu=self.fmu)
+        scene = Scene.load(find_beside(self.file, self.found.get("scene", "")), fmu=self.fmu)
         return scene.set(flat(self.found.get("set", {})))
 
     def dimension(self, name, given):

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from ..command.arguments import once
+from ..command.arguments import add_fmu, once
 from ..output_file import checked, checked_picture
 from ..values import DifferentialError
 from .slow import ORDERS
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
     parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
     parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum (PNG, SVG or PDF)")
-    parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or of BEVEL_DIFFERENTIAL_FMU)")
+    add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -1,6 +1,5 @@
 """Tolerance files: a scene, the tolerances of what is made, what is wanted, limits and alternatives."""
 
-import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +8,7 @@ from ..designs import Farm, Task
 from ..fmu import Fmu
 from ..points import seconds
 from ..scene import Scene
-from ..scene_file import flat
+from ..scene_file import find_beside, flat, read_toml
 from ..values import DifferentialError, FileName, suggestion
 from ..want import Condition, Want
 from .factor import PITCH, RUNOUT, Factor, Reader
@@ -39,12 +38,9 @@ class Plan:
              indices: bool = True) -> "Plan":
         """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
-        try:
-            found = tomllib.loads(file.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise DifferentialError(f"{file}: {error.strerror}; the example is examples/design/tolerances.toml") from None
-        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise DifferentialError(f"{file}: {error}") from None
+        if not file.is_file():
+            raise DifferentialError(f"{file}: No such file or directory; the example is examples/design/tolerances.toml")
+        found = read_toml(file)
         problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(found.keys() - KEYS)]
         problems += [f"{key} is missing" for key in NEEDED if key not in found]
         problems += [f"{key} = {found[key]!r}: it is {what}" for kind, (what, keys) in KINDS.items() for key in keys
@@ -53,8 +49,7 @@ class Plan:
                      if not all(isinstance(entry, str) for entry in found.get(key, []))]
         if problems:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
-        near = file.parent / str(found["scene"])
-        scene = Scene.load(near if near.is_file() else found["scene"], fmu=fmu)
+        scene = Scene.load(find_beside(file, str(found["scene"])), fmu=fmu)
         try:
             scene.set(flat(found.get("set", {})))
             scene.check_settable(flat(found["factors"]))
