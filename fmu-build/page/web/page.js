@@ -62,8 +62,10 @@ export class Page {
     this.walk = new Walk($("walk"), (step) => this.walkTo(step), () => this.makeRoom());
     bind(this);
     this.restore();
-    this.last = performance.now();
-    requestAnimationFrame((now) => this.frame(now));
+    requestAnimationFrame((now) => {
+      this.last = now;
+      this.frame(now);
+    });
   }
 
   // Takes the set-up of the page's address.
