@@ -1,8 +1,8 @@
 // The window on the gears: camera, light, labels, and drawing when something has changed.
-import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer } from "three";
+import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { Differential } from "./differential.js";
+import { studio } from "./studio.js";
 
 const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
@@ -24,8 +24,7 @@ export class View {
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
-    const light = new PMREMGenerator(this.renderer);
-    this.scene.environment = light.fromScene(new RoomEnvironment(), 0.04).texture;
+    this.scene.environment = studio(this.renderer);
     this.scene.environmentIntensity = 0.75;
     const key = new DirectionalLight("#fff4e4", 2.2);
     key.position.set(-0.6, 1.2, -0.9);
