@@ -27,7 +27,7 @@ export class Glow {
         return;
       }
       turned.copy(light.line).applyAxisAngle(X, -held);
-      place.set(turned.x, turned.y, turned.z, 0.9 * Math.min(light.share, 1));
+      place.set(turned.x, turned.y, turned.z, Math.min(light.share, 1));
       this.colours.value[i].copy(light.colour);
     });
   }
@@ -53,7 +53,9 @@ export class Glow {
             if (glowLines[i].w == 0.0) continue;
             vec3 along = glowLines[i].xyz;
             float far = length(placed - max(dot(placed, along), 0.0) * along) / glowWidth;
-            totalEmissiveRadiance += glowLines[i].w * glowColours[i] * exp(-far * far);
+            float share = glowLines[i].w * exp(-far * far);
+            diffuseColor.rgb = mix(diffuseColor.rgb, glowColours[i], share);
+            totalEmissiveRadiance = mix(totalEmissiveRadiance, 0.8 * glowColours[i], share);
           }`);
     };
     return material;

@@ -25,8 +25,8 @@ export class View {
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
     this.scene.environment = studio(this.renderer);
-    this.scene.environmentIntensity = 0.75;
-    const key = new DirectionalLight("#fff4e4", 2.2);
+    this.scene.environmentIntensity = 0.7;
+    const key = new DirectionalLight("#fff4e4", 1.8);
     key.position.set(-0.6, 1.2, -0.9);
     // a lamp beside the eye: no face that is seen stays black
     this.lamp = new DirectionalLight("#ffffff", 0.9);
@@ -72,6 +72,13 @@ export class View {
     this.orbit.target.copy(target);
     this.orbit.update();
     this.stale = true;
+  }
+
+  // Moves the eye to a share of its distance.
+  near(share) {
+    const offset = this.camera.position.clone().sub(this.orbit.target);
+    this.camera.position.copy(this.orbit.target).addScaledVector(offset, share);
+    this.orbit.update();
   }
 
   showCase(visible) {

@@ -21,8 +21,8 @@ export const STEPS = [
     fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
     camera: "whole",
     text: "The left wheel has no load but its inertia. The teeth give both wheels the same torque, so the right one gets no "
-      + "more than the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the "
-      + "weakness of an open differential.",
+      + "more than the left one can take. The left wheel spins up, and the right one falls back until its own load turns it the other way. "
+      + "The arrows stay equal. This is the weakness of an open differential.",
   },
   {
     title: "Limited slip",
