@@ -1,6 +1,6 @@
 // The panel beside the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
-import { css, gradient, scaled } from "./scale.js";
-import { hasPairs, pairAt, pairs } from "./pairs.js";
+import { gradient, shade } from "./scale.js";
+import { hasPairs, pairNames, pairs } from "./pairs.js";
 import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
 import { colour } from "./panel.js";
 import { readable, shown } from "./table.js";
@@ -54,14 +54,11 @@ export class Flank {
       return;
     }
     const { times } = this.record;
+    if (this.done > 0 && times[this.done - 1] > time) this.forget();
     let until = this.done;
     while (until < times.length && times[until] <= time) until += 1;
-    if (this.done > 0 && times[this.done - 1] > time) {
-      this.forget();
-      until = 0;
-      while (until < times.length && times[until] <= time) until += 1;
-    }
-    for (let i = this.done; i < until; i += 1) this.add(pairAt(this.record, i));
+    const columns = Object.fromEntries(pairNames(true).map((name) => [name, this.record.column(name)]));
+    for (let i = this.done; i < until; i += 1) this.add(pairs((name) => columns[name][i]));
     this.done = until;
     const present = pairs((name) => this.record.point(name));
     FLANKS.forEach(([sign], i) => this.draw(i, present.filter(({ force }) => Math.sign(force) === sign)));
@@ -122,7 +119,7 @@ export class Flank {
         const pressure = largest[row * COLUMNS + column];
         if (pressure === 0) continue;
         const of = root + row * step;
-        pen.fillStyle = css(scaled(pressure / this.scale));
+        pen.fillStyle = shade(pressure / this.scale);
         const high = Math.min(of + step / 2, tip);
         pen.fillRect(x(from), y(share, high), x(to) - x(from) + 0.5, y(share, Math.max(of - step / 2, root)) - y(share, high) + 0.5);
       }
@@ -159,7 +156,7 @@ export class Flank {
   // A line of contact: white under the colours of its pressure.
   line(pen, x, y, of, pressures) {
     const parts = 24;
-    for (const [thick, paint] of [[7, () => "#ffffff"], [4, (share) => css(scaled(along(pressures, share) / this.scale))]]) {
+    for (const [thick, paint] of [[7, () => "#ffffff"], [4, (share) => shade(along(pressures, share) / this.scale)]]) {
       pen.lineWidth = thick;
       for (let k = 0; k < parts; k += 1) {
         const [from, to] = [k / parts, (k + 1) / parts];

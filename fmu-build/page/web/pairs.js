@@ -24,6 +24,3 @@ export function pairs(value) {
     pressures: PRESSURES.map((part) => value(at(k, part))),
   }));
 }
-
-// The pairs at point `i` of a record.
-export const pairAt = (record, i) => pairs((name) => record.column(name)[i]);
