@@ -47,9 +47,6 @@ def main(file: Path, folder: Path, program: str | None) -> None:
         opened(page, file, "scene=study_turning", 0.212)
         page.add_style_tag(content=ALONE)
         settled(page)
-        # nearer than on the page, and the middle of the gears in the middle of the picture
-        page.evaluate("page.view.near(0.84)")
-        settled(page)
         page.screenshot(path=folder / "differential.png")
         browser.close()
 

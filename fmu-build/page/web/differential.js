@@ -52,6 +52,7 @@ export class Differential {
     this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat(), this.contactLines);
     this.still.add(this.housing.shell);
     this.housing.show(this.withCase ?? true);
+    this.housing.showLeft(!this.isClear);
   }
 
   // The moment that `record` was last sought at; `largest` is the force [N] of a whole arrow, `colours` as colouring.js has them,
@@ -101,6 +102,7 @@ export class Differential {
   showThrough(isClear) {
     this.isClear = isClear;
     this.contactLines.visible = isClear;
+    this.housing?.showLeft(!isClear);
     if (this.left) this.left.material = isClear ? this.clear : this.side;
   }
 

@@ -15,7 +15,6 @@ export class Flank {
     Object.assign(this, { host, table, done: 0 });
     this.part = (name) => host.querySelector(`[data-flank=${name}]`);
     this.canvases = [this.part("drive"), this.part("coast")];
-    new ResizeObserver(() => this.fit()).observe(host);
   }
 
   show(isShown) {
@@ -61,6 +60,8 @@ export class Flank {
     for (let i = this.done; i < until; i += 1) this.add(pairs((name) => columns[name][i]));
     this.done = until;
     const present = pairs((name) => this.record.point(name));
+    // a flank that has not been touched takes no room
+    this.canvases[1].hidden = this.patterns[1].most === 0;
     FLANKS.forEach(([sign], i) => this.draw(i, present.filter(({ force }) => Math.sign(force) === sign)));
     this.describe(present);
   }
@@ -89,16 +90,11 @@ export class Flank {
     this.part("most").textContent = `${readable(this.scale / 1e6, 3)} MPa, the most of this run`;
   }
 
-  fit() {
-    for (const canvas of this.canvases) {
-      canvas.width = canvas.clientWidth * devicePixelRatio;
-      canvas.height = canvas.clientHeight * devicePixelRatio;
-    }
-  }
-
   draw(i, present) {
     const canvas = this.canvases[i];
-    if (canvas.width !== Math.round(canvas.clientWidth * devicePixelRatio)) this.fit();
+    if (canvas.hidden) return;
+    const [wide, high] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * devicePixelRatio));
+    if (canvas.width !== wide || canvas.height !== high) Object.assign(canvas, { width: wide, height: high });
     const pen = canvas.getContext("2d");
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
@@ -156,6 +152,7 @@ export class Flank {
   // A line of contact: white under the colours of its pressure.
   line(pen, x, y, of, pressures) {
     const parts = 24;
+    pen.lineCap = "square";
     for (const [thick, paint] of [[7, () => "#ffffff"], [4, (share) => shade(along(pressures, share) / this.scale)]]) {
       pen.lineWidth = thick;
       for (let k = 0; k < parts; k += 1) {

@@ -2,11 +2,13 @@
 import {
   BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2,
 } from "three";
+import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { paint } from "./paint.js";
 
 const WALL = 5; // mm
 const AIR = 3; // mm between what turns and the case
 const ROUND = 48;
+const CREASE = 0.45; // rad: faces that meet at more keep an edge
 
 // Parts that are painted alike, by the names of colouring.js, and their own metal.
 const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
@@ -39,12 +41,18 @@ export class Housing {
       for (const k of [0, 1]) pack.add(ring(middle + 1, outer, back + 0.45 * AIR * k, 0.3 * AIR, metals.clutches));
       pack.rotation.z = (-side * Math.PI) / 2;
       this.carrier.add(pack);
+      if (side > 0) this.left = [pack, this.shafts[0]];
     }
   }
 
   // Colours by part; a part without one has its own metal.
   paint(parts) {
     for (const [name, own] of Object.entries(OWN)) paint(this.metals[name], own, parts[name]);
+  }
+
+  // Shows or hides what stands behind the left side gear.
+  showLeft(visible) {
+    for (const part of this.left) part.visible = visible;
   }
 
   // Shows or hides the case.
@@ -115,7 +123,7 @@ function flange(radius, half, metal) {
   const group = new Group();
   const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
   const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
-  const ring = new Mesh(edged(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2)), metal("#78818d"));
+  const ring = new Mesh(toCreasedNormals(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), CREASE), metal("#78818d"));
   ring.position.x = place;
   group.add(ring);
   for (let k = 0; k < 10; k += 1) {
@@ -131,18 +139,11 @@ function cylinder(radius, length, material) {
   return new Mesh(new CylinderGeometry(radius, radius, length, ROUND).translate(0, length / 2, 0), material);
 }
 
-// With a normal for each face: edges stay edges.
-function edged(geometry) {
-  const faces = geometry.toNonIndexed();
-  faces.computeVertexNormals();
-  return faces;
-}
-
 // A flat ring about y, from `place` on.
 function ring(inner, outer, place, thick, material) {
   const [low, high] = [place, place + thick];
   const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
-  return new Mesh(edged(new LatheGeometry(outline, ROUND)), material);
+  return new Mesh(toCreasedNormals(new LatheGeometry(outline, ROUND), CREASE), material);
 }
 
 function shaft(side, reach, back, metals, metal) {

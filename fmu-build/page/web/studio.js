@@ -9,7 +9,7 @@ const HORIZON = 0.3;
 const CEILING = 0.5;
 // lamps: azimuth and height of the middle, half widths [deg], brightness
 const LAMPS = [
-  [-60, 62, 34, 12, 9], [70, 58, 26, 12, 8], [170, 55, 40, 10, 9], [-150, 12, 10, 30, 5], [20, 14, 9, 26, 4.5], [110, 8, 12, 22, 3.5],
+  [-60, 62, 34, 12, 6], [70, 58, 26, 12, 5.5], [170, 55, 40, 10, 6], [-150, 12, 10, 30, 3.5], [20, 14, 9, 26, 3], [110, 8, 12, 22, 2.5],
 ];
 
 export function studio(renderer) {

@@ -14,7 +14,7 @@ export const PRESETS = {
   whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7 },
   mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
   side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
-  flank: { from: [0.45, -0.75, 0.75], at: 0.8, distance: 1.25, hold: true, shell: false, arrows: 0, through: true },
+  flank: { from: [0.5, -0.7, 0.6], at: 0.8, distance: 1.8, hold: true, shell: false, arrows: 0, through: true },
 };
 
 export class View {
@@ -67,18 +67,11 @@ export class View {
       direction.copy(line).multiplyScalar(from[0]).addScaledVector(forward, from[1]).addScaledVector(apart, from[2]);
     }
     // a narrow window sees the whole from farther away
-    const wide = Math.max(1, 1.45 / this.camera.aspect);
-    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * (at ? 1 : wide)).add(target);
+    const wide = Math.max(1, (at ? 0.9 : 1.45) / this.camera.aspect);
+    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * wide).add(target);
     this.orbit.target.copy(target);
     this.orbit.update();
     this.stale = true;
-  }
-
-  // Moves the eye to a share of its distance.
-  near(share) {
-    const offset = this.camera.position.clone().sub(this.orbit.target);
-    this.camera.position.copy(this.orbit.target).addScaledVector(offset, share);
-    this.orbit.update();
   }
 
   showCase(visible) {
