@@ -27,6 +27,8 @@ export class Differential {
     Object.assign(this.clear, { transparent: true, opacity: 0.2, depthWrite: false, forceSinglePass: true });
     this.contactLines = new ContactLines();
     this.contactLines.visible = false;
+    // one of each kind of material, so that their programs can be compiled before there are gears
+    this.group.add(fixed(new BufferGeometry(), this.side), new Arrow(ARROW));
   }
 
   // New gears: surfaces of planet and side gear, and the assembly they stand in.

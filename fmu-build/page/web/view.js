@@ -37,6 +37,8 @@ export class View {
     this.orbit.addEventListener("change", () => { this.stale = true; });
     this.differential = new Differential();
     this.scene.add(this.differential.group, this.differential.still);
+    // the graphics unit compiles its programs while the library is loaded
+    this.renderer.compile(this.scene, this.camera);
     this.labels = labels;
     this.preset = "whole";
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
