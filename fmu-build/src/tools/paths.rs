@@ -49,6 +49,11 @@ pub fn wheel() -> PathBuf {
     target().join("wheel")
 }
 
+/// The page for a browser.
+pub fn page() -> PathBuf {
+    target().join("page").join(format!("{}.html", bevel_differential::variables::MODEL_NAME))
+}
+
 /// The tool chains for machines other than this one.
 pub fn toolchains() -> PathBuf {
     target().join("toolchains")
@@ -72,6 +77,11 @@ pub fn solvers_benchmark() -> PathBuf {
 /// The scripts and scenes of other hosts.
 pub fn hosts() -> PathBuf {
     workspace().join("tests").join("hosts")
+}
+
+/// The tests of the page in a browser.
+pub fn browser_tests() -> PathBuf {
+    workspace().join("tests").join("browser")
 }
 
 /// The drivetrain coupled from FMUs.
