@@ -73,6 +73,8 @@ class Live:
     def put(self, name, value, *kinds):
         """Gives a value to a control as a reader does, and waits for the run: text, True or False, or a literal's name."""
         control, before = self.control(name), self.number
+        assert control.evaluate("c => c.type === 'checkbox' ? c.checked : c.selectedOptions?.[0].label ?? c.value") != value, (
+            f"{name} is {value} already")
         if isinstance(value, bool):
             control.set_checked(value)
         elif control.evaluate("control => control.tagName") == "SELECT":

@@ -12,9 +12,11 @@ FRAGMENT = f"scene={SCENE}&stop_time={STOP}"
 
 @pytest.fixture
 def short(live):
-    """The page with a run of a few points."""
+    """The page with a run of a few points, and few pictures."""
     live.go(FRAGMENT)
-    return live
+    live.ask("ear.pictures = 0.02")
+    yield live
+    live.ask("ear.pictures = 1")
 
 
 def settable(fmu):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from live import address_of
 
-OWN = {"geometry.planet_count": "4", "geometry.module": "4.8", "contact.law": "line", "effects.tooth_friction": True,
+OWN = {"geometry.planet_count": "4", "geometry.module": "4.8", "contact.law": "line", "effects.bearing_drag": True,
        "left.load_torque": "650.25", "solver.tolerance": "3e-7"}
-OUTPUTS = ["left.speed", "right.speed", "left.normal_force", "planet[1].left_normal_force", "heat.tooth_friction", "solver.energy_residual"]
+OUTPUTS = ["left.speed", "right.speed", "left.normal_force", "planet[1].left_normal_force", "heat.drag", "solver.energy_residual"]
 
 
 def test_a_link_restores_all_values_and_gives_the_same_record(live, fresh, found):
@@ -42,6 +42,8 @@ def test_a_link_restores_all_values_and_gives_the_same_record(live, fresh, found
     ("scene=study_straight&no.such=1", "no.such=1"),
     ("scene=study_straight&effects.tooth_friction=maybe", "effects.tooth_friction=maybe"),
     ("scene=study_straight&left.speed=3", "left.speed=3"),
+    ("scene=study_straight&geometry.planet_teeth=10.5", "geometry.planet_teeth=10.5"),
+    ("scene=study_straight&tooth_errors.seed=4294967301", "tooth_errors.seed=4294967301"),
 ])
 def test_what_an_address_has_wrong_is_said_and_the_rest_is_simulated(live, odd, said):
     before = live.number
