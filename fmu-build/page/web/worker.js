@@ -1,21 +1,14 @@
 // The worker: it owns the library, runs scenes and makes surfaces of gears. It answers every request with messages.
+import { XzReadableStream } from "xz-decompress";
 import { Library, Refused } from "./library.js";
 import { Run } from "./run.js";
 
 const BATCH = 30; // ms of simulation between two messages
-const WARM = 150; // ms
 const MOST = 500; // points in a message
 
 let library = null;
 let loaded = null; // settles when the library is there
 let current = 0; // number of the run that is wanted
-
-// The browser compiles what runs often once more, to faster code: it runs the start values for that, before the first scene.
-function warm() {
-  const run = new Run(library, { stop: 1, step: 1e-3, set: [], changes: [], tables: [] });
-  const begin = performance.now();
-  while (!run.isOver && performance.now() - begin < WARM) run.advance();
-}
 
 // Lets messages in.
 const pause = () => new Promise((resolve) => {
@@ -24,11 +17,17 @@ const pause = () => new Promise((resolve) => {
   port2.postMessage(null);
 });
 
+// Compiles while it unpacks.
+function compiled(packed) {
+  const stream = new XzReadableStream(new Blob([packed]).stream());
+  return WebAssembly.compileStreaming(new Response(stream, { headers: { "Content-Type": "application/wasm" } }));
+}
+
 const requests = {
-  async load({ bytes }) {
-    library = await Library.of(await WebAssembly.compile(bytes));
-    warm();
-    postMessage({ kind: "ready" });
+  async load({ packed, module }) {
+    const made = module ?? await compiled(packed);
+    library = await Library.of(made);
+    postMessage({ kind: "ready", module: made });
   },
 
   gears({ settings }) {
@@ -36,35 +35,39 @@ const requests = {
     postMessage({ kind: "gears", surfaces });
   },
 
-  async run({ number, scene, references, constants }) {
+  async run({ number, scene, references }) {
     current = number;
-    const started = performance.now();
+    postMessage({ kind: "taken", number });
     const run = new Run(library, scene);
-    const values = library.get(constants);
     const warnings = library.said().filter(({ status }) => status > 0).map(({ text }) => text);
-    postMessage({ kind: "started", number, values, warnings, seconds: (performance.now() - started) / 1e3 });
+    postMessage({ kind: "started", number, warnings });
     let busy = 0;
     const width = references.length + 1;
     const points = new Float64Array(width * MOST);
     let count = 0;
+    const reader = library.reader(references);
     const note = () => {
       points[width * count] = run.time;
-      points.set(library.get(references), width * count + 1);
+      reader.read(points, width * count + 1);
       count += 1;
     };
-    note();
-    while (current === number) {
-      const begin = performance.now();
-      while (!run.isOver && count < MOST && performance.now() - begin < BATCH) {
-        run.advance();
-        note();
+    try {
+      note();
+      while (current === number) {
+        const begin = performance.now();
+        while (!run.isOver && count < MOST && performance.now() - begin < BATCH) {
+          run.advance();
+          note();
+        }
+        busy += performance.now() - begin;
+        const part = points.slice(0, width * count);
+        postMessage({ kind: "points", number, points: part, time: run.time, seconds: busy / 1e3 }, [part.buffer]);
+        count = 0;
+        if (run.isOver) break;
+        await pause();
       }
-      busy += performance.now() - begin;
-      const part = points.slice(0, width * count);
-      postMessage({ kind: "points", number, points: part, time: run.time, seconds: busy / 1e3 }, [part.buffer]);
-      count = 0;
-      if (run.isOver) break;
-      await pause();
+    } finally {
+      reader.free();
     }
     if (current === number) postMessage({ kind: "over", number, said: library.said().map(({ text }) => text) });
   },

@@ -10,6 +10,7 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use crate::fmu::package;
+use crate::fmu::page::FILE;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::Environment;
@@ -36,7 +37,7 @@ impl TestPageCommand {
     pub fn run(&self) -> Result<()> {
         let page = match &self.page {
             Some(file) => file.clone(),
-            None => paths::page(),
+            None => paths::page().join(FILE),
         };
         ensure!(page.is_file(), "{} is not there; make it: cargo run --release -- page", paths::shown(&page));
         let node = found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
@@ -46,8 +47,7 @@ impl TestPageCommand {
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         progress.stage("testing the page");
-        let checked = paths::target().join("page").join("checked.csv");
-        paths::create_folder(checked.parent().unwrap_or(&checked))?;
+        let checked = paths::target().join("browser").join("checked.csv");
         let mut pytest = environment.command();
         pytest
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "--tb=short", "--table"])

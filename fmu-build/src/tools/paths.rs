@@ -44,14 +44,14 @@ pub fn fmu() -> PathBuf {
     target().join("fmu").join(format!("{}.fmu", bevel_differential::variables::MODEL_NAME))
 }
 
+/// The page for browsers, with what it is bundled from.
+pub fn page() -> PathBuf {
+    target().join("page")
+}
+
 /// The Python package as a wheel, and the proof that it works.
 pub fn wheel() -> PathBuf {
     target().join("wheel")
-}
-
-/// The page for a browser.
-pub fn page() -> PathBuf {
-    target().join("page").join(format!("{}.html", bevel_differential::variables::MODEL_NAME))
 }
 
 /// The tool chains for machines other than this one.

@@ -1,6 +1,9 @@
 //! The page: the library for browsers, the gears, traces and controls in one HTML file that needs no server.
 
 pub mod data;
+mod made;
+
+pub use made::{FILE, Page};
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,6 +14,7 @@ use clap::Args;
 
 use crate::fmu::libraries;
 use crate::fmu::toolchains::{self, UnpackedToolchain, WASM};
+use crate::tools::files::copy_folder;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{Environment, finish};
@@ -81,16 +85,16 @@ fn library(tools: &UnpackedToolchain, parts: &str) -> Result<PathBuf> {
 
 /// The page around `library`; the sources are copied, so that nothing is written where they are.
 fn bundle(library: &Path) -> Result<PathBuf> {
-    let page = paths::page();
-    let folder = paths::target().join("page");
+    let folder = paths::page();
     let web = folder.join("web");
-    copy_sources(&paths::workspace().join("fmu-build").join("page").join("web"), &web)?;
+    copy_folder(&paths::workspace().join("fmu-build").join("page").join("web"), &web, "node_modules")?;
     let packed = packed(library, &folder)?;
     let data = folder.join("data.json");
     fs::write(&data, serde_json::to_vec(&data::data()?)?).context("data.json cannot be written")?;
     let mut npm = Command::new("npm");
     npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
     finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
+    let page = folder.join(FILE);
     let mut node = Command::new("node");
     node.current_dir(&web).arg("build.mjs").args([&packed, &data, &page]);
     finish(&mut node, "the page cannot be bundled")?;
@@ -104,16 +108,4 @@ fn packed(library: &Path, folder: &Path) -> Result<PathBuf> {
     python.arg("-c").arg(PACK).args([library, &file]);
     finish(&mut python, "the library for browsers cannot be packed")?;
     Ok(file)
-}
-
-fn copy_sources(from: &Path, to: &Path) -> Result<()> {
-    paths::create_folder(to)?;
-    for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
-        let file = entry?.path();
-        if file.is_file() {
-            let name = file.file_name().unwrap_or_default();
-            fs::copy(&file, to.join(name)).with_context(|| format!("{} cannot be copied", paths::shown(&file)))?;
-        }
-    }
-    Ok(())
 }
