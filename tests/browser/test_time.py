@@ -17,7 +17,7 @@ def turn(live):
 
 def scrub(live, time):
     # a slider rounds off the last bits
-    time = round(time, 6)
+    time = round(float(time), 6)
     live.page.locator("#time").fill(repr(time))
     live.wait("time => page.player.time === time && page.traces.now === time && !page.moved", time)
 
@@ -52,7 +52,7 @@ DRAWN = "name => { const e = page.view.differential[name].matrix.elements; retur
 def test_gears_readings_and_trace_cursor_follow_the_scrubbed_time(turn, found):
     sides = ("left", "right")
     record = turn.record([f"{side}.{what}" for side in sides for what in ("speed", "angle")])
-    stop = record["time"][-1]
+    stop = float(record["time"][-1])
     at = {}
     for time in (round(share * stop, 6) for share in (0.0, 0.13, 0.52, 0.9)):
         scrub(turn, time)
