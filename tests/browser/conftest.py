@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from bevel_differential import Fmu
-from live import Live
 from playwright.sync_api import sync_playwright
+
+from live import Live
 
 ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
 # small: without a graphics card a picture takes as long as it is large
@@ -85,22 +86,22 @@ def browser():
 
 @pytest.fixture(scope="session")
 def opened(browser, page_file):
-    """opened(fragment, ...): a new page in a window of its own; `offline` cuts the network off. The caller closes it."""
+    """opened(fragment, scripts): a new page in a window of its own, with the network cut off. The caller closes it."""
 
-    def open_page(fragment="", scripts=(), offline=False, **window):
-        context = browser.new_context(**{"viewport": WINDOW, **window})
-        context.set_offline(offline)
+    def open_page(fragment="", scripts=()):
+        context = browser.new_context(viewport=WINDOW, color_scheme="light")
+        context.set_offline(True)
         return Live(context.new_page(), page_file.as_uri(), fragment, scripts)
 
     return open_page
 
 
-def close(live, faults=()):
-    """Closes a page, which must have made no request but for itself and had no errors but these."""
+def close(live):
+    """Closes a page, which must have made no request but for itself and had no errors."""
     live.page.context.close()
     strange = [address for address in live.asked if address.split("#")[0] != live.address and not address.startswith(INSIDE)]
     assert strange == [], "a page that needs no server has asked for these"
-    assert live.faults == list(faults)
+    assert live.faults == []
 
 
 @pytest.fixture
@@ -108,8 +109,8 @@ def fresh(opened):
     """As `opened`; the pages are closed, and what they asked for is checked, at the end of the test."""
     pages = []
 
-    def open_page(*arguments, **options):
-        pages.append(opened(*arguments, **options))
+    def open_page(*arguments):
+        pages.append(opened(*arguments))
         return pages[-1]
 
     yield open_page

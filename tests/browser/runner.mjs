@@ -21,7 +21,12 @@ const records = {};
 for (const [name, { scene, references }] of Object.entries(JSON.parse(readFileSync(scenes, "utf8")))) {
   const library = await Library.of(compiled);
   const run = new Run(library, scene);
-  const row = () => [run.time, ...library.get(references)].map(bits);
+  const reader = library.reader(references);
+  const values = new Float64Array(references.length);
+  const row = () => {
+    reader.read(values, 0);
+    return [run.time, ...values].map(bits);
+  };
   const rows = [row()];
   while (!run.isOver) {
     run.advance();

@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 from bevel_differential import Scene
+
 from conftest import named_file
 from live import HERE, address_of
 
@@ -50,7 +51,8 @@ def in_node(in_chromium, fmu, page_file, tmp_path_factory):
     scenes = {name: {"scene": scene, "references": references} for name, (_, scene) in in_chromium.items()}
     (folder / "scenes.json").write_text(json.dumps(scenes))
     files = [WEB, folder / "library.wasm", folder / "scenes.json", folder / "records.json"]
-    subprocess.run([named_file("NODE"), HERE / "runner.mjs", *files], check=True)
+    ran = subprocess.run([named_file("NODE"), HERE / "runner.mjs", *files], capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
     rows = json.loads((folder / "records.json").read_text())
     columns = {name: np.array([[int(number, 16) for number in row] for row in rows[name]], np.uint64).T for name in SCENES}
     return {name: dict(zip(["time", *OUTPUTS], columns[name])) for name in SCENES}
@@ -62,11 +64,11 @@ def test_chromium_node_and_the_native_fmu_give_the_same_bits(scene, in_chromium,
     native = {name: bits(record[name]) for name in ["time", *OUTPUTS]}
     chromium, node = in_chromium[scene][0], in_node[scene]
     for name, numbers in native.items():
-        # a zero with a sign or a value that never changes would be no proof
         for where, other in (("Chromium", chromium[name]), ("node", node[name])):
             assert other.shape == numbers.shape, f"{name} in {where}"
             different = np.flatnonzero(other != numbers)
-            assert different.size == 0, f"{name} in {where}: {different.size} of {numbers.size} differ, first at point {different[0]}"
+            assert different.size == 0, f"{name} in {where}: {different.size} of {numbers.size} differ, from {different[:1]}"
+    # values that never change would be no proof
     moving = sum(np.unique(numbers).size > 1 for numbers in native.values())
     assert moving > len(OUTPUTS) / 2
     found(f"{scene}: {len(record)} points × {len(OUTPUTS)} outputs")

@@ -53,6 +53,13 @@ def another(variable, value):
     raise AssertionError(f"{variable.name}: no other value")
 
 
+def from_link(variable, word):
+    """The value of a word in a link, in SI."""
+    if variable.kind == "Boolean":
+        return {"true": True, "false": False}[word]
+    return variable.literals[word] if variable.literals else float(word)
+
+
 def beyond(variable):
     """A value above the range, as a reader types it, and in SI."""
     factor = shown_factor(variable)
@@ -109,9 +116,7 @@ def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found
         given, wanted = another(variable, before)
         answer = short.put(name, given, "started", "refused")
         assert short.value(name) == wanted, name
-        word = short.link()[name]
-        in_link = {"true": True, "false": False}.get(word) if variable.kind == "Boolean" else variable.literals.get(word) or float(word)
-        assert in_link == wanted, f"{name}={word}"
+        assert from_link(variable, short.link()[name]) == wanted, name
         if check(short, fmu, answer, native, name, wanted):
             refused.append(name)
         assert "started" in short.back(name, "started", "refused"), name

@@ -3,13 +3,12 @@
 from conftest import INSIDE
 
 
-def test_the_page_loads_from_its_file_alone_even_offline(fresh, found):
-    live = fresh(offline=True)
-    live.wait("page.view.differential.gears")
-    own = [address for address in live.asked if address.startswith(live.address)]
-    inside = [address for address in live.asked if address.startswith(INSIDE)]
-    # this test sees requests: that for the page is one
+def test_the_page_comes_from_its_file_alone_with_the_network_cut_off(shared, found):
+    shared.wait("page.view.differential.gears")
+    own = [address for address in shared.asked if address.split("#")[0] == shared.address]
+    inside = [address for address in shared.asked if address.startswith(INSIDE)]
+    # requests are seen: that for the page is one
     assert len(own) == 1
-    assert len(own) + len(inside) == len(live.asked)
-    assert live.page.title()
-    found(f"{len(own)} file, {len(inside)} of blob: and data:, nothing else")
+    assert len(own) + len(inside) == len(shared.asked)
+    assert shared.faults == [] and shared.message() == "" and shared.page.title()
+    found(f"1 file, {len(inside)} requests of blob: and data:, no other")

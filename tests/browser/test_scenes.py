@@ -47,8 +47,9 @@ def test_speeds_follow_the_willis_equation_when_a_control_is_changed(live, found
                 answer = live.put(name, f"{value:g}")
                 assert "over" in answer, answer
         record = live.record(["left.speed", "right.speed", "carrier.speed"])
-        expected = (carrier + spin * teeth / 16.0) * DEGREE, (carrier - spin * teeth / 16.0) * DEGREE
-        assert np.allclose([record["left.speed"][-1], record["right.speed"][-1]], expected, rtol=1e-12, atol=0.0), (carrier, spin, teeth)
+        expected = np.add(carrier, [spin * teeth / 16.0, -spin * teeth / 16.0]) * DEGREE
+        found_speeds = [record["left.speed"][-1], record["right.speed"][-1]]
+        assert np.allclose(found_speeds, expected, rtol=1e-12, atol=0.0), (carrier, spin, teeth)
     found(f"{len(cases)} pairs of speeds")
 
 
@@ -56,7 +57,9 @@ def outer_cone_distance(module, planet_teeth, side_teeth):
     return 0.5 * module * np.hypot(planet_teeth, side_teeth)
 
 
-@pytest.mark.parametrize("name, text, gears", [("geometry.module", "5.4", (5.4, 10, 16)), ("geometry.side_teeth", "18", (4.5, 10, 18))])
+@pytest.mark.parametrize("name, text, gears", [
+    ("geometry.module", "5.4", (5.4, 10, 16)), ("geometry.side_teeth", "18", (4.5, 10, 18)),
+])
 def test_another_module_or_number_of_teeth_draws_other_gears(live, name, text, gears):
     drawn, before = live.ask("[ear.gears.length, ear.gears.at(-1)]")
     answer = live.put(name, text)

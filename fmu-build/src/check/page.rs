@@ -40,7 +40,8 @@ impl TestPageCommand {
             None => paths::page().join(FILE),
         };
         ensure!(page.is_file(), "{} is not there; make it: cargo run --release -- page", paths::shown(&page));
-        let node = found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
+        let node =
+            found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
         let environment = Environment::for_browser(|what| progress.stage(what))?;
@@ -65,7 +66,8 @@ impl TestPageCommand {
         let output = pytest.output().context("pytest cannot be run")?;
         progress.finish();
         if !output.status.success() {
-            let [report, errors] = [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+            let [report, errors] =
+                [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
             bail!("the page fails its tests:\n{report}{errors}");
         }
         print!("{}", table(&checked)?.terminal());
@@ -77,7 +79,8 @@ impl TestPageCommand {
 fn chromium() -> Result<PathBuf> {
     if let Some(named) = env::var_os(CHROME).filter(|named| !named.is_empty()) {
         let shown = Path::new(&named).display().to_string();
-        return found(&named).with_context(|| format!("{CHROME} = {shown}: this program does not run; name a Chromium"));
+        return found(&named)
+            .with_context(|| format!("{CHROME} = {shown}: this program does not run; name a Chromium"));
     }
     found(OsStr::new("chromium"))
         .with_context(|| format!("Chromium is not installed: apt install chromium, or name one by {CHROME}"))
@@ -88,7 +91,8 @@ fn found(name: &OsStr) -> Option<PathBuf> {
     let folders = env::var_os("PATH").unwrap_or_default();
     let named = Path::new(name);
     let beside = env::split_paths(&folders).map(|folder| folder.join(named).with_extension(env::consts::EXE_EXTENSION));
-    let mut candidates = std::iter::once(named.to_path_buf()).filter(|file| file.components().count() > 1).chain(beside);
+    let mut candidates =
+        std::iter::once(named.to_path_buf()).filter(|file| file.components().count() > 1).chain(beside);
     candidates.find(|file| file.is_file() && runs(file))
 }
 

@@ -60,7 +60,8 @@ impl Environment {
     /// The environment with what drives a browser.
     pub fn for_browser(report: impl Fn(&str)) -> Result<Self> {
         let requirements = paths::browser_tests().join("requirements.txt");
-        Self { folder: paths::target().join("browser"), requirements, holds: "playwright, pytest, fmpy, numpy" }.made(report)
+        Self { folder: paths::target().join("browser"), requirements, holds: "playwright, pytest, fmpy, numpy" }
+            .made(report)
     }
 
     /// The environment with the linker for old Linux systems.
