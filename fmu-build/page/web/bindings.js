@@ -9,11 +9,11 @@ export function bind(page) {
   const on = (id, event, call) => $(id).addEventListener(event, () => call($(id)));
   for (const { name } of page.table.scenes) $("scene").append(new Option(name.replaceAll("_", " "), name));
   for (const [name, { label }] of Object.entries(MODES)) $("colour").append(new Option(label, name));
-  on("scene", "change", ({ value }) => { location.hash = `scene=${value}`; });
+  on("scene", "change", ({ value }) => { location.hash = page.setup.fragmentOf(value); });
   on("colour", "change", ({ value }) => page.colour(value));
   on("walk-open", "click", () => page.walk.show(0));
   on("copy", "click", () => copy(page.notice));
-  on("reset", "click", () => { location.hash = `scene=${page.setup.scene.name}`; });
+  on("reset", "click", () => { location.hash = page.setup.fragmentOf(page.setup.scene.name); });
   on("search", "input", ({ value }) => page.controls.filter(value));
   on("duration", "change", () => page.takeDuration());
   on("play", "click", () => page.play());

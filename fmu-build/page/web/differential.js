@@ -11,6 +11,7 @@ import { Glow } from "./steel.js";
 const CREASE = 0.45; // rad: faces that meet at more keep an edge
 const SIDES = [["left", 1], ["right", -1]];
 const ARROW = "#ff3b2f";
+const GEAR = 0.36; // roughness
 const OWN = { planet: "#d99a35", side: "#4d7cb8", grey: "#8b929b" };
 
 export class Differential {
@@ -19,11 +20,11 @@ export class Differential {
     this.still = new Group(); // what does not turn with the gears: the cut case
     this.glow = new Glow();
     this.arrowLength = 0.7; // of the largest force, in reaches of the gears
-    this.side = this.glow.material(OWN.side);
-    this.planet = this.glow.material(OWN.planet);
+    this.side = this.glow.material(OWN.side, GEAR, true);
+    this.planet = this.glow.material(OWN.planet, GEAR, true);
     // the left side gear may be clear, so that the flanks of the planet are seen through it
-    this.clear = this.glow.material(OWN.side);
-    Object.assign(this.clear, { transparent: true, opacity: 0.2, depthWrite: false });
+    this.clear = this.glow.material(OWN.side, GEAR, true);
+    Object.assign(this.clear, { transparent: true, opacity: 0.2, depthWrite: false, forceSinglePass: true });
     this.contactLines = new ContactLines();
     this.contactLines.visible = false;
   }
@@ -44,7 +45,7 @@ export class Differential {
     this.gears = [this.left, this.right, ...this.planets];
     this.housing = new Housing({
       reach: this.reach, back: highest(side), planetBack: highest(planet), planets: assembly.planets,
-      azimuth: (i) => assembly.azimuth(i),
+      azimuth: (i) => assembly.azimuth(i), metal: (colour, roughness) => this.glow.material(colour, roughness),
     });
     this.arrows = this.planets.map(() => SIDES.map(() => new Arrow(ARROW)));
     this.glow.width.value = 0.11 * this.reach;
@@ -111,7 +112,7 @@ export class Differential {
   load(pointer, { line, force }, share) {
     const length = this.arrowLength * this.reach * share;
     pointer.visible = share > 0.01;
-    pointer.position.copy(line).multiplyScalar(this.assembly.outerCone);
+    pointer.position.copy(line).multiplyScalar(this.assembly.cones.outer);
     pointer.draw(force, Math.max(length, 0.01), 0.045 * this.arrowLength * this.reach);
   }
 }

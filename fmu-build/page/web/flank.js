@@ -1,6 +1,6 @@
 // The panel beside the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
-import { css, gradient, scaled } from "./scale.js";
-import { hasPairs, pairAt, pairs } from "./pairs.js";
+import { gradient, shade } from "./scale.js";
+import { hasPairs, pairNames, pairs } from "./pairs.js";
 import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
 import { colour } from "./panel.js";
 import { readable, shown } from "./table.js";
@@ -29,7 +29,6 @@ export class Flank {
 
   begin(record, setup) {
     this.record = record;
-    this.strength = setup.value("strength.contact_strength");
     this.contact = setup.value("scene.gear_contact");
     this.forget();
   }
@@ -42,9 +41,10 @@ export class Flank {
     this.patterns = FLANKS.map(() => new Pattern(height(root), height(tip)));
   }
 
-  // The pattern up to a time, and the lines of contact then.
-  at(time) {
+  // The pattern up to a time, and the lines of contact then; `most` is the largest pressure of the run [Pa].
+  at(time, most) {
     if (this.host.hidden || !this.cones) return;
+    this.scale = most;
     const literal = this.table.find("scene.gear_contact").literals.find(({ value }) => value === this.contact).name;
     const hasTeeth = TEETH.includes(literal) && hasPairs(this.record, true);
     for (const canvas of this.canvases) canvas.hidden = !hasTeeth;
@@ -54,14 +54,11 @@ export class Flank {
       return;
     }
     const { times } = this.record;
+    if (this.done > 0 && times[this.done - 1] > time) this.forget();
     let until = this.done;
     while (until < times.length && times[until] <= time) until += 1;
-    if (this.done > 0 && times[this.done - 1] > time) {
-      this.forget();
-      until = 0;
-      while (until < times.length && times[until] <= time) until += 1;
-    }
-    for (let i = this.done; i < until; i += 1) this.add(pairAt(this.record, i));
+    const columns = Object.fromEntries(pairNames(true).map((name) => [name, this.record.column(name)]));
+    for (let i = this.done; i < until; i += 1) this.add(pairs((name) => columns[name][i]));
     this.done = until;
     const present = pairs((name) => this.record.point(name));
     FLANKS.forEach(([sign], i) => this.draw(i, present.filter(({ force }) => Math.sign(force) === sign)));
@@ -89,7 +86,7 @@ export class Flank {
     if (host.textContent !== text) host.textContent = text;
     this.part("scale").hidden = this.canvases[0].hidden;
     this.part("scale").style.setProperty("--scale", gradient());
-    this.part("strength").textContent = `${readable(this.strength / 1e6, 4)} MPa`;
+    this.part("most").textContent = `${readable(this.scale / 1e6, 3)} MPa, the most of this run`;
   }
 
   fit() {
@@ -122,7 +119,7 @@ export class Flank {
         const pressure = largest[row * COLUMNS + column];
         if (pressure === 0) continue;
         const of = root + row * step;
-        pen.fillStyle = css(scaled(pressure / this.strength));
+        pen.fillStyle = shade(pressure / this.scale);
         const high = Math.min(of + step / 2, tip);
         pen.fillRect(x(from), y(share, high), x(to) - x(from) + 0.5, y(share, Math.max(of - step / 2, root)) - y(share, high) + 0.5);
       }
@@ -159,7 +156,7 @@ export class Flank {
   // A line of contact: white under the colours of its pressure.
   line(pen, x, y, of, pressures) {
     const parts = 24;
-    for (const [thick, paint] of [[7, () => "#ffffff"], [4, (share) => css(scaled(along(pressures, share) / this.strength))]]) {
+    for (const [thick, paint] of [[7, () => "#ffffff"], [4, (share) => shade(along(pressures, share) / this.scale)]]) {
       pen.lineWidth = thick;
       for (let k = 0; k < parts; k += 1) {
         const [from, to] = [k / parts, (k + 1) / parts];

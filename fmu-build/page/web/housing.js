@@ -1,6 +1,6 @@
 // What holds the gears, drawn for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches, half-shafts.
 import {
-  BoxGeometry, CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshStandardMaterial, Shape, ShapeGeometry, Vector2,
+  BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2,
 } from "three";
 import { paint } from "./paint.js";
 
@@ -8,23 +8,21 @@ const WALL = 5; // mm
 const AIR = 3; // mm between what turns and the case
 const ROUND = 48;
 
-const metal = (color, roughness = 0.45) => new MeshStandardMaterial({ color, metalness: 0.7, roughness });
-
 // Parts that are painted alike, by the names of colouring.js, and their own metal.
 const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
 
 export class Housing {
-  // Reach of all gears from the apex, backs of side gears and planets [mm]; `azimuth(i)` of planet i.
-  constructor({ reach, back, planetBack, planets, azimuth }) {
-    this.metals = Object.fromEntries(Object.entries(OWN).map(([name, colour]) => [name, metal(colour, 0.4)]));
+  // Reach of all gears from the apex, backs of side gears and planets [mm]; `azimuth(i)` of planet i, `metal(colour, roughness)`.
+  constructor({ reach, back, planetBack, planets, azimuth, metal }) {
+    this.metals = Object.fromEntries(Object.entries(OWN).map(([name, colour]) => [name, metal(colour)]));
     const { metals } = this;
     this.shell = new Group();
     this.carrier = new Group();
-    this.shafts = [1, -1].map((side) => shaft(side, reach, back, metals));
+    this.shafts = [1, -1].map((side) => shaft(side, reach, back, metals, metal));
     const [radius, half] = [reach + AIR, back + AIR];
     const profile = section(radius, half, shaftRadius(reach) + 2);
-    this.shell.add(lathe(profile, metals.case), ...cuts(profile));
-    this.flange = flange(radius, half);
+    this.shell.add(lathe(profile, metals.case), ...cuts(profile, metal));
+    this.flange = flange(radius, half, metal);
     this.carrier.add(this.flange);
     for (let i = 0; i < planets; i += 1) {
       const [length, inner] = [radius + WALL + 3, 0.16 * reach];
@@ -97,29 +95,27 @@ function section(radius, half, hub) {
 
 function lathe(profile, material) {
   const mesh = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI), material);
-  material.side = DoubleSide;
   material.roughness = 0.6;
   mesh.geometry.rotateZ(-Math.PI / 2);
   return mesh;
 }
 
 // The faces of the cut, painted as on cut-away models.
-function cuts(profile) {
+function cuts(profile, metal) {
   return [1, -1].map((side) => {
     const shape = new Shape(profile.map(({ x, y }) => new Vector2(y, side * x)));
-    const material = new MeshStandardMaterial({ color: "#3f7f6c", roughness: 0.8, metalness: 0, side: DoubleSide });
+    const material = metal("#3f7f6c", 0.8);
+    material.metalness = 0;
     return new Mesh(new ShapeGeometry(shape).rotateX(Math.PI / 2), material);
   });
 }
 
 // Flange for the ring gear, with bolts that show how the carrier turns.
-function flange(radius, half) {
+function flange(radius, half, metal) {
   const group = new Group();
   const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
   const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
-  const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#78818d"));
-  ring.material.flatShading = true;
-  ring.material.side = DoubleSide;
+  const ring = new Mesh(edged(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2)), metal("#78818d"));
   ring.position.x = place;
   group.add(ring);
   for (let k = 0; k < 10; k += 1) {
@@ -135,14 +131,21 @@ function cylinder(radius, length, material) {
   return new Mesh(new CylinderGeometry(radius, radius, length, ROUND).translate(0, length / 2, 0), material);
 }
 
+// With a normal for each face: edges stay edges.
+function edged(geometry) {
+  const faces = geometry.toNonIndexed();
+  faces.computeVertexNormals();
+  return faces;
+}
+
 // A flat ring about y, from `place` on.
 function ring(inner, outer, place, thick, material) {
   const [low, high] = [place, place + thick];
   const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
-  return new Mesh(new LatheGeometry(outline, ROUND), material);
+  return new Mesh(edged(new LatheGeometry(outline, ROUND)), material);
 }
 
-function shaft(side, reach, back, metals) {
+function shaft(side, reach, back, metals, metal) {
   const group = new Group();
   const [begin, end, radius] = [0.62 * back, back + 0.75 * reach, shaftRadius(reach)];
   const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metals.shafts);
@@ -157,7 +160,7 @@ function shaft(side, reach, back, metals) {
     group.add(bolt);
   }
   // a stripe shows how the shaft turns
-  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), new MeshStandardMaterial({ color: "#e0a030", roughness: 0.6 }));
+  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal("#e0a030", 0.6));
   stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
   group.add(stripe);
   return group;

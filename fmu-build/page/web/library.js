@@ -88,7 +88,7 @@ export class Library {
       this.exports.page_free(from, 4 * count);
       this.exports.page_free(to, 8 * count);
     };
-    return { read, free };
+    return { count, read, free };
   }
 
   // Starts anew with these assignments, for a run to `stop`.

@@ -7,7 +7,7 @@ import { Controls } from "./controls.js";
 import { Flank } from "./flank.js";
 import { Legend } from "./legend.js";
 import { Notice } from "./notice.js";
-import { hasPairs } from "./pairs.js";
+import { hasPairs, pressureNames } from "./pairs.js";
 import { Player } from "./player.js";
 import { showFigures, showTransport, toothTime } from "./readings.js";
 import { Record } from "./record.js";
@@ -62,8 +62,10 @@ export class Page {
     this.walk = new Walk($("walk"), (step) => this.walkTo(step), () => this.makeRoom());
     bind(this);
     this.restore();
-    this.last = performance.now();
-    requestAnimationFrame((now) => this.frame(now));
+    requestAnimationFrame((now) => {
+      this.last = now;
+      this.frame(now);
+    });
   }
 
   // Takes the set-up of the page's address.
@@ -121,6 +123,7 @@ export class Page {
     this.forces = forces;
     this.most = 0;
     this.mostHeat = 0;
+    this.mostPressure = 0;
     this.player.begin(stop);
     this.traces.begin(shown, this.record, stop);
     this.choice.show(shown);
@@ -143,6 +146,7 @@ export class Page {
     this.refreshed = performance.now();
     this.traces.refresh();
     this.most = Math.max(...this.forces.map((name) => this.record.largest(name)));
+    this.mostPressure = Math.max(...pressureNames().map((name) => this.record.largest(name)));
     if (this.setup.colour === "heat") this.mostHeat = largestPower(this.record, this.table);
     $("scale").lastElementChild.textContent = this.most > 0
       ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
@@ -272,11 +276,10 @@ export class Page {
     this.held = this.view.hold;
     record.seek(player.time);
     const colours = coloured(setup.colour, { table, setup, record, most, mostHeat, hasPairs: hasPairs(record) });
-    const strength = setup.value("strength.contact_strength");
-    this.view.pose(record, most, colours, (pressure) => scaled(pressure / strength));
+    this.view.pose(record, most, colours, (pressure) => scaled(pressure / this.mostPressure));
     if (record.count === 0) return;
     this.legend.show(setup.colour, colours.legend);
-    this.flank.at(player.time);
+    this.flank.at(player.time, this.mostPressure);
     this.traces.at(player.time);
     showFigures(record, table);
   }

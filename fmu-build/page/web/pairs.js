@@ -11,6 +11,8 @@ export const pairNames = (withPressures) => {
   return each.flatMap((k) => parts.map((part) => at(k, part)));
 };
 
+export const pressureNames = () => each.flatMap((k) => PRESSURES.map((part) => at(k, part)));
+
 // Whether the record lists pairs at all, and with their pressures.
 export const hasPairs = (record, withPressures = false) => pairNames(withPressures).every((name) => record.has(name));
 
@@ -22,6 +24,3 @@ export function pairs(value) {
     pressures: PRESSURES.map((part) => value(at(k, part))),
   }));
 }
-
-// The pairs at point `i` of a record.
-export const pairAt = (record, i) => pairs((name) => record.column(name)[i]);

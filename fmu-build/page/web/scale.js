@@ -13,4 +13,8 @@ export function scaled(share) {
 
 export const css = (colour) => `#${colour.getHexString()}`;
 
+// The same as text for a canvas, which takes many: out of a palette.
+const palette = Array.from({ length: 256 }, (_, k) => css(scaled(k / 255)));
+export const shade = (share) => palette[Math.round(255 * Math.min(Math.max(share, 0), 1))];
+
 export const gradient = () => `linear-gradient(to right, ${STOPS.map(css).join(", ")})`;

@@ -99,6 +99,15 @@ export class Setup {
       words.set(name, literal ? literal.name : String(value));
     }
     if (this.traces) words.set("show", this.traces.join(" "));
+    return this.withLook(words);
+  }
+
+  // Of a scene as it is, looked at as now.
+  fragmentOf(scene) {
+    return this.withLook(new URLSearchParams({ scene }));
+  }
+
+  withLook(words) {
     for (const [word, plain] of Object.entries(PLAIN)) if (this[word] !== plain) words.set(word, this[word]);
     return `#${words}`;
   }

@@ -1,13 +1,18 @@
-// Metal that lights up along the lines of contact.
-import { Color, MeshStandardMaterial, Vector3, Vector4 } from "three";
+// Metal, which on gears lights up along the lines of contact. All of it is one program of the graphics unit: each one more delays
+// the first picture.
+import { Color, DoubleSide, MeshStandardMaterial, Vector3, Vector4 } from "three";
+import { paint } from "./paint.js";
 
 const MOST = 10; // lines: two meshes of each of four planets, and three pairs in place of one of them
 const X = new Vector3(1, 0, 0);
 
+const dark = () => ({ value: Array.from({ length: MOST }, () => new Vector4(0, 0, 0, 0)) });
+
 // Shared by all gears: directions of lines in the scene with the strength of their light in w, and their colours.
 export class Glow {
   constructor() {
-    this.lines = { value: Array.from({ length: MOST }, () => new Vector4()) };
+    this.lines = dark();
+    this.noLines = dark();
     this.colours = { value: Array.from({ length: MOST }, () => new Color()) };
     this.width = { value: 5 };
   }
@@ -22,15 +27,18 @@ export class Glow {
         return;
       }
       turned.copy(light.line).applyAxisAngle(X, -held);
-      place.set(turned.x, turned.y, turned.z, 0.9 * Math.min(light.share, 1));
+      place.set(turned.x, turned.y, turned.z, Math.min(light.share, 1));
       this.colours.value[i].copy(light.colour);
     });
   }
 
-  material(colour) {
-    const material = new MeshStandardMaterial({ color: colour, roughness: 0.36 });
+  // `isLit` for gears: light at the lines, none on what lies behind them.
+  material(colour, roughness = 0.4, isLit = false) {
+    const material = new MeshStandardMaterial({ color: colour, roughness, side: DoubleSide });
+    const lines = isLit ? this.lines : this.noLines;
+    paint(material, colour, null);
     material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, { glowLines: this.lines, glowWidth: this.width, glowColours: this.colours });
+      Object.assign(shader.uniforms, { glowLines: lines, glowWidth: this.width, glowColours: this.colours });
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", "#include <common>\nvarying vec3 placed;")
         .replace("#include <begin_vertex>", "#include <begin_vertex>\nplaced = (modelMatrix * vec4(position, 1.0)).xyz;");
@@ -42,9 +50,12 @@ export class Glow {
           uniform vec3 glowColours[${MOST}];`)
         .replace("#include <emissivemap_fragment>", `#include <emissivemap_fragment>
           for (int i = 0; i < ${MOST}; i += 1) {
+            if (glowLines[i].w == 0.0) continue;
             vec3 along = glowLines[i].xyz;
             float far = length(placed - max(dot(placed, along), 0.0) * along) / glowWidth;
-            totalEmissiveRadiance += glowLines[i].w * glowColours[i] * exp(-far * far);
+            float share = glowLines[i].w * exp(-far * far);
+            diffuseColor.rgb = mix(diffuseColor.rgb, glowColours[i], share);
+            totalEmissiveRadiance = mix(totalEmissiveRadiance, 0.8 * glowColours[i], share);
           }`);
     };
     return material;

@@ -1,8 +1,8 @@
 // The window on the gears: camera, light, labels, and drawing when something has changed.
-import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer } from "three";
+import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { Differential } from "./differential.js";
+import { studio } from "./studio.js";
 
 const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
@@ -24,10 +24,9 @@ export class View {
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
-    const light = new PMREMGenerator(this.renderer);
-    this.scene.environment = light.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.75;
-    const key = new DirectionalLight("#fff4e4", 2.2);
+    this.scene.environment = studio(this.renderer);
+    this.scene.environmentIntensity = 0.7;
+    const key = new DirectionalLight("#fff4e4", 1.8);
     key.position.set(-0.6, 1.2, -0.9);
     // a lamp beside the eye: no face that is seen stays black
     this.lamp = new DirectionalLight("#ffffff", 0.9);
@@ -73,6 +72,13 @@ export class View {
     this.orbit.target.copy(target);
     this.orbit.update();
     this.stale = true;
+  }
+
+  // Moves the eye to a share of its distance.
+  near(share) {
+    const offset = this.camera.position.clone().sub(this.orbit.target);
+    this.camera.position.copy(this.orbit.target).addScaledVector(offset, share);
+    this.orbit.update();
   }
 
   showCase(visible) {
