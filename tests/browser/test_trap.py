@@ -2,7 +2,7 @@
 
 
 def test_a_worker_that_traps_is_started_anew_with_the_set_up_kept(fresh):
-    live = fresh("scene=study_straight", ["trap.js"])
+    live = fresh("scene=study_straight", ["failing.js", "trap.js"])
     assert "over" in live.answer() and live.message() == ""
     assert live.ask("ear.workers") == 1
     answer = live.put("geometry.module", "4.75")
