@@ -25,15 +25,19 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    config.checked = []
+    # by the name of a test: [cases, what was found, seconds]
+    config.checked = {}
 
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     report = yield
     if report.when == "call":
-        found = "; ".join(value for name, value in item.user_properties if name == "found")
-        item.config.checked.append([item.originalname.removeprefix("test_").replace("_", " "), found, f"{report.duration:.1f}"])
+        name = item.originalname.removeprefix("test_").replace("_", " ")
+        row = item.config.checked.setdefault(name, [0, [], 0.0])
+        row[0] += 1
+        row[1] += [value for key, value in item.user_properties if key == "found"]
+        row[2] += report.duration
     return report
 
 
@@ -41,7 +45,8 @@ def pytest_sessionfinish(session):
     file = session.config.getoption("table")
     if file:
         with open(file, "w", newline="", encoding="utf-8") as out:
-            csv.writer(out).writerows(session.config.checked)
+            csv.writer(out).writerows([name, cases, "; ".join(found), f"{seconds:.1f}"]
+                                      for name, (cases, found, seconds) in session.config.checked.items())
 
 
 def named_file(variable):
@@ -128,7 +133,8 @@ def shared(opened):
 
 @pytest.fixture
 def live(shared):
-    """The page that most tests use, with the straight scene; its picture stands still."""
+    """The page that most tests use, with the straight scene; its picture stands still, and is drawn seldom."""
+    shared.ask("ear.pictures = 0.1")
     shared.go("scene=study_straight")
     shared.pause()
     yield shared

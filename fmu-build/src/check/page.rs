@@ -106,9 +106,9 @@ fn runs(program: &Path) -> bool {
 fn table(file: &Path) -> Result<Table> {
     let text = fs::read(file).with_context(|| format!("{} cannot be read", paths::shown(file)))?;
     let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&text[..]);
-    let mut table = Table::new(["checked", "found", "time, s"]).left(0..2);
+    let mut table = Table::new(["checked", "cases", "found", "time, s"]).left([0, 2]);
     for row in reader.deserialize() {
-        let row: [String; 3] = row?;
+        let row: [String; 4] = row?;
         table.push(row);
     }
     Ok(table)
