@@ -1,5 +1,6 @@
-// Runs in the page before its program: from the second run on, `failure` stands for fmi2DoStep in the first worker. The page's own library
-// is left alone: the function is exchanged where the worker makes an instance of it. The script that comes next defines `failure`.
+// Runs in the page before its program: from the second run on, a failure stands for fmi2DoStep in the first worker. The page's own library
+// is left alone: the function is exchanged where the worker makes an instance of it. The script that comes next gives
+// `window.failure`.
 const Whole = Blob;
 const program = [];
 window.Blob = class extends Whole {
@@ -27,7 +28,7 @@ let workers = 0;
 window.Worker = class extends Worker {
   constructor(address) {
     workers += 1;
-    const first = () => URL.createObjectURL(new Whole([`(${exchange})(${failure});`, ...program], { type: "text/javascript" }));
+    const first = () => URL.createObjectURL(new Whole([`(${exchange})(${window.failure});`, ...program], { type: "text/javascript" }));
     super(workers > 1 ? address : first());
   }
 };

@@ -1,4 +1,4 @@
 // A step that never comes back.
-function failure() {
+window.failure = () => {
   for (;;);
-}
+};
