@@ -111,11 +111,12 @@ def close(live):
 
 @pytest.fixture
 def fresh(opened):
-    """As `opened`; the pages are closed, and what they asked for is checked, at the end of the test."""
+    """As `opened`, at rest; the pages are closed, and what they asked for is checked, at the end of the test."""
     pages = []
 
     def open_page(*arguments):
         pages.append(opened(*arguments))
+        pages[-1].rest()
         return pages[-1]
 
     yield open_page
@@ -134,7 +135,6 @@ def shared(opened):
 @pytest.fixture
 def live(shared):
     """The page that most tests use, with the straight scene; its picture stands still, and is drawn seldom."""
-    shared.ask("ear.pictures = 0.1")
+    shared.rest()
     shared.go("scene=study_straight")
-    shared.pause()
     yield shared

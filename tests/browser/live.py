@@ -121,6 +121,11 @@ class Live:
                            list(names))
         return {name: np.array(column, float) for name, column in zip(["time", *names], columns)}
 
+    def rest(self):
+        """The picture stands still and is drawn seldom, for tests that do not look at it."""
+        self.ask("ear.pictures = 0.1")
+        self.pause()
+
     def pause(self):
         """Stops the picture, so that nothing is drawn that a test does not ask for."""
         if self.ask("page.player.playing"):
