@@ -2,7 +2,7 @@
 
 
 def test_a_run_that_hangs_is_stopped_by_the_next_change_with_the_set_up_kept(fresh):
-    live = fresh("scene=study_straight", ["hang.js"])
+    live = fresh("scene=study_straight", ["failing.js", "hang.js"])
     assert "over" in live.answer() and live.ask("ear.workers") == 1
     live.put("geometry.module", "4.75", "taken", "started")
     # the next change has the answer of a new worker

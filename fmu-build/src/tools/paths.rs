@@ -79,6 +79,11 @@ pub fn hosts() -> PathBuf {
     workspace().join("tests").join("hosts")
 }
 
+/// The tests of the page in a browser.
+pub fn browser_tests() -> PathBuf {
+    workspace().join("tests").join("browser")
+}
+
 /// The drivetrain coupled from FMUs.
 pub fn drivetrain() -> PathBuf {
     workspace().join("examples").join("drivetrain")

@@ -24,6 +24,8 @@ const CRATE: &str = "bevel-differential-page";
 const LIBRARY: &str = "bevel_differential_page.wasm";
 /// Rust's name of the target.
 const TARGET: &str = "wasm32-unknown-unknown";
+/// Parts of a crate that are compiled beside each other where that is wanted.
+const PARTS: &str = "16";
 /// Packs a file by Python's own library, with the check that browsers' unpackers know.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
                     Path(sys.argv[2]).write_bytes(lzma.compress(Path(sys.argv[1]).read_bytes(), \
@@ -34,7 +36,11 @@ const PACK: &str = "import lzma, sys; from pathlib import Path; \
 /// The page is one file that needs no server. It takes the tool chain `toolchains wasm`, and node with npm, which gets three.js,
 /// uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
-pub struct PageCommand {}
+pub struct PageCommand {
+    /// Compile the library in parts, on all cores: sooner here, a little slower in the browser, the same results
+    #[arg(long)]
+    quick: bool,
+}
 
 impl PageCommand {
     /// Builds the page and prints where it is.
@@ -46,7 +52,7 @@ impl PageCommand {
             bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
         }
         let progress = Progress::start("building the library for browsers");
-        let library = library(&tools)?;
+        let library = library(&tools, if self.quick { PARTS } else { "1" })?;
         progress.stage("bundling the page");
         let page = bundle(&library)?;
         progress.finish();
@@ -56,8 +62,8 @@ impl PageCommand {
     }
 }
 
-/// The library for browsers.
-fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
+/// The library for browsers, each crate compiled in this many parts.
+fn library(tools: &UnpackedToolchain, parts: &str) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("wasm");
     let mut cargo = Command::new(libraries::cargo());
     cargo
@@ -69,8 +75,8 @@ fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
         // Debian's Rust is a stable one, and building the standard library is not yet
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"))
-        // as for users, whatever this build is for
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
+        // whatever this build is for
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
     finish(&mut cargo, "the library for browsers cannot be built")?;
