@@ -1,0 +1,84 @@
+"""Order tracking: a signal over time becomes one over an angle, and its spectra count periods per turn."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..values import DifferentialError
+
+TURN = 2.0 * np.pi
+
+
+@dataclass(frozen=True)
+class Waterfall:
+    """Spectra of windows along an angle.
+
+    `orders`: periods per turn, shape (orders,). `speeds`: mean of the speed that goes with each window, shape (windows,).
+    `amplitudes`: of the signal, shape (windows, orders). `resolution`: distance of two lines, periods per turn."""
+
+    orders: np.ndarray
+    speeds: np.ndarray
+    amplitudes: np.ndarray
+    resolution: float
+
+    @property
+    def mean(self) -> np.ndarray:
+        """Effective amplitude over all windows, shape (orders,)."""
+        return np.sqrt(np.mean(np.square(self.amplitudes), axis=0))
+
+    def strongest(self, count: int, floor: float) -> list[tuple[float, float]]:
+        """(order, amplitude) of the strongest peaks above `floor` times the highest, the strongest first. A peak is higher than all
+        within two lines, which is the width that the window gives to a pure tone."""
+        mean = self.mean
+        peaks = [k for k in range(2, len(mean) - 2) if mean[k] == max(mean[k - 2:k + 3]) and mean[k] > floor * mean.max()]
+        found = sorted(((self._place(k), float(mean[k])) for k in peaks), key=lambda peak: -peak[1])
+        return found[:count]
+
+    def _place(self, k):
+        """Order of a peak, by a parabola through the logarithms of it and its neighbours."""
+        low, middle, high = np.log(np.maximum(self.mean[k - 1:k + 2], 1e-300))
+        bend = low - 2.0 * middle + high
+        return float(self.orders[k] + (0.5 * (low - high) / bend if bend < 0.0 else 0.0) * self.resolution)
+
+
+def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np.ndarray, np.ndarray]:
+    """`values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
+
+    In between they follow cubic pieces through neighbouring points with the slopes of central differences."""
+    angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
+    if np.any(np.diff(angle) <= 0.0):
+        raise DifferentialError("orders are counted by an angle that turns one way")
+    if np.diff(angle).max() > TURN / per_turn:
+        raise DifferentialError(f"two points of the record are {np.diff(angle).max() / TURN:.3g} turns apart, too far for "
+                                f"{per_turn} points in a turn: take shorter steps")
+    count = int((angle[-1] - angle[0]) / TURN * per_turn)
+    even = angle[0] + np.arange(count) * TURN / per_turn
+    slopes = np.gradient(values, angle)
+    place = np.clip(np.searchsorted(angle, even, side="right") - 1, 0, len(angle) - 2)
+    width = angle[place + 1] - angle[place]
+    share = (even - angle[place]) / width
+    low, high = values[place], values[place + 1]
+    rise, fall = slopes[place] * width, slopes[place + 1] * width
+    cubic = low + share * (rise + share * (3.0 * (high - low) - 2.0 * rise - fall + share * (2.0 * (low - high) + rise + fall)))
+    return even, cubic
+
+
+def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, per_turn: int, overlap: float = 0.75) -> Waterfall:
+    """Spectra over windows (Hann) of so many turns of `angle` (rad), which overlap; `speed` labels them."""
+    even, resampled = over_angle(angle, values, per_turn)
+    ordered = np.argsort(angle)
+    labels = np.interp(even * np.sign(angle[-1] - angle[0]), angle[ordered], speed[ordered])
+    size = turns * per_turn
+    hop = max(1, round(size * (1.0 - overlap)))
+    begins = range(0, len(even) - size + 1, hop)
+    if len(begins) < 2:
+        raise DifferentialError(f"{len(even) / per_turn:.3g} turns are too few for windows of {turns} turns")
+    window = np.hanning(size + 1)[:-1]
+    spectra = []
+    for begin in begins:
+        part = resampled[begin:begin + size]
+        # the slow trend is not an order
+        swing = part - np.polynomial.Polynomial.fit(np.arange(size), part, 1)(np.arange(size))
+        spectra.append(2.0 * np.abs(np.fft.rfft(window * swing)) / window.sum())
+    speeds = np.array([labels[begin:begin + size].mean() for begin in begins])
+    return Waterfall(np.arange(size // 2 + 1) / turns, speeds, np.array(spectra), 1.0 / turns)

@@ -1,0 +1,3 @@
+from .blocks import Section
+def section(run):
+    return Section("pattern","x")
