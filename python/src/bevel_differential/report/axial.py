@@ -16,9 +16,10 @@ def draw_section(pair: Pair) -> str:
     with style.styled():
         picture = style.figure(6.0)
         axes = picture.subplots()
+        # a gear in its own half plane: radius across, axis along; planets above the side gears, as they cover each other in the mesh
         for sense in (1.0, -1.0):
-            # a gear in its own half plane: radius across, axis along
             _gear(axes, pair, 1, lambda radius, axis, sense=sense: (-sense * axis, radius), SIDE)
+        for sense in (1.0, -1.0):
             _gear(axes, pair, 0, lambda radius, axis, sense=sense: (radius, sense * axis), PLANET)
         reach = MM * pair.outer_cone
         for sense in (1.0, -1.0):
@@ -57,48 +58,47 @@ def _line(axes, begin, end, dash):
 
 
 def _dimensions(axes, pair):
-    """Cone distance and face along the pitch line, diameters outside."""
+    """Cone distance along a pitch line, face beside it, diameters outside, angles in the middle."""
     planet, side = pair.gears
     reach = MM * pair.outer_cone
     along = np.array([math.cos(side.pitch), math.sin(side.pitch)])
-    across = np.array([-along[1], along[0]])
-    # beside the upper right pitch line, outside the planet's tip cone
-    far = reach * math.sin(side.tip - side.pitch) + 6.0
-    _between(axes, along * MM * pair.inner_cone, along * reach, across * -far, f"b = {_mm(pair.face_width)}")
-    _between(axes, np.zeros(2), along * reach, across * -(far + 9.0), f"R_e = {_mm(pair.outer_cone)}")
-    top = reach * math.cos(planet.root) + 7.0
-    width = reach * math.sin(planet.pitch)
-    _between(axes, np.array([-width, reach * math.cos(planet.pitch)]), np.array([width, reach * math.cos(planet.pitch)]),
-             np.array([0.0, top - reach * math.cos(planet.pitch)]), f"planet d_e = {_mm(pair.module * planet.teeth)}")
-    left = reach * math.cos(side.root) + 9.0
-    half = reach * math.sin(side.pitch)
-    _between(axes, np.array([-reach * math.cos(side.pitch), -half]), np.array([-reach * math.cos(side.pitch), half]),
-             np.array([-left + reach * math.cos(side.pitch), 0.0]), f"side gear d_e = {_mm(pair.module * side.teeth)}")
-    for angle, gear, name in ((side.pitch, side, "side gear"), (0.5 * math.pi, planet, "planet")):
-        begin = 0.0 if name == "side gear" else side.pitch
-        turn = np.linspace(begin, angle, 40)
-        radius = 0.36 * reach if name == "side gear" else 0.28 * reach
+    # beyond the tips of the planet, outside both gears
+    beyond = np.array([-along[1], along[0]]) * -(reach * math.sin(planet.tip - planet.pitch) + 7.0)
+    _between(axes, along * MM * pair.inner_cone, along * reach, beyond, f"b = {_mm(pair.face_width)}")
+    down = along * (1.0, -1.0)
+    _between(axes, np.zeros(2), down * reach, np.zeros(2), f"Rₑ = {_mm(pair.outer_cone)}", 0.27)
+    top, width = reach * math.cos(planet.pitch), reach * math.sin(planet.pitch)
+    _between(axes, np.array([-width, top]), np.array([width, top]), np.array([0.0, reach * math.cos(planet.root) + 7.0 - top]),
+             f"planet dₑ = {_mm(pair.module * planet.teeth)}")
+    back, half = reach * math.cos(side.pitch), reach * math.sin(side.pitch)
+    _between(axes, np.array([-back, -half]), np.array([-back, half]), np.array([back - reach * math.cos(side.root) - 9.0, 0.0]),
+             f"side gear dₑ = {_mm(pair.module * side.teeth)}")
+    radius = 0.55 * MM * pair.inner_cone
+    for begin, end, gear in ((0.0, side.pitch, side), (side.pitch, 0.5 * math.pi, planet)):
+        turn = np.linspace(begin, end, 40)
         axes.plot(radius * np.cos(turn), radius * np.sin(turn), color=style.INK, lw=0.8)
-        middle = 0.5 * (begin + angle)
-        axes.text((radius + 1.5) * math.cos(middle), (radius + 1.5) * math.sin(middle), f"δ = {math.degrees(gear.pitch):.2f}°", fontsize=8.5)
-    for gear, place in ((side, (-reach * math.cos(side.root) * 0.93, 0.0)), (planet, (0.0, reach * math.cos(planet.root) * 0.9))):
-        if gear.bore > 0.0:
-            axes.text(*place, f"⌀ {_mm(gear.bore)}", ha="center", va="center", fontsize=8.5)
-    axes.text(-reach * math.cos(side.pitch) * 0.86, -2.0, "left side gear", fontsize=9, ha="left", va="top")
-    axes.text(reach * math.cos(side.pitch) * 0.86, -2.0, "right side gear", fontsize=9, ha="right", va="top")
-    axes.text(2.0, -reach * math.cos(planet.pitch) * 0.9, "planet", fontsize=9)
+        middle = 0.5 * (begin + end)
+        axes.text((radius + 0.8) * math.cos(middle), (radius + 0.8) * math.sin(middle), f"{math.degrees(gear.pitch):.1f}°",
+                  fontsize=8.5, ha="left", va="bottom")
+    middle = 0.5 * (reach + MM * pair.inner_cone)
+    for i, gear, name in ((1, side, "side gear"), (0, planet, "planet")):
+        name += f", bore {_mm(gear.bore)}" if gear.bore > 0.0 else ""
+        for sense, which in ((-1.0, "left "), (1.0, "right ")) if i else ((-1.0, ""),):
+            along_axis = sense * middle * math.cos(gear.root)
+            axes.text(*((along_axis, 0.3 * half) if i else (0.3 * width, along_axis)), which + name, fontsize=9, ha="center", va="center",
+                      rotation=90 if i else 0)
 
 
-def _between(axes, begin, end, offset, text):
-    """A dimension from point to point, moved aside, with its extension lines."""
+def _between(axes, begin, end, offset, text, place=0.5):
+    """A dimension from point to point, moved aside, with its extension lines and its text at a place between."""
     for point in (begin, end):
         axes.plot(*zip(point, point + 1.04 * offset), color=style.INK, lw=0.5, alpha=0.6)
     first, last = begin + offset, end + offset
     axes.annotate("", first, last, arrowprops={"arrowstyle": "<->", "color": style.INK, "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
     turned = math.degrees(math.atan2(*(last - first)[::-1]))
-    turned = (turned + 90.0) % 180.0 - 90.0
-    middle = 0.5 * (first + last)
-    axes.text(*middle, text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom", fontsize=8.5)
+    # letters stand upright, or read from below
+    turned = 90.0 - (90.0 - turned) % 180.0
+    axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom", fontsize=8.5)
 
 
 def _mm(length):

@@ -44,23 +44,32 @@ class Waterfall:
 def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np.ndarray, np.ndarray]:
     """`values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
 
-    In between they follow cubic pieces through neighbouring points with the slopes of central differences."""
+    A point is the mean over its step, so that orders far above do not come back as low ones: those at multiples of `per_turn`, which
+    would fall on the lowest, vanish in it. `damped` says what it does to the others."""
     angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
     if np.any(np.diff(angle) <= 0.0):
         raise DifferentialError("orders are counted by an angle that turns one way")
     if np.diff(angle).max() > TURN / per_turn:
         raise DifferentialError(f"two points of the record are {np.diff(angle).max() / TURN:.3g} turns apart, too far for "
                                 f"{per_turn} points in a turn: take shorter steps")
-    count = int((angle[-1] - angle[0]) / TURN * per_turn)
-    even = angle[0] + np.arange(count) * TURN / per_turn
+    step = TURN / per_turn
+    edges = angle[0] + np.arange(int((angle[-1] - angle[0]) / step) + 1) * step
+    # the integral over the angle, by cubic pieces whose slopes are the values
     slopes = np.gradient(values, angle)
-    place = np.clip(np.searchsorted(angle, even, side="right") - 1, 0, len(angle) - 2)
-    width = angle[place + 1] - angle[place]
-    share = (even - angle[place]) / width
-    low, high = values[place], values[place + 1]
-    rise, fall = slopes[place] * width, slopes[place + 1] * width
-    cubic = low + share * (rise + share * (3.0 * (high - low) - 2.0 * rise - fall + share * (2.0 * (low - high) + rise + fall)))
-    return even, cubic
+    widths = np.diff(angle)
+    pieces = 0.5 * widths * (values[1:] + values[:-1]) + widths**2 / 12.0 * (slopes[:-1] - slopes[1:])
+    total = np.concatenate([[0.0], np.cumsum(pieces)])
+    place = np.clip(np.searchsorted(angle, edges, side="right") - 1, 0, len(angle) - 2)
+    width = widths[place]
+    share = (edges - angle[place]) / width
+    low, high, rise, fall = total[place], total[place + 1], width * values[place], width * values[place + 1]
+    integral = low + share * (rise + share * (3.0 * (high - low) - 2.0 * rise - fall + share * (2.0 * (low - high) + rise + fall)))
+    return 0.5 * (edges[1:] + edges[:-1]), np.diff(integral) / step
+
+
+def damped(orders: np.ndarray, per_turn: int) -> np.ndarray:
+    """What the mean over a step leaves of orders: sin x / x with x = π order / per_turn."""
+    return np.sinc(orders / per_turn)
 
 
 def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, per_turn: int, overlap: float = 0.75) -> Waterfall:
@@ -81,4 +90,5 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
         swing = part - np.polynomial.Polynomial.fit(np.arange(size), part, 1)(np.arange(size))
         spectra.append(2.0 * np.abs(np.fft.rfft(window * swing)) / window.sum())
     speeds = np.array([labels[begin:begin + size].mean() for begin in begins])
-    return Waterfall(np.arange(size // 2 + 1) / turns, speeds, np.array(spectra), 1.0 / turns)
+    orders = np.arange(size // 2 + 1) / turns
+    return Waterfall(orders, speeds, np.array(spectra) / damped(orders, per_turn), 1.0 / turns)

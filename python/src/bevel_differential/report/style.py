@@ -34,7 +34,7 @@ def styled() -> Iterator[None]:
             "axes.prop_cycle": cycler(color=CYCLE), "legend.frameon": False, "font.size": 9.5, "axes.titlesize": 10.0,
             "axes.titleweight": "bold", "axes.titlelocation": "left", "legend.fontsize": 9.0, "lines.linewidth": 1.4,
             "svg.fonttype": "none", "svg.hashsalt": "report", "figure.dpi": 110, "axes.formatter.useoffset": False,
-            "axes.unicode_minus": True}):
+            "axes.unicode_minus": True, "axes.xmargin": 0.01}):
         yield
 
 
@@ -57,6 +57,8 @@ def svg(picture: "Figure", name: str) -> str:
     text = re.sub(r'(<svg[^>]*?)\swidth="[^"]*"', r"\1", text, count=1)
     text = re.sub(r'(<svg[^>]*?)\sheight="[^"]*"', r"\1", text, count=1)
     text = re.sub(r'(?<=\bid=")|(?<=url\(#)|(?<=href="#)', f"{name}-", text)
+    # others where a machine does not have the first
+    text = text.replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
     return text.replace(INK, "currentColor").strip()
 
 

@@ -5,6 +5,7 @@ from . import words
 from .blocks import Section, Table
 from .simulated import Simulated
 
+ROUNDING = 1e-12
 STATISTICS = ("mean", "min", "max", "rms", "peak_to_peak", "final")
 # besides the scene's own outputs; those of meshes where there are some
 MAIN = ("carrier.speed", "left.speed", "right.speed", "planet[1].spin_speed", "carrier.torque", "left.shaft_torque",
@@ -20,7 +21,10 @@ def section(run: Simulated) -> Section:
     for name in main_outputs(run):
         variable = run.scene.fmu.variable(name)
         unit, values = variable.shown(run.series(name))
-        rows.append((name, words.unit_text(unit), *(words.number(FIGURES[word](run.time, values), 5) for word in STATISTICS)))
+        figures = [FIGURES[word](run.time, values) for word in STATISTICS]
+        # what is left of a difference of large numbers is rounding
+        rounding = ROUNDING * max(map(abs, figures))
+        rows.append((name, words.unit_text(unit), *(words.number(figure if abs(figure) > rounding else 0.0, 5) for figure in figures)))
     span = f"{words.number(run.time[0])} to {words.quantity(run.time[-1], 's')}"
     found.add(Table(("output", "unit", *(word.replace("_", " ") for word in STATISTICS)), rows,
                     f"Outputs of the scene and the main ones of every scene, over the whole run from {span}, the start included. Means "

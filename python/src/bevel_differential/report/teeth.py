@@ -32,7 +32,7 @@ def draw_teeth(run: Simulated, pair: Pair) -> str:
         axes.set(xlim=(-half, half), ylim=(-0.36 * half, 0.36 * half), xlabel="along the pitch circles at the heel, mm",
                  ylabel="toward the planet's axis, mm")
         axes.set_aspect("equal")
-        axes.legend(loc="upper left", ncols=4)
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=5)
         return style.svg(picture, "teeth")
 
 

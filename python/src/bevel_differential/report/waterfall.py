@@ -8,7 +8,7 @@ from ..values import DifferentialError
 from . import style, words
 from .blocks import Picture, Section, Table
 from .orders import Waterfall, waterfall
-from .runup import SIGNAL, TURNS, RunUp, run_up
+from .runup import FASTEST, SIGNAL, SLOWEST, RunUp, run_up
 from .simulated import Simulated, reason_of
 
 # turns of a planet in a window: lines are 1/8 of an order apart
@@ -55,10 +55,9 @@ def _highest(expected):
 
 
 def _how(up: RunUp):
-    speeds = np.abs(up.record["carrier.speed"]) * RPM
     told = f" Unlike in the scene, {words.listed(up.changed)}." if up.changed else ""
-    return (f"A second simulation of the same gears, law and effects. The carrier is driven from {words.number(speeds[0], 3)} to "
-            f"{words.quantity(speeds[-1], 'rpm', 3)} in {words.quantity(up.seconds, 's', 3)}; planets spin at "
+    return (f"A second simulation of the same gears, law and effects. The carrier is driven from {words.number(SLOWEST * RPM)} to "
+            f"{words.quantity(FASTEST * RPM, 'rpm')} in {words.quantity(up.seconds, 's', 3)}; planets spin at "
             f"{words.number(up.ratio, 3)} of its speed, as imposed. Half-shafts carry {words.number(up.loads[0])} (left) and "
             f"{words.quantity(up.loads[1], 'N·m')} (right).{told} The signal is the transmission error of planet 1 with the left side gear: "
             "loads are imposed, which leaves little to see in the forces of the mesh, while the deflection shows every change of "
@@ -77,7 +76,7 @@ def _draw(spectra: Waterfall, expected, highest):
         edges = np.append(spectra.orders[shown] - 0.5 * spectra.resolution, spectra.orders[shown][-1] + 0.5 * spectra.resolution)
         mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma",
                                 norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
-        upper.set(ylabel="carrier speed, rpm", title="amplitude of the transmission error")
+        upper.set(ylabel="carrier speed, rpm")
         upper.grid(False)
         bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
         bar.set_label("amplitude, µm")
@@ -105,9 +104,9 @@ def _caption(run, up, spectra, expected):
     k = int(np.argmax(course))
     marks = "red arrows and dashes: multiples of the mesh order" + (
         ", green: teeth of the ring gear" if run.value("effects.final_drive") else "")
-    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(TURNS)}; lines are "
+    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)} after the start has settled; lines are "
             f"{words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
-            f"{words.quantity(UM * size, 'µm', 3)} in the mean square, from {words.number(course.min(), 3)} to "
+            f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
             f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}. Theory has no free "
             f"constant: {marks}.")
 

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,8 +15,6 @@ from .summary import main_outputs
 # effects that say what is built in, broken or driven: part of the question, not of how closely it is looked at. A test holds the
 # command `accuracy` to the same ones
 PART_OF_THE_QUESTION = ("effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake")
-# changes below this, relative to the largest value of an output, are rounding
-NOTHING = 1e-9
 # the largest changes that the table names
 NAMED = 3
 PREFIX = "effects."
@@ -26,9 +24,11 @@ TOGETHER = "all of these together"
 @dataclass(frozen=True)
 class Tried:
     """A run with an effect on. `mean` and `swing`: by output the change of its mean and of its peak-to-peak value, relative to the largest
-    value in the scene; `calls` and `seconds`: evaluations and time, times those of the scene; `refused`: why there is none."""
+    value of its kind in the scene; `nothing`: changes up to this are within the solver's tolerance; `calls` and `seconds`: evaluations and
+    time, times those of the scene; `refused`: why there is none."""
 
     name: str
+    nothing: float
     mean: dict[str, float]
     swing: dict[str, float]
     calls: float = 0.0
@@ -38,7 +38,7 @@ class Tried:
     @property
     def changes(self) -> bool:
         """Whether it changes anything."""
-        return any(abs(change) > NOTHING for change in (*self.mean.values(), *self.swing.values()))
+        return any(abs(change) > self.nothing for change in (*self.mean.values(), *self.swing.values()))
 
 
 def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
@@ -71,16 +71,27 @@ def attempt(run: Simulated, label: str, names: list[str]) -> Tried:
     try:
         record = run.scene.run(outputs, dict.fromkeys(names, True))
     except DifferentialError as error:
-        return Tried(label, {}, {}, refused=reason_of(error))
+        return Tried(label, 0.0, {}, {}, refused=reason_of(error))
     seconds = time.perf_counter() - begin
+    sizes = _sizes(run)
     mean, swing = {}, {}
     for name in main_outputs(run):
         old, new = run.series(name), record[name].astype(float)
-        size = float(np.max(np.abs(old))) or float(np.max(np.abs(new))) or 1.0
+        size = sizes[name] or float(np.max(np.abs(new))) or 1.0
         mean[name] = float(np.trapezoid(new - old, run.time) / (run.time[-1] - run.time[0]) / size)
         swing[name] = float((np.ptp(new) - np.ptp(old)) / size)
     calls = max(float(run.record["solver.rhs_calls"][-1]), 1.0)
-    return Tried(label, mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
+    tolerance = float(run.value("solver.relative_tolerance"))
+    return Tried(label, tolerance, mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
+
+
+def _sizes(run):
+    """By output the largest value of all outputs of its unit; without a unit its own."""
+    names = main_outputs(run)
+    largest = {name: float(np.max(np.abs(run.series(name)))) for name in names}
+    units = {name: run.scene.fmu.variable(name).unit for name in names}
+    return {name: max(largest[other] for other in names if other == name or (units[name] not in (None, "1") and units[other] == units[name]))
+            for name in names}
 
 
 def together(run: Simulated, names: list[str]) -> Tried:
@@ -94,7 +105,7 @@ def together(run: Simulated, names: list[str]) -> Tried:
         gone += refused
         left = [name for name in left if name not in refused]
     without = f"{TOGETHER}, without {words.listed(name.removeprefix(PREFIX) for name in gone)}" if gone else TOGETHER
-    return Tried(without, found.mean, found.swing, found.calls, found.seconds, found.refused)
+    return replace(found, name=without)
 
 
 def _named(run, switches, off):
@@ -113,25 +124,24 @@ def _draw(tried):
     with style.styled():
         picture = style.figure(0.34 * len(outputs) + 1.9)
         panels = picture.subplots(1, 2, sharey=True)
-        for panel, title, table in ((panels[0], "change of the mean", [one.mean for one in rows]),
-                                    (panels[1], "change of peak to peak", [one.swing for one in rows])):
+        for panel, title, table in ((panels[0], "mean", [one.mean for one in rows]), (panels[1], "peak to peak", [one.swing for one in rows])):
             values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
             reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
             panel.imshow(values, cmap="RdBu_r", vmin=-reach, vmax=reach, aspect="auto", alpha=0.55)
             for (row, column), value in np.ndenumerate(values):
-                panel.text(column, row, _cell(value), ha="center", va="center", fontsize=8)
+                panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
             panel.set_xticks(range(len(rows)), ["together" if one.name.startswith(TOGETHER) else one.name.replace("_", "\n") for one in rows],
                              fontsize=8)
             panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
-            panel.set_title(f"{title}, % of the largest value")
+            panel.set_title(f"change of the {title}, %")
             panel.grid(False)
             panel.tick_params(length=0)
             panel.spines[:].set_visible(False)
         return style.svg(picture, "worth")
 
 
-def _cell(percent):
-    if abs(percent) < 100.0 * NOTHING:
+def _cell(percent, nothing):
+    if abs(percent) <= 100.0 * nothing:
         return "·"
     return words.signed(percent, 2) if abs(percent) >= 0.01 else "~0"
 
@@ -140,8 +150,9 @@ def _caption(tried):
     one = max((one for one in tried if not one.refused and not one.name.startswith(TOGETHER)),
               key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
     what, change = _largest(one)[0]
-    return (f"Each column is one effect switched on. A dot is no change, ~0 less than 0.01 %. The largest change by one effect is that of "
-            f"{one.name}: {what} by {words.signed(100.0 * change)} % of the output's largest value.")
+    return (f"Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit has in the "
+            f"scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than 0.01 %. The largest change by "
+            f"one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
 
 
 def _largest(one):
@@ -158,15 +169,15 @@ def _table(run, tried):
         elif not one.changes:
             rows.append((one.name, _nothing(run, one), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
         else:
-            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in _largest(one)[:NAMED] if abs(change) > NOTHING]
+            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in _largest(one)[:NAMED] if abs(change) > one.nothing]
             rows.append((one.name, "; ".join(largest), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
-    return Table(("effect", "largest changes, relative to the largest value of the output", "evaluations", "time"), rows,
+    return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
                  "Evaluations of the tooth forces and time, times those of the scene. Times of short runs hold the start of the "
                  "simulation, in which the tables of new gears are made.", left=2)
 
 
 def _nothing(run, one):
     zero = [name for name, variable in run.scene.fmu.variables.items()
-            if name.startswith(f"{one.name}.") and variable.kind in ("Real", "Integer") and run.value(name) == 0.0]
+            if (name.startswith(f"{one.name}.") or f"{PREFIX}{one.name}" in (variable.description or "")) and variable.kind in ("Real", "Integer") and run.value(name) == 0.0]
     why = f", as {words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0" if zero else ""
-    return f"changes nothing{why}"
+    return f"changes nothing beyond the solver's tolerance{why}"
