@@ -7,7 +7,9 @@ use super::instance::Instance;
 use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{finite, row, wrong_type};
-use crate::model::{Direction, InputDerivatives, Inputs, Kept, ORDERS, STATES, STENCIL, Simulation};
+use crate::model::{
+    Along, Direction, Forces, InputDerivatives, Inputs, Kept, ORDERS, PairLines, STATES, STENCIL, Simulation,
+};
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
 /// Highest order of output derivatives.
@@ -210,13 +212,14 @@ struct Slopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
     motion: Option<crate::model::Motion>,
-    forces: Option<crate::model::DirectionalForces>,
+    forces: Option<Along<Forces>>,
+    pairs: Option<Along<PairLines>>,
     rates: Option<[f64; STATES]>,
 }
 
 impl<'a> Slopes<'a> {
     fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
-        Self { simulation, direction, motion: None, forces: None, rates: None }
+        Self { simulation, direction, motion: None, forces: None, pairs: None, rates: None }
     }
 
     fn of(&mut self, source: OutputSource) -> f64 {
@@ -227,6 +230,10 @@ impl<'a> Slopes<'a> {
             OutputSource::Reading(place) => {
                 let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
                 along.slope(|forces| forces.readings[place])
+            }
+            OutputSource::Pair(k, of) => {
+                let along = self.pairs.get_or_insert_with(|| simulation.pair_lines_along(direction));
+                along.slope(|lines| of(&lines[k]))
             }
             OutputSource::Constant(_) => 0.0,
             // the ledger changes with time alone

@@ -66,7 +66,7 @@ impl Instance {
     pub fn get_real(&mut self, references: InputArray<u32>, values: OutputArray<f64>) -> CallResult {
         let mut motion: Option<Motion> = None;
         let mut ledger: Option<LedgerReadings> = None;
-        let (mut states, mut rates) = (None, None);
+        let (mut pairs, mut states, mut rates) = (None, None, None);
         for (reference, value) in references.iter().zip(values.iter()) {
             let row = row(reference)?;
             let number = match row.access {
@@ -80,6 +80,7 @@ impl Instance {
                         OutputSource::Constant(of) => of(simulation),
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
                         OutputSource::Forces(of) => of(simulation.forces()),
+                        OutputSource::Pair(k, of) => of(&pairs.get_or_insert_with(|| simulation.pair_lines())[k]),
                         OutputSource::Reading(place) => simulation.forces().readings[place],
                         OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger())),
                         OutputSource::LedgerReading(place) => {

@@ -32,9 +32,9 @@ pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::mesh_forces::MeshForces;
 pub use outputs::motion::Motion;
+pub use outputs::pairs::{PAIRS, PairLine, PairLines};
 pub use run::{
-    BODIES, Body, CostClass, Direction, DirectionalForces, INDICATORS, Reported, STATES, STENCIL, Simulation,
-    StepFailure, Update,
+    Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
 };
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{

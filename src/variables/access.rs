@@ -1,7 +1,7 @@
 //! The way from a row of the table to the value of its variable.
 
 use crate::declaration::{EnumType, Field, GetChoice, Parameter, Row, SetChoice};
-use crate::model::{Forces, InputField, LedgerReadings, Motion, Parameters, Simulation};
+use crate::model::{Forces, InputField, LedgerReadings, Motion, PairLine, Parameters, Simulation};
 
 /// Where the value of an output is read.
 #[derive(Clone, Copy)]
@@ -12,6 +12,8 @@ pub enum OutputSource {
     Motion(fn(&Motion) -> f64),
     /// From forces, which take one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
+    /// From a loaded tooth pair of planet 1 with the left side gear, by its number.
+    Pair(usize, fn(&PairLine) -> f64),
     /// From the ledger and the solver's statistics.
     Ledger(fn(&LedgerReadings) -> f64),
     /// A reading of an effect that changes at any instant, by its place among these.
@@ -33,6 +35,7 @@ impl OutputSource {
             Self::Constant(of) => of(simulation),
             Self::Motion(of) => of(&simulation.motion()),
             Self::Forces(of) => of(simulation.forces()),
+            Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
             Self::Reading(place) => simulation.forces().readings[place],
             Self::Ledger(of) => of(&simulation.ledger()),
             Self::LedgerReading(place) => simulation.ledger().readings[place],

@@ -15,6 +15,10 @@ fn constant(
     calculated(name, unit, display, OutputSource::Constant(of), text)
 }
 
+fn angle(name: &'static str, of: fn(&Simulation) -> f64, text: &'static str) -> Row<OutputSource> {
+    constant(name, units::RADIAN, Some(DEG), of, text)
+}
+
 /// Rows of all calculated parameters.
 pub fn rows() -> Vec<Row<OutputSource>> {
     vec![
@@ -46,19 +50,28 @@ pub fn rows() -> Vec<Row<OutputSource>> {
             |s| s.pair().outer_cone,
             "Outer cone distance",
         ),
+        angle("geometry.planet_pitch_angle", |s| s.pair().gears[0].pitch, "Pitch angle of a planet"),
+        angle("geometry.side_pitch_angle", |s| s.pair().gears[1].pitch, "Pitch angle of a side gear"),
         constant(
-            "geometry.planet_pitch_angle",
-            units::RADIAN,
-            Some(DEG),
-            |s| s.pair().gears[0].pitch,
-            "Pitch angle of a planet",
+            "geometry.inner_cone_distance",
+            units::METRE,
+            Some(MM),
+            |s| s.pair().inner_cone,
+            "Inner cone distance",
         ),
-        constant(
-            "geometry.side_pitch_angle",
-            units::RADIAN,
-            Some(DEG),
-            |s| s.pair().gears[1].pitch,
-            "Pitch angle of a side gear",
+        angle("geometry.planet_tip_angle", |s| s.pair().gears[0].tip, "Tip angle of a planet"),
+        angle("geometry.planet_root_angle", |s| s.pair().gears[0].root, "Root angle of a planet"),
+        angle(
+            "geometry.planet_base_angle",
+            |s| s.pair().gears[0].base,
+            "Base angle of a planet: half-angle of the cone from which its flanks unroll",
+        ),
+        angle("geometry.side_tip_angle", |s| s.pair().gears[1].tip, "Tip angle of a side gear"),
+        angle("geometry.side_root_angle", |s| s.pair().gears[1].root, "Root angle of a side gear"),
+        angle(
+            "geometry.side_base_angle",
+            |s| s.pair().gears[1].base,
+            "Base angle of a side gear: half-angle of the cone from which its flanks unroll",
         ),
         constant(
             "geometry.wheel_lash",

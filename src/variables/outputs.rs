@@ -1,7 +1,7 @@
 //! Rows of the outputs.
 
 use super::access::OutputSource;
-use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
+use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, MPA, Unit};
 use crate::declaration::{Row, output};
 use crate::model::{CONTACT_HEAT, Changes, Forces, LedgerReadings, Motion, efficiency, heats, readings};
 
@@ -149,6 +149,56 @@ macro_rules! planet {
     };
 }
 
+/// Rows of a loaded pair in the mesh of planet 1 with the left side gear, numbered from 0 inside and from 1 in names.
+macro_rules! pair {
+    ($name:literal, $k:literal) => {
+        [
+            output(
+                concat!($name, ".tooth"),
+                units::ONE,
+                None,
+                OutputSource::Pair($k, |pair| pair.tooth),
+                "Loaded pair in the mesh of planet 1 with the left side gear, from the planet's root to its tip: number of the planet's tooth, from 0; -1 where there is no such pair",
+            ),
+            output(
+                concat!($name, ".force"),
+                units::NEWTON,
+                None,
+                OutputSource::Pair($k, |pair| pair.force),
+                "Normal force of this pair, negative on the coast flank",
+            ),
+            output(
+                concat!($name, ".height"),
+                units::METRE,
+                Some(MM),
+                OutputSource::Pair($k, |pair| pair.height),
+                "Where this pair touches along the planet's profile, from the pitch circle toward the tip at the mean cone distance",
+            ),
+            output(
+                concat!($name, ".toe_pressure"),
+                units::PASCAL,
+                Some(MPA),
+                OutputSource::Pair($k, |pair| pair.pressure[0]),
+                "Hertz pressure of this pair at the toe",
+            ),
+            output(
+                concat!($name, ".middle_pressure"),
+                units::PASCAL,
+                Some(MPA),
+                OutputSource::Pair($k, |pair| pair.pressure[1]),
+                "Hertz pressure of this pair at the mean cone distance",
+            ),
+            output(
+                concat!($name, ".heel_pressure"),
+                units::PASCAL,
+                Some(MPA),
+                OutputSource::Pair($k, |pair| pair.pressure[2]),
+                "Hertz pressure of this pair at the heel",
+            ),
+        ]
+    };
+}
+
 /// Rows of all outputs.
 pub fn rows() -> Vec<Output> {
     let mut rows = vec![
@@ -163,6 +213,9 @@ pub fn rows() -> Vec<Output> {
     rows.extend(planet!("planet[2]", 1));
     rows.extend(planet!("planet[3]", 2));
     rows.extend(planet!("planet[4]", 3));
+    rows.extend(pair!("planet[1].left_pair[1]", 0));
+    rows.extend(pair!("planet[1].left_pair[2]", 1));
+    rows.extend(pair!("planet[1].left_pair[3]", 2));
     rows.extend([
         forces(
             "planet.spin_torque",

@@ -54,6 +54,7 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
         Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
             FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
         }),
+        Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
         Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
                 return inputs_where(table, |input| {

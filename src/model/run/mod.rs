@@ -25,5 +25,5 @@ pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
 pub use reports::Reported;
-pub use sensitivity::{Direction, DirectionalForces, STENCIL};
+pub use sensitivity::{Along, Direction, STENCIL};
 pub use simulation::Simulation;

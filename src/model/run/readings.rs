@@ -17,6 +17,7 @@ use crate::model::effect_kinds::friction_state::Mode;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
 use crate::model::outputs::motion::Motion;
+use crate::model::outputs::pairs::{PairLines, pair_lines};
 use crate::model::outputs::resultants;
 use crate::model::scene::Plan;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS};
@@ -24,6 +25,7 @@ use crate::model::setup::Parameters;
 use crate::model::setup::effect_outputs::{STEP_READINGS, places_of};
 use crate::numeric::TAU;
 use crate::problem::Problem;
+use crate::strength::LineContact;
 
 impl Simulation {
     /// Time [s].
@@ -104,6 +106,23 @@ impl Simulation {
                 by_size!(teeth, full, resultants::teeth_forces(model, &E::new(teeth, inputs, state), inputs, state))
             }
         }
+    }
+
+    /// Loaded tooth pairs of planet 1 with the left side gear under the present inputs.
+    pub fn pair_lines(&self) -> PairLines {
+        self.present().as_ref().unwrap_or(self).pair_lines_of_state()
+    }
+
+    pub(super) fn pair_lines_of_state(&self) -> PairLines {
+        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let Gears::Teeth(teeth) = &model.gears else { return PairLines::default() };
+        let full = teeth.additions.bodies.act_in(state);
+        let material = &model.parameters.material;
+        let contact = LineContact::new(&model.pair, material.young_modulus, material.poisson_ratio);
+        let first = model.ideal.plan.group_of[0];
+        by_size!(teeth, full, {
+            pair_lines((&model.pair, &contact), &E::new(teeth, inputs, state), &state.point(), [first, 0])
+        })
     }
 
     /// Visits the load of every tooth pair, of one planet of each group; none where there are no teeth.

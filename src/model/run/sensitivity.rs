@@ -13,6 +13,7 @@ use crate::model::dynamics::sizes::with_equations;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;
 use crate::model::outputs::motion::Motion;
+use crate::model::outputs::pairs::PairLines;
 use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
 use crate::model::scene::{InputDerivatives, Inputs};
 
@@ -42,19 +43,18 @@ impl Direction {
         Self { q: [0.0; MAX_DOF], v: [0.0; MAX_DOF], inputs: Inputs::ZERO, rates: Inputs::ZERO, carrier_command: 0.0 };
 }
 
-/// Forces at the points of the central difference along a direction.
-pub struct DirectionalForces {
-    forces: [Forces; STENCIL.len()],
+/// What is read at the points of the central difference along a direction.
+pub struct Along<T> {
+    read: [T; STENCIL.len()],
     apart: f64,
 }
 
-impl DirectionalForces {
-    /// Derivative of what `of` reads.
-    pub fn slope(&self, of: impl Fn(&Forces) -> f64) -> f64 {
+impl<T> Along<T> {
+    /// Derivative of a value of it.
+    pub fn slope(&self, of: impl Fn(&T) -> f64) -> f64 {
         // what does not change has no slope, to the last bit
-        let first = of(&self.forces[0]);
-        let sum: f64 =
-            STENCIL.iter().zip(&self.forces).map(|((_, weight), forces)| weight * (of(forces) - first)).sum();
+        let first = of(&self.read[0]);
+        let sum: f64 = STENCIL.iter().zip(&self.read).map(|((_, weight), read)| weight * (of(read) - first)).sum();
         sum / self.apart
     }
 }
@@ -161,11 +161,19 @@ impl Simulation {
     }
 
     /// Forces along `direction`.
-    pub fn forces_along(&self, direction: &Direction) -> DirectionalForces {
+    pub fn forces_along(&self, direction: &Direction) -> Along<Forces> {
+        self.along(direction, Self::forces_of_state)
+    }
+
+    /// Loaded tooth pairs along `direction`.
+    pub fn pair_lines_along(&self, direction: &Direction) -> Along<PairLines> {
+        self.along(direction, Self::pair_lines_of_state)
+    }
+
+    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> Along<T> {
         let size = self.size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
-        let forces = STENCIL.map(|(place, _)| self.displaced(direction, place * apart).forces_of_state());
-        DirectionalForces { forces, apart }
+        Along { read: STENCIL.map(|(place, _)| read(&self.displaced(direction, place * apart))), apart }
     }
 
     /// Rates of the ledger.

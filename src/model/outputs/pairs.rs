@@ -1,0 +1,192 @@
+//! Loaded tooth pairs of a mesh at an instant: where on the planet's flank they touch, and how hard.
+//!
+//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ = cosδ_b
+//! cos(ψ_p0 + s); the planet's tip corner has its tip angle, and the side gear's lies where it stands on the flank. The height
+//! along the profile is h = R_m (φ − δ).
+//!
+//! The pressure is Hertz's for two cylinders, of the line load w(R) and the relative radius R τ(s). Where loads do not differ
+//! over the face, w is even with one resultant at R_m, as of IMPACT, and w = 2FR/(R_e² − R_i²) under a line law. Where they do,
+//! w is a straight line between the sections that carry, prolonged to toe and heel as far as it is not negative.
+
+use crate::contact::mesh::{Law, Mesh};
+use crate::contact::pairs::{Flank, Spot};
+use crate::contact::tooth_load::ToothLoad;
+use crate::geometry::Pair;
+use crate::integrate::Point;
+use crate::model::dynamics::equations::Equations;
+use crate::strength::LineContact;
+
+/// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.
+pub const PAIRS: usize = 3;
+/// Pairs that can touch at once: those of both flanks.
+const MOST: usize = 2 * PAIRS;
+/// Sections of a pair whose loads differ: most are eight on either side of a broken tooth's edge.
+const SECTIONS: usize = 16;
+/// Share of the face from which on a load stands for all of it.
+const WHOLE: f64 = 1.0 - 1e-9;
+/// Number of a tooth where there is no pair.
+const NONE: f64 = -1.0;
+
+/// A loaded tooth pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairLine {
+    /// Number of the planet's tooth, from 0; -1 where there is no pair.
+    pub tooth: f64,
+    /// Normal force [N], negative on the coast flank.
+    pub force: f64,
+    /// Height along the planet's profile from the pitch circle, at the mean cone distance [m].
+    pub height: f64,
+    /// Hertz pressure at toe, mean cone distance and heel [Pa].
+    pub pressure: [f64; 3],
+}
+
+impl Default for PairLine {
+    fn default() -> Self {
+        Self { tooth: NONE, force: 0.0, height: 0.0, pressure: [0.0; 3] }
+    }
+}
+
+/// Loaded pairs of a mesh, from the planet's root to its tip.
+pub type PairLines = [PairLine; PAIRS];
+
+/// A pair as its sections come in.
+#[derive(Clone, Copy)]
+struct Gathered {
+    flank: Flank,
+    teeth: [usize; 2],
+    force: f64,
+    /// Sum of force and height [N·m], of force and place [N·rad].
+    by_height: f64,
+    by_place: f64,
+    /// Cone distance [m] and line load [N/m] of the sections.
+    sections: [[f64; 2]; SECTIONS],
+    count: usize,
+    is_whole: bool,
+}
+
+impl Gathered {
+    fn new(load: &ToothLoad) -> Self {
+        Self {
+            flank: load.flank,
+            teeth: load.teeth,
+            force: 0.0,
+            by_height: 0.0,
+            by_place: 0.0,
+            sections: [[0.0; 2]; SECTIONS],
+            count: 0,
+            is_whole: load.share > WHOLE,
+        }
+    }
+
+    fn add(&mut self, load: &ToothLoad, height: f64) {
+        self.force += load.normal;
+        self.by_height += load.normal * height;
+        self.by_place += load.normal * load.s;
+        if self.count < SECTIONS {
+            self.sections[self.count] = [load.cone, load.line_load];
+            self.count += 1;
+        }
+    }
+
+    /// Line load at cone distance `cone` [N/m].
+    fn line_load(&self, contact: &LineContact, cone: f64, grows: bool) -> f64 {
+        if self.is_whole {
+            let [inner, outer] = contact.cone_range;
+            return if grows { contact.line_load(self.force, cone) } else { self.force / (outer - inner) };
+        }
+        along(&self.sections[..self.count], cone)
+    }
+
+    fn line(&self, contact: &LineContact, grows: bool) -> PairLine {
+        let [inner, outer] = contact.cone_range;
+        let place = self.by_place / self.force;
+        let pressure = [inner, contact.mean_cone, outer].map(|cone| {
+            let line_load = self.line_load(contact, cone, grows);
+            contact.pressure_at(line_load, cone, place).unwrap_or(0.0)
+        });
+        PairLine {
+            tooth: self.teeth[0] as f64,
+            force: if self.flank == Flank::Drive { self.force } else { -self.force },
+            height: self.by_height / self.force,
+            pressure,
+        }
+    }
+}
+
+/// Value at `x` of straight lines through `points` in the order of x, the outermost prolonged; not negative.
+fn along(points: &[[f64; 2]], x: f64) -> f64 {
+    let [first, .., last] = points else { return points.first().map_or(0.0, |point| point[1]) };
+    if first[0] == last[0] {
+        return first[1];
+    }
+    let after = points.iter().position(|point| point[0] >= x).unwrap_or(points.len()).clamp(1, points.len() - 1);
+    let ([x0, y0], [x1, y1]) = (points[after - 1], points[after]);
+    let slope = if x1 > x0 { (y1 - y0) / (x1 - x0) } else { 0.0 };
+    (y0 + slope * (x - x0)).max(0.0)
+}
+
+/// Height of a load along the planet's profile [m].
+fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
+    let planet = &pair.gears[0];
+    let polar = match (load.touch, load.spot) {
+        (Some(touch), _) => touch.polar[0],
+        (None, Spot::Path) => planet.polar_at(pair.pitch_arc[0] + load.place),
+        (None, Spot::PlanetTip) => planet.tip,
+        (None, Spot::SideTip) => mesh.engagement.corner[1].exact(load.place).mate_polar,
+    };
+    pair.mean_cone * (polar - planet.pitch)
+}
+
+/// Pairs of the mesh of group `g` with side `s` under the contact of `contact`; none where one spring stands for all teeth.
+pub fn pair_lines<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    (pair, contact): (&Pair, &LineContact),
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    at: &Point<N>,
+    [g, s]: [usize; 2],
+) -> PairLines {
+    let mesh = &equations.teeth.mesh;
+    let mut lines = PairLines::default();
+    if matches!(mesh.law, Law::Lumped(_)) {
+        return lines;
+    }
+    let mut gathered: [Option<Gathered>; MOST] = [None; MOST];
+    equations.tooth_loads(pair, at, g, s, |load| {
+        // written so that NaN fails
+        if !(load.normal > 0.0) {
+            return;
+        }
+        let is_it = |own: &Gathered| (own.flank, own.teeth) == (load.flank, load.teeth);
+        let place = gathered.iter_mut().find(|place| place.as_ref().is_none_or(is_it));
+        if let Some(place) = place {
+            place.get_or_insert_with(|| Gathered::new(load)).add(load, height(pair, mesh, load));
+        }
+    });
+    // the most loaded ones, then by height
+    gathered.sort_unstable_by(|a, b| {
+        let force = |own: &Option<Gathered>| own.as_ref().map_or(0.0, |own| own.force);
+        force(b).total_cmp(&force(a))
+    });
+    let grows = matches!(mesh.law, Law::Line(_) | Law::LineWeber(_));
+    let mut count = 0;
+    for (line, own) in lines.iter_mut().zip(gathered.iter().flatten()) {
+        *line = own.line(contact, grows);
+        count += 1;
+    }
+    lines[..count].sort_unstable_by(|a, b| a.height.total_cmp(&b.height));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn loads_between_sections_lie_on_straight_lines_and_end_where_they_reach_zero() {
+        let points = [[1.0, 4.0], [2.0, 2.0], [3.0, 1.0]];
+        for (x, y) in [(0.5, 5.0), (1.5, 3.0), (2.0, 2.0), (2.5, 1.5), (3.5, 0.5), (4.5, 0.0)] {
+            assert_eq!(along(&points, x), y);
+        }
+        assert_eq!(along(&points[..1], 7.0), 4.0);
+        assert_eq!(along(&[], 7.0), 0.0);
+    }
+}
