@@ -21,13 +21,12 @@ def draw_section(pair: Pair) -> str:
             _gear(axes, pair, 1, lambda radius, axis, sense=sense: (-sense * axis, radius), SIDE)
         for sense in (1.0, -1.0):
             _gear(axes, pair, 0, lambda radius, axis, sense=sense: (radius, sense * axis), PLANET)
-        reach = MM * pair.outer_cone
-        for sense in (1.0, -1.0):
-            _line(axes, (-1.12 * reach, 0.0), (1.12 * reach, 0.0), "-.") if sense > 0.0 else _line(
-                axes, (0.0, -1.12 * reach), (0.0, 1.12 * reach), "-.")
-            tilt = pair.gears[1].pitch
-            _line(axes, (0.0, 0.0), (sense * reach * math.cos(tilt), reach * math.sin(tilt)), "--")
-            _line(axes, (0.0, 0.0), (sense * reach * math.cos(tilt), -reach * math.sin(tilt)), "--")
+        reach, tilt = MM * pair.outer_cone, pair.gears[1].pitch
+        along, up = (reach * math.cos(pair.gears[i].root) + 4.0 for i in (1, 0))
+        for begin, end in (((-along, 0.0), (along, 0.0)), ((0.0, -up), (0.0, up))):
+            axes.plot(*zip(begin, end), color=style.INK, lw=0.8, ls="-.", alpha=0.7)
+        for turn in (tilt, math.pi - tilt, math.pi + tilt, -tilt):
+            axes.plot([0.0, reach * math.cos(turn)], [0.0, reach * math.sin(turn)], color=style.INK, lw=0.8, ls="--", alpha=0.7)
         _dimensions(axes, pair)
         axes.set_aspect("equal")
         axes.set_axis_off()
@@ -51,10 +50,6 @@ def _gear(axes, pair, i, place, colour):
             points = np.array([place(mirror * radius, axis) for radius, axis in shape])
             axes.fill(*points.T, facecolor=colour, alpha=alpha, lw=0)
             axes.plot(*np.vstack([points, points[:1]]).T, color=colour, lw=1.0)
-
-
-def _line(axes, begin, end, dash):
-    axes.plot(*zip(begin, end), color=style.INK, lw=0.8, ls=dash, alpha=0.7)
 
 
 def _dimensions(axes, pair):
@@ -85,7 +80,7 @@ def _dimensions(axes, pair):
         name += f", bore {_mm(gear.bore)}" if gear.bore > 0.0 else ""
         for sense, which in ((-1.0, "left "), (1.0, "right ")) if i else ((-1.0, ""),):
             along_axis = sense * middle * math.cos(gear.root)
-            axes.text(*((along_axis, 0.3 * half) if i else (0.3 * width, along_axis)), which + name, fontsize=9, ha="center", va="center",
+            axes.text(*((along_axis, -0.3 * half) if i else (0.3 * width, along_axis)), which + name, fontsize=9, ha="center", va="center",
                       rotation=90 if i else 0)
 
 

@@ -54,12 +54,13 @@ def _draw_bias(run, left, right):
 def _bias_caption(run, left, right):
     bias, locking = run.series("torque_bias_ratio"), run.series("locking_value")
     k = int(np.argmax(np.abs(left - right)))
+    locked = float(locking[-1]) if abs(locking[-1]) > 1e-6 else 0.0
     even = np.max(np.abs(left - right)) < 1e-3 * np.max(np.abs(left) + np.abs(right))
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
              f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right {words.quantity(right[k], 'N·m')}")
     return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large dot is the end. The "
             f"FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most {words.number(bias.max(), 3)} in the run, "
-            f"its locking value {words.number(locking[-1], 3)} at the end.")
+            f"its locking value {words.number(locked, 3)} at the end.")
 
 
 def _heats(run):

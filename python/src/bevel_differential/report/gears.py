@@ -27,7 +27,7 @@ def pair_of(run: Simulated) -> Pair:
     """The pair with the cones that the FMU has."""
     names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
     pair = Pair.of({name: run.value(name) for name in names})
-    planet, side = (replace(gear, **{cone: run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch",)})
+    planet, side = (replace(gear, **{cone: run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch", "base", "tip", "root")})
                     for gear, name in zip(pair.gears, GEARS))
     return replace(pair, gears=(planet, side), outer_cone=run.constant("geometry.outer_cone_distance"))
 
@@ -45,7 +45,7 @@ def _section_caption(pair):
     share = pair.face_width / pair.outer_cone
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
-            f". All cones meet in the apex. Teeth (dark) stand between root and tip cone over the face of {_mm(pair.face_width)}, "
+            f". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of {_mm(pair.face_width)}, "
             f"{share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes through the root circles, as the "
             f"FMU has them for masses.")
 

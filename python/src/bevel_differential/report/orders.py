@@ -7,6 +7,11 @@ import numpy as np
 from ..values import DifferentialError
 
 TURN = 2.0 * np.pi
+# points of a record in a period of the highest order, at least, and of the signal over the angle: many, so that what the record has above
+# the orders of interest does not come back among them
+PER_PERIOD, FINER = 4, 16
+# of neighbouring windows
+OVERLAP = 0.75
 
 
 @dataclass(frozen=True)
@@ -49,9 +54,6 @@ def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np
     angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
     if np.any(np.diff(angle) <= 0.0):
         raise DifferentialError("orders are counted by an angle that turns one way")
-    if np.diff(angle).max() > TURN / per_turn:
-        raise DifferentialError(f"two points of the record are {np.diff(angle).max() / TURN:.3g} turns apart, too far for "
-                                f"{per_turn} points in a turn: take shorter steps")
     step = TURN / per_turn
     edges = angle[0] + np.arange(int((angle[-1] - angle[0]) / step) + 1) * step
     # the integral over the angle, by cubic pieces whose slopes are the values
@@ -72,13 +74,18 @@ def damped(orders: np.ndarray, per_turn: int) -> np.ndarray:
     return np.sinc(orders / per_turn)
 
 
-def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, per_turn: int, overlap: float = 0.75) -> Waterfall:
-    """Spectra over windows (Hann) of so many turns of `angle` (rad), which overlap; `speed` labels them."""
+def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, highest: float) -> Waterfall:
+    """Spectra up to the order `highest` over windows (Hann) of so many turns of `angle` (rad), which overlap; `speed` labels them."""
+    coarsest = float(np.abs(np.diff(angle)).max()) / TURN
+    if coarsest * highest * PER_PERIOD > 1.0:
+        raise DifferentialError(f"a period of order {highest:.4g} has only {1.0 / (coarsest * highest):.2g} points of the record, and needs "
+                                f"{PER_PERIOD}: take shorter steps")
+    per_turn = int(2 ** np.ceil(np.log2(FINER * highest)))
     even, resampled = over_angle(angle, values, per_turn)
     ordered = np.argsort(angle)
     labels = np.interp(even * np.sign(angle[-1] - angle[0]), angle[ordered], speed[ordered])
     size = turns * per_turn
-    hop = max(1, round(size * (1.0 - overlap)))
+    hop = max(1, round(size * (1.0 - OVERLAP)))
     begins = range(0, len(even) - size + 1, hop)
     if len(begins) < 2:
         raise DifferentialError(f"{len(even) / per_turn:.3g} turns are too few for windows of {turns} turns")
@@ -91,4 +98,6 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
         spectra.append(2.0 * np.abs(np.fft.rfft(window * swing)) / window.sum())
     speeds = np.array([labels[begin:begin + size].mean() for begin in begins])
     orders = np.arange(size // 2 + 1) / turns
-    return Waterfall(orders, speeds, np.array(spectra) / damped(orders, per_turn), 1.0 / turns)
+    shown = orders <= highest
+    amplitudes = np.array(spectra)[:, shown] / damped(orders[shown], per_turn)
+    return Waterfall(orders[shown], speeds, amplitudes, 1.0 / turns)

@@ -20,8 +20,12 @@ USUAL_LOAD, LEAST_LOAD = 200.0, 5.0
 # turns of a planet in the run-up, and fewer where they would take more evaluations of the tooth forces than `MOST`; the first ones, in
 # which the start dies out, do not count
 TURNS, FEWER, MOST, SETTLING = 80.0, 24.0, 4e6, 2.0
-# points in a turn of a planet at the highest speed, and at least this many in a period of the highest order of interest
-PER_TURN, PER_PERIOD = 256, 4
+# points in a turn of a planet at the highest speed, and at least so many in a period of the highest order that theory expects
+PER_TURN, PER_ORDER = 256, 6.0
+# where a scene has none, nothing dies out
+DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_damping")
+# multiples of the mesh order that count, and the beginning of the other order's name
+MULTIPLES, RING = 6, "ring gear"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
 RECORDED = (ANGLE, "carrier.speed", SIGNAL)
@@ -29,14 +33,13 @@ RECORDED = (ANGLE, "carrier.speed", SIGNAL)
 
 @dataclass(frozen=True)
 class RunUp:
-    """Record of a run-up: `changed` says what differs from the scene; `ratio` is spin over carrier speed; `per_turn`: points in a turn of
-    a planet for its spectra; `turns`: of a planet, without those in which the start dies out; `seconds`: how long it lasts."""
+    """Record of a run-up: `ratio` is spin over carrier speed; `changed` says what differs from the scene; `turns`: of a planet, without
+    those in which the start dies out; `seconds`: how long it lasts."""
 
     record: np.ndarray
     ratio: float
     loads: tuple[float, float]
     changed: list[str]
-    per_turn: int
     turns: float
     seconds: float
 
@@ -48,8 +51,7 @@ def run_up(run: Simulated, progress: Callable[[float], object] = lambda done: No
     values, changed = _values(run, ratio, loads)
     changed = [*why_ratio, *why_loads, *changed]
     per_turn = _per_turn(run, ratio)
-    # a little shorter than the points of the spectra, which lie between those of the record
-    step = 0.9 * 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
+    step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
     for turns in (TURNS, FEWER):
         # with a constant rate of all speeds the turns are mean spin times duration
         seconds = (turns + SETTLING) * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST))
@@ -57,7 +59,7 @@ def run_up(run: Simulated, progress: Callable[[float], object] = lambda done: No
         if record is not None:
             break
     settled = np.abs(record[ANGLE]) > SETTLING * 2.0 * np.pi
-    return RunUp(record[settled], ratio, loads, changed, per_turn, turns, seconds)
+    return RunUp(record[settled], ratio, loads, changed, turns, seconds)
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:
@@ -87,6 +89,11 @@ def _values(run, ratio, loads):
         "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
         "carrier.speed_command": SLOWEST, "planet.spin_command": ratio * SLOWEST}
     changed = []
+    undamped = [name for name in DAMPING if run.value(name) == 0.0]
+    if undamped:
+        values.update({name: run.scene.fmu.variable(name).start for name in undamped})
+        changed.append(f"{' and '.join(undamped)} {'has its' if len(undamped) == 1 else 'have their'} start value"
+                       f"{'' if len(undamped) == 1 else 's'}, as without damping the start would ring through all speeds")
     if max(abs(run.series("lock.command"))) > 0.0:
         values["lock.command"] = 0.0
         changed.append("the lock is open")
@@ -99,10 +106,18 @@ def _values(run, ratio, loads):
 
 def _per_turn(run, ratio):
     """Enough points for the orders that theory expects."""
-    highest = 2.0 * float(run.value("geometry.planet_teeth"))
+    highest = max(theory(run, ratio).values())
+    return max(PER_TURN, int(PER_ORDER * highest))
+
+
+def theory(run: Simulated, ratio: float) -> dict[str, float]:
+    """Orders per turn of a planet that theory expects, by name."""
+    teeth = int(run.value("geometry.planet_teeth"))
+    found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
     if run.value("effects.final_drive"):
-        highest = max(highest, 1.5 * float(run.value("final_drive.ring_teeth")) / abs(ratio))
-    return max(PER_TURN, int(2 ** np.ceil(np.log2(PER_PERIOD * highest))))
+        ring = int(run.value("final_drive.ring_teeth"))
+        found[f"{RING} {ring} per carrier turn"] = ring / abs(ratio)
+    return found
 
 
 def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):

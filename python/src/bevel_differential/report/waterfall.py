@@ -8,15 +8,15 @@ from ..values import DifferentialError
 from . import style, words
 from .blocks import Picture, Section, Table
 from .orders import Waterfall, waterfall
-from .runup import FASTEST, SIGNAL, SLOWEST, RunUp, run_up
+from .runup import ANGLE, FASTEST, MULTIPLES, RING, SIGNAL, SLOWEST, RunUp, run_up, theory
 from .simulated import Simulated, reason_of
 
 # turns of a planet in a window: lines are 1/8 of an order apart
 WINDOW = 8
 # lines that are listed, and how far below the strongest they may be
 STRONGEST, FLOOR = 8, 2e-3
-# decades of amplitude that colours show, and multiples of the mesh order in the picture
-DECADES, MULTIPLES = 3.0, 6
+# decades of amplitude that colours show
+DECADES = 3.0
 UM, RPM = 1e6, 30.0 / np.pi
 
 
@@ -29,24 +29,14 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
         return found
     try:
         up = run_up(run, progress)
-        spectra = waterfall(up.record["planet[1].spin_angle"], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW, up.per_turn)
+        expected = theory(run, up.ratio)
+        spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW, _highest(expected))
     except DifferentialError as reason:
         found.say(f"The run-up could not be made: {reason_of(reason)}.")
         return found
     found.say(_how(up))
-    expected = theory(run, up)
-    found.add(Picture("waterfall", _draw(spectra, expected, _highest(expected)), _caption(run, up, spectra, expected)))
+    found.add(Picture("waterfall", _draw(run, spectra, expected), _caption(run, up, spectra, expected)))
     found.add(_table(run, spectra, expected))
-    return found
-
-
-def theory(run: Simulated, up: RunUp) -> dict[str, float]:
-    """Orders per turn of a planet that theory expects, by name."""
-    teeth = int(run.value("geometry.planet_teeth"))
-    found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
-    if run.value("effects.final_drive"):
-        ring = int(run.value("final_drive.ring_teeth"))
-        found[f"ring gear {ring} per carrier turn"] = ring / abs(up.ratio)
     return found
 
 
@@ -64,30 +54,30 @@ def _how(up: RunUp):
             "stiffness. It is resampled over the planet's angle, so that orders stand upright.")
 
 
-def _draw(spectra: Waterfall, expected, highest):
+def _draw(run, spectra: Waterfall, expected):
     from matplotlib.colors import LogNorm
 
-    shown = spectra.orders <= highest
-    sizes = UM * spectra.amplitudes[:, shown]
+    sizes = UM * spectra.amplitudes
     top = float(sizes.max())
     with style.styled():
         picture = style.figure(5.2)
         upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
-        edges = np.append(spectra.orders[shown] - 0.5 * spectra.resolution, spectra.orders[shown][-1] + 0.5 * spectra.resolution)
+        edges = np.append(spectra.orders, spectra.orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
         mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma",
                                 norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
         upper.set(ylabel="carrier speed, rpm")
         upper.grid(False)
         bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
         bar.set_label("amplitude, µm")
-        mean = UM * spectra.mean[shown]
-        lower.semilogy(spectra.orders[shown], mean, color=style.BLUE)
+        mean = UM * spectra.mean
+        lower.semilogy(spectra.orders, mean, color=style.BLUE)
+        teeth = float(run.value("geometry.planet_teeth"))
+        marks = upper.secondary_xaxis("top")
+        marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"
+                                                   for name, order in expected.items()], fontsize=8.5)
         for name, order in expected.items():
-            colour = style.GREEN if name.startswith("ring") else style.RED
-            lower.axvline(order, color=colour, lw=0.9, ls="--")
-            upper.annotate("", (order, 1.0), (order, 1.05), xycoords=("data", "axes fraction"), annotation_clip=False,
-                           arrowprops={"arrowstyle": "-|>", "color": colour, "lw": 1.0, "shrinkA": 0, "shrinkB": 0})
-        lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, highest),
+            lower.axvline(order, color=style.GREEN if name.startswith(RING) else style.RED, lw=0.9, ls="--")
+        lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, spectra.orders[-1]),
                   ylim=(10.0 ** -(DECADES + 0.5) * mean.max(), 2.0 * mean.max()))
         return style.svg(picture, "waterfall")
 
@@ -102,8 +92,8 @@ def _caption(run, up, spectra, expected):
     at = int(np.argmin(np.abs(spectra.orders - order)))
     course = UM * spectra.amplitudes[:, at]
     k = int(np.argmax(course))
-    marks = "red arrows and dashes: multiples of the mesh order" + (
-        ", green: teeth of the ring gear" if run.value("effects.final_drive") else "")
+    marks = "on top and red, multiples of the mesh order" + (
+        "; green, the teeth of the ring gear" if run.value("effects.final_drive") else "")
     return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)} after the start has settled; lines are "
             f"{words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
@@ -133,7 +123,7 @@ def _named(run, expected, side, order):
     nearest = max(1, round(order / teeth))
     named = [*expected.items(), (f"mesh {nearest} × {teeth}", float(nearest * teeth))]
     if run.value("effects.final_drive"):
-        ring = expected[next(name for name in expected if name.startswith("ring"))]
+        ring = expected[next(name for name in expected if name.startswith(RING))]
         named += [(f"mesh {k} × {teeth} {'+' if sign > 0 else '−'} ring gear", abs(k * teeth + sign * ring))
                   for k in range(1, 2 * MULTIPLES) for sign in (1, -1)]
     if run.value("effects.tooth_errors") or run.value("effects.tooth_fault"):

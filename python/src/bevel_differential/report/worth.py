@@ -121,13 +121,17 @@ def _named(run, switches, off):
 def _draw(tried):
     rows = [one for one in tried if not one.refused]
     outputs = list(rows[0].mean)
+    from matplotlib.colors import LinearSegmentedColormap, to_rgba
+
+    # clear in the middle, so that the page's colour shows
+    colours = LinearSegmentedColormap.from_list("change", [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)])
     with style.styled():
         picture = style.figure(0.34 * len(outputs) + 1.9)
         panels = picture.subplots(1, 2, sharey=True)
         for panel, title, table in ((panels[0], "mean", [one.mean for one in rows]), (panels[1], "peak to peak", [one.swing for one in rows])):
             values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
             reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
-            panel.imshow(values, cmap="RdBu_r", vmin=-reach, vmax=reach, aspect="auto", alpha=0.55)
+            panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
             for (row, column), value in np.ndenumerate(values):
                 panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
             panel.set_xticks(range(len(rows)), ["together" if one.name.startswith(TOGETHER) else one.name.replace("_", "\n") for one in rows],
