@@ -110,17 +110,17 @@ def _draw(run, pair: Pair, loaded):
                 flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=style.GREY, ls=dash, lw=1.2)
             for end in (0, -1):
                 flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
-            flank.text(ends[1], 0.0, " pitch line", color=style.GREY, fontsize=8, va="center")
-            flank.text(ends[1], MM * tip * cones[-1] / mean, " tip", color=style.GREY, fontsize=8, va="center")
-            flank.text(ends[1], MM * root * cones[-1] / mean, " root", color=style.GREY, fontsize=8, va="center")
+            flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
+            flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
+            flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="center")
             flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
                       xlim=(ends[0] - 1.0, ends[1] + 3.0))
             flank.set_aspect("equal")
             flank.grid(False)
             picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25).set_label("largest pressure, MPa")
-            loads.plot(contacts.force / 1e3, MM * contacts.height, ".", color=style.BLUE, ms=3)
+            loads.plot(contacts.force / 1e3, MM * contacts.height, ".", color=style.BLUE, ms=4)
             loads.set(title="load of one pair", xlabel="force, kN", ylabel="height at the mean cone distance, mm", ylim=(MM * root, MM * tip))
-            loads.set_xlim(left=0.0)
+            loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / 1e3)
         return style.svg(picture, "pattern")
 
 

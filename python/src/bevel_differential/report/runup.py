@@ -28,7 +28,7 @@ DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_dampi
 MULTIPLES, RING = 6, "ring gear"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
-RECORDED = (ANGLE, "carrier.speed", SIGNAL)
+RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL)
 
 
 @dataclass(frozen=True)
