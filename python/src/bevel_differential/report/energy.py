@@ -74,10 +74,11 @@ def _draw_power(run):
     with style.styled():
         picture = style.figure(5.6 if heats else 4.0)
         panels = picture.subplots(3 if heats else 2, 1, sharex=True, height_ratios=[1.3, 1, 1] if heats else [1.3, 1])
+        scale, unit = style.kilo([run.series(name) for name in ("power.in", "power.out")])
         for name, colour, label in (("power.in", style.BLUE, "in"), ("power.out", style.GREEN, "out to the wheels"),
                                     ("power.loss", style.RED, "loss")):
-            panels[0].plot(run.time, run.series(name) / 1e3, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
-        panels[0].set(ylabel="power, kW")
+            panels[0].plot(run.time, run.series(name) / scale, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
+        panels[0].set(ylabel=f"power, {unit}W")
         if heats:
             series = [np.maximum(run.series(name), 0.0) for name in heats]
             panels[1].stackplot(run.time, *series, labels=[name.removeprefix("heat.").replace("_", " ") for name in heats],
@@ -97,7 +98,7 @@ def _power_caption(run):
     heats = {name: float(run.record[name][-1]) for name in _heats(run)}
     total = sum(heats.values())
     by_cause = ", ".join(f"{name.removeprefix('heat.').replace('_', ' ')} {words.quantity(heat, 'J', 3)}"
-                         + (f" ({words.percent(heat / total, 2)})" if len(heats) > 1 and total > 0.0 else "")
+                         + (f" ({words.percent(heat / total)})" if len(heats) > 1 and total > 0.0 else "")
                          for name, heat in sorted(heats.items(), key=lambda pair: -pair[1]))
     heat = f"Heat by its causes, stacked: {by_cause}." if heats else "No heat arises."
     return (f"Power delivered to the differential and to the wheels; over time {words.quantity(work, 'J')} in and {words.quantity(out, 'J')} out, as the "

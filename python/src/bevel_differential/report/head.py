@@ -51,8 +51,8 @@ def _split(run):
     if max(abs(left), abs(right)) < 1e-9:
         return "The half-shafts carry no torque on the mean, so that there is no bias."
     shares = f"left {words.quantity(left, 'N.m')}, right {words.quantity(right, 'N.m')} on the mean"
-    bias = run.series("torque_bias_ratio")
-    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) from {words.number(bias.min(), 3)} to {words.number(bias.max(), 3)}."
+    low, high = (words.number(float(bound(run.series("torque_bias_ratio"))), 3) for bound in (np.min, np.max))
+    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {f'{low} all the time' if low == high else f'from {low} to {high}'}."
 
 
 def _facts(run):

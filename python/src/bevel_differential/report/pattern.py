@@ -15,6 +15,8 @@ PAIRS = 3
 ENDS = ("toe", "middle", "heel")
 # places along the profile and along the face
 ROWS, COLUMNS = 240, 48
+# strips that are thinner than this part of the height (half of their width) are drawn so wide, to be seen
+THINNEST = 0.006
 MM, MPA = 1e3, 1e6
 FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 
@@ -72,7 +74,7 @@ def section(run: Simulated) -> Section:
     if not loaded:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
         return found
-    found.add(Picture("pattern", _draw(run, pair, loaded), " ".join(_caption(run, name, contacts) for name, contacts in loaded) + _reading(pair)))
+    found.add(Picture("pattern", _draw(run, pair, loaded), " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)))
     return found
 
 
@@ -81,8 +83,9 @@ def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longes
     of the face from the toe. Across the strip of contact it falls off as an ellipse."""
     # parabola through toe, middle and heel
     weights = np.array([(2.0 * shares - 1.0) * (shares - 1.0), 4.0 * shares * (1.0 - shares), shares * (2.0 * shares - 1.0)])
-    largest = np.zeros((len(heights), len(shares)))
+    largest, thinnest = np.zeros((len(heights), len(shares))), THINNEST * float(heights[-1] - heights[0])
     for height, half, pressure in contacts.along(longest, 0.5 * (heights[1] - heights[0])):
+        half = max(half, thinnest)
         first, last = np.searchsorted(heights, [height - half, height + half])
         across = np.sqrt(np.maximum(1.0 - ((heights[first:last] - height) / half) ** 2, 0.0))
         np.maximum(largest[first:last], across[:, None] * (pressure @ weights), out=largest[first:last])
@@ -118,13 +121,14 @@ def _draw(run, pair: Pair, loaded):
             flank.set_aspect("equal")
             flank.grid(False)
             picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25).set_label("largest pressure, MPa")
-            loads.plot(contacts.force / 1e3, MM * contacts.height, ".", color=style.BLUE, ms=4)
-            loads.set(title="load of one pair", xlabel="force, kN", ylabel="height at the mean cone distance, mm", ylim=(MM * root, MM * tip))
-            loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / 1e3)
+            scale, unit = style.kilo([contacts.force])
+            loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
+            loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, mm", ylim=(MM * root, MM * tip))
+            loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
         return style.svg(picture, "pattern")
 
 
-def _caption(run, name, contacts):
+def _caption(name, contacts):
     low, high = MM * contacts.height.min(), MM * contacts.height.max()
     k = int(np.argmax(contacts.pressure.max(axis=1)))
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
@@ -140,7 +144,11 @@ def _caption(run, name, contacts):
             f"up to {words.quantity(widest, 'mm', 2)} wide.")
 
 
-def _reading(pair):
+def _reading(pair, loaded):
+    planet = pair.gears[0]
+    least = 2.0 * MM * THINNEST * 0.5 * (pair.inner_cone + pair.outer_cone) * (planet.tip - planet.root)
+    thin = (f" Strips thinner than {words.quantity(least, 'mm', 2)} are drawn that wide."
+            if any(2.0 * MM * contacts.half_width.min() < least for _, contacts in loaded) else "")
     return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all teeth laid on one "
             f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray through the apex. Right: "
-            "how much one pair carries at which height.")
+            f"how much one pair carries at which height.{thin}")

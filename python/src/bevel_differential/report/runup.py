@@ -17,9 +17,10 @@ USUAL_RATIO = 0.2
 ROLLING = 0.02
 # torque on each half-shaft where the scene has next to none, N·m, and what is next to none
 USUAL_LOAD, LEAST_LOAD = 200.0, 5.0
-# turns of a planet in the run-up, and fewer where they would take more evaluations of the tooth forces than `MOST`; the first ones, in
-# which the start dies out, do not count
-TURNS, FEWER, MOST, SETTLING = 80.0, 24.0, 4e6, 2.0
+# turns of a planet in the run-up, and fewer where they would take more evaluations of the tooth forces than `MOST`
+TURNS, FEWER, MOST = 80.0, 24.0, 4e6
+# s at the lowest speed until the start has died out, and s in which the speeds then begin to rise, so that shafts are not struck
+SETTLING, BEGINNING = 3.0, 1.0
 # points in a turn of a planet at the highest speed, and at least so many in a period of the highest order that theory expects
 PER_TURN, PER_ORDER = 256, 6.0
 # where a scene has none, nothing dies out
@@ -33,8 +34,8 @@ RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL)
 
 @dataclass(frozen=True)
 class RunUp:
-    """Record of a run-up: `ratio` is spin over carrier speed; `changed` says what differs from the scene; `turns`: of a planet, without
-    those in which the start dies out; `seconds`: how long it lasts."""
+    """Record of a run-up: `ratio` is spin over carrier speed; `changed` says what differs from the scene; `turns`: of a planet;
+    `seconds`: how long it lasts."""
 
     record: np.ndarray
     ratio: float
@@ -54,12 +55,11 @@ def run_up(run: Simulated, progress: Callable[[float], object] = lambda done: No
     step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
     for turns in (TURNS, FEWER):
         # with a constant rate of all speeds the turns are mean spin times duration
-        seconds = (turns + SETTLING) * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST))
+        seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
         record = _simulate(run.scene, values, ratio, seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
             break
-    settled = np.abs(record[ANGLE]) > SETTLING * 2.0 * np.pi
-    return RunUp(record[settled], ratio, loads, changed, turns, seconds)
+    return RunUp(record, ratio, loads, changed, turns, seconds)
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:
@@ -124,13 +124,16 @@ def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
     """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None where
     it would take more than `most` evaluations, as far as its first tenth tells."""
     points = int(np.ceil(seconds / step))
-    rate = (FASTEST - SLOWEST) / seconds
+    rate = (FASTEST - SLOWEST) / (seconds - 0.5 * BEGINNING)
     record = np.empty(points + 1, [("time", float), *((name, float) for name in RECORDED)])
     with scene.fmu.open() as instance:
         instance.initialise({**scene.values, **values})
-        instance.set_slopes({"carrier.speed_command": rate, "planet.spin_command": ratio * rate})
-        record[0] = (0.0, *instance.read(RECORDED))
+        instance.step(SETTLING)
+        record[0] = (instance.time, *instance.read(RECORDED))
         for point in range(1, points + 1):
+            if (point - 1) * step <= BEGINNING + step:
+                slope = rate * 0.5 * (1.0 - np.cos(np.pi * min((point - 0.5) * step / BEGINNING, 1.0)))
+                instance.set_slopes({"carrier.speed_command": slope, "planet.spin_command": ratio * slope})
             instance.step(step)
             record[point] = (instance.time, *instance.read(RECORDED))
             if point % 1000 == 0:

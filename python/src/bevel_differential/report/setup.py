@@ -8,7 +8,7 @@ from .blocks import Picture, Section, Table
 from .simulated import Simulated
 
 # inches
-PANEL = 1.5
+PANEL = 1.7
 
 
 def section(run: Simulated) -> Section:
@@ -54,6 +54,7 @@ def _inputs(run, names):
         for panel, ((unit, _), curves) in zip(axes, panels.items()):
             # the FMU holds an input between communication points
             draw_panel(panel, run.time, unit, "held", curves)
+            panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))
         axes[-1].set_xlabel("time, s")
         written = style.svg(picture, "inputs")
     changes = []

@@ -2,9 +2,11 @@
 
 import io
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from ..extras import needed
 
@@ -36,6 +38,12 @@ def styled() -> Iterator[None]:
             "svg.fonttype": "none", "svg.hashsalt": "report", "figure.dpi": 110, "axes.formatter.useoffset": False,
             "axes.unicode_minus": True, "axes.xmargin": 0.01}):
         yield
+
+
+def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
+    """What values are divided by to be shown, and the prefix of their unit: thousands where the largest has some."""
+    largest = max(float(np.max(np.abs(each), initial=0.0)) for each in values)
+    return (1e3, "k") if largest >= 1e3 else (1.0, "")
 
 
 def figure(height: float, width: float = WIDTH) -> "Figure":

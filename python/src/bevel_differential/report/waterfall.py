@@ -94,7 +94,7 @@ def _caption(run, up, spectra, expected):
     k = int(np.argmax(course))
     marks = "on top and red, multiples of the mesh order" + (
         "; green, the teeth of the ring gear" if run.value("effects.final_drive") else "")
-    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)} after the start has settled; lines are "
+    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; lines are "
             f"{words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
             f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}. Theory has no free "
@@ -108,7 +108,7 @@ def _table(run, spectra, expected):
         name, theirs = min(_named(run, expected, side, order), key=lambda pair: abs(pair[1] - order))
         apart = abs(order - theirs)
         farthest = max(farthest, apart / spectra.resolution)
-        rows.append((words.number(order, 5), words.number(UM * size, 3), name, words.number(theirs, 5),
+        rows.append((words.number(order, 5), words.number(UM * size, 3), name if apart <= spectra.resolution else f"no order; nearest: {name}", words.number(theirs, 5),
                      f"{words.number(apart / spectra.resolution, 2)} lines"))
     verdict = ("all within one line of it" if farthest <= 1.0 else
                f"not all within one line of it: the farthest is {words.number(farthest, 3)} lines away")
