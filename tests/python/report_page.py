@@ -11,8 +11,8 @@ DRAWN = re.compile(r"[LCQ]")
 
 
 class ReportPage(HTMLParser):
-    """Attributes: `figures`: by name the marks of data in it, each with its drawn pieces; `captions`, by name; `sections`: by name their text;
-    `references`: all that is referred to."""
+    """Attributes: `figures`: by name the marks of data in it, each with its drawn pieces; `captions`, by name; `sections`: by name
+    their text; `references`: all that is referred to."""
 
     def __init__(self, text):
         super().__init__()

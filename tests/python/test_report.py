@@ -14,8 +14,8 @@ from report_page import ReportPage
 
 MOST_BYTES = 5e6
 # figures of a scene with teeth, planets that roll and inputs that change
-ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias", "power",
-       "worth"}
+ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias",
+       "power", "worth"}
 WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
            "one_wheel_on_ice": {"inputs"}, "torque_bias": {"inputs"}, "rattle": {"bias"}}
 

@@ -16,7 +16,7 @@ def draw_section(pair: Pair) -> str:
     with style.styled():
         picture = style.figure(6.0)
         axes = picture.subplots()
-        # a gear in its own half plane: radius across, axis along; planets above the side gears, as they cover each other in the mesh
+        # a gear in its own half plane: radius across, axis along; planets last, as the teeth cover each other in the mesh
         for sense in (1.0, -1.0):
             _gear(axes, pair, 1, lambda radius, axis, sense=sense: (-sense * axis, radius), SIDE)
         for sense in (1.0, -1.0):
@@ -44,7 +44,8 @@ def _gear(axes, pair, i, place, colour):
 
     turn = np.linspace(gear.root, gear.tip, 12)
     teeth = [point(inner, angle) for angle in turn] + [point(outer, angle) for angle in turn[::-1]]
-    body = [point(inner, gear.root), point(outer, gear.root), (bore, outer * math.cos(gear.root)), (bore, inner * math.cos(gear.root))]
+    back, front = outer * math.cos(gear.root), inner * math.cos(gear.root)
+    body = [point(inner, gear.root), point(outer, gear.root), (bore, back), (bore, front)]
     for mirror in (1.0, -1.0):
         for shape, alpha in ((body, 0.28), (teeth, 0.75)):
             points = np.array([place(mirror * radius, axis) for radius, axis in shape])
@@ -80,8 +81,8 @@ def _dimensions(axes, pair):
         name += f", bore {_mm(gear.bore)}" if gear.bore > 0.0 else ""
         for sense, which in ((-1.0, "left "), (1.0, "right ")) if i else ((-1.0, ""),):
             along_axis = sense * middle * math.cos(gear.root)
-            axes.text(*((along_axis, -0.3 * half) if i else (0.3 * width, along_axis)), which + name, fontsize=9, ha="center", va="center",
-                      rotation=90 if i else 0)
+            place = (along_axis, -0.3 * half) if i else (0.3 * width, along_axis)
+            axes.text(*place, which + name, fontsize=9, ha="center", va="center", rotation=90 if i else 0)
 
 
 def _between(axes, begin, end, offset, text, place=0.5):
@@ -93,7 +94,8 @@ def _between(axes, begin, end, offset, text, place=0.5):
     turned = math.degrees(math.atan2(*(last - first)[::-1]))
     # letters stand upright, or read from below
     turned = 90.0 - (90.0 - turned) % 180.0
-    axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom", fontsize=8.5)
+    axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom",
+              fontsize=8.5)
 
 
 def _mm(length):

@@ -13,7 +13,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--scene", metavar="FILE|NAME", required=True, help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
     parser.add_argument("--out", metavar="FILE", help="the page to write (start value: report-NAME.html)")
-    parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are off")
+    parser.add_argument("--quick", action="store_true", help="leave out what needs other runs: the run-up, and effects that are "
+                                                             "off")
     add_fmu(parser)
 
 
@@ -27,7 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
     tqdm = needed("tqdm", "report").tqdm
     with Scene.load(arguments.scene, fmu=arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
-        file = checked(arguments.out or f"report-{scene.name}.html")
+        file = arguments.out or f"report-{scene.name}.html"
+        checked(file)
         with tqdm(total=100, unit="%", dynamic_ncols=True, leave=False, bar_format="{desc}: {percentage:3.0f} %|{bar}|") as bar:
 
             def progress(done: float, what: str) -> None:

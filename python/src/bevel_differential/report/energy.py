@@ -46,7 +46,8 @@ def _draw_bias(run, left, right):
                 plane.text(place, slope * place, words.number(ratio), color=style.GREY, fontsize=8, ha="right", va="bottom")
         plane.plot(left, right, color=style.VIOLET, marker=".", ms=3, lw=0.8)
         plane.plot(left[-1], right[-1], "o", color=style.VIOLET, ms=6)
-        plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="plane of torques", xlim=(low, reach), ylim=(low, reach))
+        plane.set(xlabel="left torque, N·m", ylabel="right torque, N·m", title="plane of torques", xlim=(low, reach),
+                  ylim=(low, reach))
         plane.set_aspect("equal")
         return style.svg(picture, "bias")
 
@@ -57,9 +58,12 @@ def _bias_caption(run, left, right):
     locked = float(locking[-1]) if abs(locking[-1]) > 1e-6 else 0.0
     even = np.max(np.abs(left - right)) < 1e-3 * np.max(np.abs(left) + np.abs(right))
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
-             f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right {words.quantity(right[k], 'N·m')}")
-    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large dot is the end. The "
-            f"FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most {words.number(bias.max(), 3)} in the run, "
+             f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right "
+             f"{words.quantity(right[k], 'N·m')}")
+    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large dot "
+            "is the end. The "
+            f"FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
+            f"{words.number(bias.max(), 3)} in the run, "
             f"its locking value {words.number(locked, 3)} at the end.")
 
 
@@ -101,6 +105,9 @@ def _power_caption(run):
                          + (f" ({words.percent(heat / total)})" if len(heats) > 1 and total > 0.0 else "")
                          for name, heat in sorted(heats.items(), key=lambda pair: -pair[1]))
     heat = f"Heat by its causes, stacked: {by_cause}." if heats else "No heat arises."
-    return (f"Power delivered to the differential and to the wheels; over time {words.quantity(work, 'J')} in and {words.quantity(out, 'J')} out, as the "
-            f"communication points tell. The rest speeds bodies up, winds shafts up or is lost. {heat} Bottom: stored energy less work plus "
-            f"heat, {words.quantity(residual, 'J', 2)} at most, {words.percent(residual / throughput if throughput else 0.0, 2)} of what went through.")
+    return (f"Power delivered to the differential and to the wheels; over time {words.quantity(work, 'J')} in and "
+            f"{words.quantity(out, 'J')} out, as the "
+            f"communication points tell. The rest speeds bodies up, winds shafts up or is lost. {heat} Bottom: stored energy "
+            "less work plus "
+            f"heat, {words.quantity(residual, 'J', 2)} at most, "
+            f"{words.percent(residual / throughput if throughput else 0.0, 2)} of what went through.")

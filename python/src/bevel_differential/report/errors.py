@@ -1,5 +1,7 @@
 """Transmission error of planet 1's left mesh, over time and by orders of the mesh."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..statistic import COARSEST, amplitude
@@ -37,7 +39,7 @@ def rolling(times: np.ndarray, angle: np.ndarray, teeth: int) -> slice:
     sense = np.sign(np.diff(angle))
     edges = np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])
     best, turned = slice(0, 0), 0.0
-    for begin, end in zip(edges[:-1], edges[1:]):
+    for begin, end in pairwise(edges):
         if abs(angle[end] - angle[begin]) > turned:
             best, turned = slice(int(begin), int(end) + 1), abs(float(angle[end] - angle[begin]))
     pitches = turned * teeth / (2.0 * np.pi)
@@ -55,7 +57,8 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
     coarsest = float(np.abs(np.diff(phase)).max())
     highest = min(HIGHEST, int(COARSEST / coarsest))
     if highest < 1:
-        raise DifferentialError(f"a period of the mesh has only {2.0 * np.pi / coarsest:.1f} points of the record; the scene's step is too "
+        raise DifferentialError(f"a period of the mesh has only {2.0 * np.pi / coarsest:.1f} points of the record; the scene's "
+                                "step is too "
                                 "long")
     orders = np.arange(1, highest + 1)
     return orders, np.array([amplitude(phase, values, int(order)) for order in orders])
@@ -82,7 +85,8 @@ def _over_time(run):
               if error.min() < 0.0 else "")
     if not len(loaded):
         return f"Approach of the drive flanks: they never touch, {words.number(-error.max(), 3)} µm apart at least."
-    return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(float(np.mean(loaded)), 'µm')} on the mean while they "
+    return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(float(np.mean(loaded)), 'µm')} on the "
+            "mean while they "
             f"touch, {words.quantity(error.max(), 'µm')} at most{lifted}.")
 
 
@@ -93,6 +97,8 @@ def _by_order(run, part, orders, sizes):
     mesh = abs(float((angle[-1] - angle[0]) / (run.time[part][-1] - run.time[part][0]))) * teeth / (2.0 * np.pi)
     top = int(np.argmax(sizes))
     first = "" if top == 0 else f"; order 1 has {words.quantity(UM * sizes[0], 'µm', 3)}"
-    return (f"Right: amplitudes over the last {cycles} whole mesh cycles of the shaded stretch, in which the planets roll one way "
-            f"({words.quantity(mesh, 'Hz')} on the mean). The largest is order {orders[top]} with {words.quantity(UM * sizes[top], 'µm', 3)}"
+    return (f"Right: amplitudes over the last {cycles} whole mesh cycles of the shaded stretch, in which the planets roll one "
+            "way "
+            f"({words.quantity(mesh, 'Hz')} on the mean). The largest is order {orders[top]} with "
+            f"{words.quantity(UM * sizes[top], 'µm', 3)}"
             f"{first}.")

@@ -55,7 +55,8 @@ def _caption(run, drawn, alike):
             free = bands(run.time, force)
             lash = "never in the lash" if not free else (f"in the lash {words.percent(share(run.time, free), 2)} of the time, "
                                                          f"{len(free)} stretch{'es' if len(free) > 1 else ''}")
-            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], 'N')} at {words.quantity(run.time[k], 's')}, {lash}")
+            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], 'N')} at {words.quantity(run.time[k], 's')}, "
+                         f"{lash}")
     same = f" Planet{'s' if len(alike) > 1 else ''} {words.listed(map(str, alike))}: the same to the last bit." if alike else ""
     return (f"Normal force, its tooth pairs summed; shaded where neither drive nor coast flanks carry, as the points of every "
             f"{words.quantity(1e3 * run.scene.step, 'ms')} tell. {'; '.join(parts)}.{same}")

@@ -26,13 +26,15 @@ def verdicts(run: Simulated) -> list[Text]:
     """Whether energy balances, whether the gears are strong enough, and how the torque is split."""
     residual, throughput = energy_balance(run)
     share = residual / throughput if throughput else 0.0
-    found = [Text(f"Energy balances to {words.quantity(residual, 'J', 2)} of the {words.quantity(throughput, 'J', 3)} that went through "
+    found = [Text(f"Energy balances to {words.quantity(residual, 'J', 2)} of the {words.quantity(throughput, 'J', 3)} that went "
+                  "through "
                   f"({words.percent(share, 2)}).", "verdict", share <= BALANCED)]
     if "effects.strength" in run.refused:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:
         root, flank = float(run.record["safety.root_min"][-1]), float(run.record["safety.flank_min"][-1])
-        found.append(Text(f"Smallest safety factors of the run: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; below 1 "
+        found.append(Text(f"Smallest safety factors of the run: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
+                          "below 1 "
                           "the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
     found.append(Text(_split(run), "verdict"))
     return found
@@ -52,15 +54,16 @@ def _split(run):
         return "The half-shafts carry no torque on the mean, so that there is no bias."
     shares = f"left {words.quantity(left, 'N.m')}, right {words.quantity(right, 'N.m')} on the mean"
     low, high = (words.number(float(bound(run.series("torque_bias_ratio"))), 3) for bound in (np.min, np.max))
-    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {f'{low} all the time' if low == high else f'from {low} to {high}'}."
+    course = f"{low} all the time" if low == high else f"from {low} to {high}"
+    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {course}."
 
 
 def _facts(run):
     fmu = run.scene.fmu
     last = run.record[-1]
     real = run.scene.stop / run.seconds
-    steps = ", ".join(f"{int(last[name])} {what}" for name, what in
-                      [("solver.steps", "steps"), ("solver.rejected", "rejected"), ("solver.rhs_calls", "evaluations of the tooth forces")])
+    counts = [("solver.steps", "steps"), ("solver.rejected", "rejected"), ("solver.rhs_calls", "evaluations of the tooth forces")]
+    steps = ", ".join(f"{int(last[name])} {what}" for name, what in counts)
     solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.of(fmu, name, run.value(name))}"
                        for name in SOLVER if name != "solver.fixed_step" or run.literal("solver.method") == "fixed_step")
     added = words.listed(run.added) if run.added else ""
@@ -73,7 +76,8 @@ def _facts(run):
         ("took", f"{words.quantity(1e3 * run.seconds, 'ms', 3)}: {words.number(real, 2)} × real time"),
     ]
     if added:
-        rows.append(("switched on for this report", f"{added}: they only add outputs. The scene's own outputs with and without them "
+        rows.append(("switched on for this report", f"{added}: they only add outputs. The scene's own outputs with and without "
+                                                    "them "
                      + ("are the same to the last bit." if run.difference == 0.0 else
                         f"differ by {run.difference:.1e} of their largest values.")))
     rows += [("not available here", reason) for reason in run.refused.values()]

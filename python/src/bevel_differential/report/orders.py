@@ -7,8 +7,8 @@ import numpy as np
 from ..values import DifferentialError
 
 TURN = 2.0 * np.pi
-# points of a record in a period of the highest order, at least, and of the signal over the angle: many, so that what the record has above
-# the orders of interest does not come back among them
+# points in a period of the highest order: of a record at least, and of the signal over the angle. These are many, so that what the
+# record has above the orders of interest does not come back among them
 PER_PERIOD, FINER = 4, 16
 # of neighbouring windows
 OVERLAP = 0.75
@@ -49,8 +49,8 @@ class Waterfall:
 def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np.ndarray, np.ndarray]:
     """`values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
 
-    A point is the mean over its step, so that orders far above do not come back as low ones: those at multiples of `per_turn`, which
-    would fall on the lowest, vanish in it. `damped` says what it does to the others."""
+    A point is the mean over its step, so that orders far above do not come back as low ones: those at multiples of `per_turn`,
+    which would fall on the lowest, vanish in it. `damped` says what it does to the others."""
     angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
     if np.any(np.diff(angle) <= 0.0):
         raise DifferentialError("orders are counted by an angle that turns one way")
@@ -78,7 +78,8 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
     """Spectra up to the order `highest` over windows (Hann) of so many turns of `angle` (rad), which overlap; `speed` labels them."""
     coarsest = float(np.abs(np.diff(angle)).max()) / TURN
     if coarsest * highest * PER_PERIOD > 1.0:
-        raise DifferentialError(f"a period of order {highest:.4g} has only {1.0 / (coarsest * highest):.2g} points of the record, and needs "
+        raise DifferentialError(f"a period of order {highest:.4g} has only {1.0 / (coarsest * highest):.2g} points of the "
+                                "record, and needs "
                                 f"{PER_PERIOD}: take shorter steps")
     per_turn = int(2 ** np.ceil(np.log2(FINER * highest)))
     even, resampled = over_angle(angle, values, per_turn)

@@ -15,8 +15,8 @@ def page(run: Simulated, sections: Sequence[Section]) -> str:
     """The page as text."""
     jinja2 = needed("jinja2", "report")
     # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
-    environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True, lstrip_blocks=True,
-                                     undefined=jinja2.StrictUndefined)
+    environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests.update(text=lambda block: isinstance(block, Text), table=lambda block: isinstance(block, Table),
                              picture=lambda block: isinstance(block, Picture))
     return environment.get_template(TEMPLATE).render(scene=run.scene, sections=sections) + "\n"

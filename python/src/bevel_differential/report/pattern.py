@@ -66,7 +66,8 @@ def section(run: Simulated) -> Section:
     """The picture, or why there is none."""
     found = Section("pattern", "Contact pattern")
     if not run.has_pairs:
-        found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that there is no pattern.")
+        found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
+                  "there is no pattern.")
         return found
     pair = pair_of(run)
     loaded = [(name, Contacts.of(run, sign, pair.face_width)) for sign, name in FLANKS]
@@ -74,7 +75,8 @@ def section(run: Simulated) -> Section:
     if not loaded:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
         return found
-    found.add(Picture("pattern", _draw(run, pair, loaded), " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)))
+    caption = " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)
+    found.add(Picture("pattern", _draw(run, pair, loaded), caption))
     return found
 
 
@@ -123,7 +125,8 @@ def _draw(run, pair: Pair, loaded):
             picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25).set_label("largest pressure, MPa")
             scale, unit = style.kilo([contacts.force])
             loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
-            loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, mm", ylim=(MM * root, MM * tip))
+            loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
+                                                                                 "mm", ylim=(MM * root, MM * tip))
             loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
         return style.svg(picture, "pattern")
 
@@ -133,14 +136,17 @@ def _caption(name, contacts):
     k = int(np.argmax(contacts.pressure.max(axis=1)))
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
     widest = 2.0 * MM * contacts.half_width.max()
-    peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, {words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch "
+    peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
+            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch "
             f"line, {words.quantity(contacts.time[k], 's')})")
     teeth = len(np.unique(contacts.tooth))
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
-        return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, {words.quantity(low, 'mm', 3)} from the pitch "
+        return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, "
+                f"{words.quantity(low, 'mm', 3)} from the pitch "
                 f"line at the mean cone distance, as wide as Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
-    return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} at the mean cone distance, in strips "
+    return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} "
+            "at the mean cone distance, in strips "
             f"up to {words.quantity(widest, 'mm', 2)} wide.")
 
 
@@ -149,6 +155,8 @@ def _reading(pair, loaded):
     least = 2.0 * MM * THINNEST * 0.5 * (pair.inner_cone + pair.outer_cone) * (planet.tip - planet.root)
     thin = (f" Strips thinner than {words.quantity(least, 'mm', 2)} are drawn that wide."
             if any(2.0 * MM * contacts.half_width.min() < least for _, contacts in loaded) else "")
-    return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all teeth laid on one "
-            f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray through the apex. Right: "
+    return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all "
+            "teeth laid on one "
+            f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray "
+            "through the apex. Right: "
             f"how much one pair carries at which height.{thin}")

@@ -78,7 +78,8 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
     means = [float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right")]
     if min(abs(mean) for mean in means) >= LEAST_LOAD and means[0] * means[1] > 0.0:
         return (means[0], means[1]), []
-    return (USUAL_LOAD, USUAL_LOAD), [f"each half-shaft carries {USUAL_LOAD:g} N·m, as in the scene at least one of them has next to no "
+    return (USUAL_LOAD, USUAL_LOAD), [f"each half-shaft carries {USUAL_LOAD:g} N·m, as in the scene at least one of them has "
+                                      "next to no "
                                       "load on the mean and its teeth would lift"]
 
 
@@ -121,8 +122,8 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
 
 
 def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
-    """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None where
-    it would take more than `most` evaluations, as far as its first tenth tells."""
+    """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None
+    where it would take more than `most` evaluations, as far as its first tenth tells."""
     points = int(np.ceil(seconds / step))
     rate = (FASTEST - SLOWEST) / (seconds - 0.5 * BEGINNING)
     record = np.empty(points + 1, [("time", float), *((name, float) for name in RECORDED)])

@@ -25,7 +25,8 @@ def section(run: Simulated) -> Section:
         found.add(_inputs(run, changing))
     else:
         found.say("All inputs are constant.")
-    tuned = [f"{name} = {words.of(run.scene.fmu, name, run.scene.fmu.variable(name).number(value))} at {words.quantity(time, 's')}"
+    tuned = [f"{name} = {words.of(run.scene.fmu, name, run.scene.fmu.variable(name).number(value))} at "
+             f"{words.quantity(time, 's')}"
              for time, values in run.scene.changes for name, value in values.items()
              if run.scene.fmu.variable(name).causality == "parameter"]
     if tuned:
@@ -39,7 +40,8 @@ def _values(run):
     for name, value in run.scene.values.items():
         variable = fmu.variable(name)
         start = "" if variable.start is None else words.shown(variable, variable.start)
-        rows.append((name, variable.description or "", words.shown(variable, value), start if variable.start != value else "the same"))
+        rows.append((name, variable.description or "", words.shown(variable, value),
+                     start if variable.start != value else "the same"))
     driven = ", ".join(dict.fromkeys(name for name, *_ in run.scene.tables))
     return Table(("name", "meaning", "scene", "start value of the FMU"), rows,
                  f"{len(rows)} values that the scene sets; all others have the start values of the FMU."

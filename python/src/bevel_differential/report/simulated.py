@@ -37,7 +37,7 @@ class Simulated:
     def of(cls, scene: Scene) -> Self:
         """Simulates a scene: as it is written, and with all that can be recorded."""
         as_written = scene.run()
-        seconds = []
+        seconds: list[float] = []
         while not seconds or (len(seconds) < TIMED and sum(seconds) < SHORT):
             begin = time.perf_counter()
             scene.run()
@@ -54,7 +54,8 @@ class Simulated:
         names = [name for name, variable in scene.fmu.variables.items()
                  if variable.causality in ("input", "output", "calculatedParameter")]
         record = scene.run(names, added)
-        return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused, _difference(as_written, record))
+        return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused,
+                   _difference(as_written, record))
 
     def value(self, name: str) -> Number:
         """A parameter or the start of an input, SI."""

@@ -13,7 +13,8 @@ STRESSES = (("stress.contact_max", "strength.contact_strength", "flanks: largest
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
-         ("damage.planet_flank", "Miner sum of pitting, worst planet"), ("damage.side_flank", "Miner sum of pitting, worse side gear"))
+         ("damage.planet_flank", "Miner sum of pitting, worst planet"), ("damage.side_flank", "Miner sum of pitting, worse side "
+                                                                                              "gear"))
 
 
 def section(run: Simulated) -> Section:
@@ -30,7 +31,8 @@ def section(run: Simulated) -> Section:
     rows = [(name, what, words.number(float(run.record[name][-1]))) for name, what in RATED]
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
-                    f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step of the "
+                    f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
+                    "of the "
                     "solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
     return found
 
@@ -45,7 +47,8 @@ def _draw(run):
                 panel.plot(run.time, run.series(name) / MPA, color=colour, label=label)
                 top = max(top, float(np.max(run.series(name))) / MPA)
             strength = float(run.value(rows[0][1])) / MPA
-            panel.axhline(strength, color=style.GREY, ls="--", lw=1.1, label=f"strength at the knee {words.quantity(strength, 'MPa')}")
+            panel.axhline(strength, color=style.GREY, ls="--", lw=1.1, label="strength at the knee "
+                                                                             f"{words.quantity(strength, 'MPa')}")
             panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * max(top, strength)))
             panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         lower.set_xlabel("time, s")
@@ -58,6 +61,7 @@ def _caption(run):
         values = run.series(name)
         k = int(np.argmax(values))
         share = values[k] / float(run.value(strength))
-        parts.append(f"{label} up to {words.quantity(values[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, {words.percent(share)} of "
+        parts.append(f"{label} up to {words.quantity(values[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
+                     f"{words.percent(share)} of "
                      "the strength")
     return f"Largest stresses of all teeth: {'; '.join(parts)}."

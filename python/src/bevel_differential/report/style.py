@@ -1,4 +1,4 @@
-"""One style for all pictures of a report. Letters and axes take the colour of the page's text, so that they show in light and dark."""
+"""One style for all pictures of a report. Letters and axes take the colour of the page's text: they show in light and dark."""
 
 import io
 import re

@@ -24,10 +24,12 @@ def section(run: Simulated) -> Section:
         figures = [FIGURES[word](run.time, values) for word in STATISTICS]
         # what is left of a difference of large numbers is rounding
         rounding = ROUNDING * max(map(abs, figures))
-        rows.append((name, words.unit_text(unit), *(words.number(figure if abs(figure) > rounding else 0.0, 5) for figure in figures)))
+        rounded = [figure if abs(figure) > rounding else 0.0 for figure in figures]
+        rows.append((name, words.unit_text(unit), *(words.number(figure, 5) for figure in rounded)))
     span = f"{words.number(run.time[0])} to {words.quantity(run.time[-1], 's')}"
     found.add(Table(("output", "unit", *(word.replace("_", " ") for word in STATISTICS)), rows,
-                    f"Outputs of the scene and the main ones of every scene, over the whole run from {span}, the start included. Means "
+                    f"Outputs of the scene and the main ones of every scene, over the whole run from {span}, the start "
+                    "included. Means "
                     "are over time.", left=2))
     return found
 

@@ -76,5 +76,6 @@ def _torques(run):
     left, right, carrier = (run.series(name) for name in ("left.shaft_torque", "right.shaft_torque", "carrier.torque"))
     means = [words.number(float(np.mean(values))) for values in (carrier, left, right)]
     return (f"Torque of the drive on the carrier and of the half-shafts on the wheels; on the mean carrier {means[0]}, left "
-            f"{means[1]} and right {means[2]} N·m; what is missing between them speeds bodies up or is lost. Largest: carrier {words.number(np.max(np.abs(carrier)))}, left "
+            f"{means[1]} and right {means[2]} N·m; what is missing between them speeds bodies up or is lost. Largest: carrier "
+            f"{words.number(np.max(np.abs(carrier)))}, left "
             f"{words.number(np.max(np.abs(left)))}, right {words.quantity(np.max(np.abs(right)), 'N.m')}.")

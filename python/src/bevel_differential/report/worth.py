@@ -23,9 +23,9 @@ TOGETHER = "all of these together"
 
 @dataclass(frozen=True)
 class Tried:
-    """A run with an effect on. `mean` and `swing`: by output the change of its mean and of its peak-to-peak value, relative to the largest
-    value of its kind in the scene; `nothing`: changes up to this are within the solver's tolerance; `calls` and `seconds`: evaluations and
-    time, times those of the scene; `refused`: why there is none."""
+    """A run with an effect on. `mean` and `swing`: by output the change of its mean and of its peak-to-peak value, relative to the
+    largest value of its kind in the scene; `nothing`: changes up to this are within the solver's tolerance; `calls` and `seconds`:
+    evaluations and time, times those of the scene; `refused`: why there is none."""
 
     name: str
     nothing: float
@@ -44,7 +44,8 @@ class Tried:
 def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
     """A run for each effect that is off, and one with all of them."""
     found = Section("worth", "What is switched off, and what it is worth")
-    switches = [name for name, variable in run.scene.fmu.variables.items() if name.startswith(PREFIX) and variable.kind == "Boolean"]
+    variables = run.scene.fmu.variables
+    switches = [name for name, variable in variables.items() if name.startswith(PREFIX) and variable.kind == "Boolean"]
     off = [name for name in switches if not run.value(name) and name not in ONLY_GIVE_OUTPUTS]
     there = [name for name in off if name not in PART_OF_THE_QUESTION]
     found.say(_named(run, switches, off))
@@ -90,8 +91,11 @@ def _sizes(run):
     names = main_outputs(run)
     largest = {name: float(np.max(np.abs(run.series(name)))) for name in names}
     units = {name: run.scene.fmu.variable(name).unit for name in names}
-    return {name: max(largest[other] for other in names if other == name or (units[name] not in (None, "1") and units[other] == units[name]))
-            for name in names}
+
+    def alike(one, other):
+        return one == other or (units[one] not in (None, "1") and units[one] == units[other])
+
+    return {name: max(largest[other] for other in names if alike(name, other)) for name in names}
 
 
 def together(run: Simulated, names: list[str]) -> Tried:
@@ -112,9 +116,11 @@ def _named(run, switches, off):
     on = [name.removeprefix(PREFIX) for name in switches if run.value(name) and name not in ONLY_GIVE_OUTPUTS]
     question = [name.removeprefix(PREFIX) for name in PART_OF_THE_QUESTION if name in off]
     return (f"On in the scene: {words.listed(on) or 'nothing'}. " + (
-        f"Not tried: {words.listed(question)}, as what is built in, broken or driven is part of the question and not of how closely it is "
+        f"Not tried: {words.listed(question)}, as what is built in, broken or driven is part of the question and not of how "
+        "closely it is "
         "looked at. " if question else "") +
-        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is that of the whole "
+        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is that "
+        "of the whole "
         "run, start included.")
 
 
@@ -124,18 +130,20 @@ def _draw(tried):
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
 
     # clear in the middle, so that the page's colour shows
-    colours = LinearSegmentedColormap.from_list("change", [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)])
+    scale = [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)]
+    colours = LinearSegmentedColormap.from_list("change", scale)
     with style.styled():
         picture = style.figure(0.34 * len(outputs) + 1.9)
         panels = picture.subplots(1, 2, sharey=True)
-        for panel, title, table in ((panels[0], "mean", [one.mean for one in rows]), (panels[1], "peak to peak", [one.swing for one in rows])):
+        tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
+        labels = ["together" if one.name.startswith(TOGETHER) else one.name.replace("_", "\n") for one in rows]
+        for panel, (title, table) in zip(panels, tables):
             values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
             reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
             panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
             for (row, column), value in np.ndenumerate(values):
                 panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
-            panel.set_xticks(range(len(rows)), ["together" if one.name.startswith(TOGETHER) else one.name.replace("_", "\n") for one in rows],
-                             fontsize=8)
+            panel.set_xticks(range(len(rows)), labels, fontsize=8)
             panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
             panel.set_title(f"change of the {title}, %")
             panel.grid(False)
@@ -154,8 +162,10 @@ def _caption(tried):
     one = max((one for one in tried if not one.refused and not one.name.startswith(TOGETHER)),
               key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
     what, change = _largest(one)[0]
-    return (f"Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit has in the "
-            f"scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than 0.01 %. The largest change by "
+    return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
+            "has in the "
+            "scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than 0.01 %. The "
+            "largest change by "
             f"one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
 
 
@@ -173,7 +183,8 @@ def _table(run, tried):
         elif not one.changes:
             rows.append((one.name, _nothing(run, one), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
         else:
-            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in _largest(one)[:NAMED] if abs(change) > one.nothing]
+            changes = [(name, change) for name, change in _largest(one)[:NAMED] if abs(change) > one.nothing]
+            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in changes]
             rows.append((one.name, "; ".join(largest), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
     return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
                  "Evaluations of the tooth forces and time, times those of the scene. Times of short runs hold the start of the "
@@ -181,7 +192,10 @@ def _table(run, tried):
 
 
 def _nothing(run, one):
-    zero = [name for name, variable in run.scene.fmu.variables.items()
-            if (name.startswith(f"{one.name}.") or f"{PREFIX}{one.name}" in (variable.description or "")) and variable.kind in ("Real", "Integer") and run.value(name) == 0.0]
+    # its own parameters, and those of others that say that they belong to it
+    own = [variable for variable in run.scene.fmu.variables.values()
+           if variable.name.startswith(f"{one.name}.") or f"{PREFIX}{one.name}" in (variable.description or "")]
+    zero = [variable.name for variable in own
+            if variable.causality in ("parameter", "input") and variable.kind in ("Real", "Integer") and run.value(variable.name) == 0.0]
     why = f", as {words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0" if zero else ""
     return f"changes nothing beyond the solver's tolerance{why}"
