@@ -73,13 +73,7 @@ pub struct Order {
 }
 
 /// Writes reports with the packaged `fmu`; `quick` leaves out what needs other runs.
-pub fn write(
-    environment: &Environment,
-    fmu: &Path,
-    orders: &[Order],
-    quick: bool,
-    progress: &Progress,
-) -> Result<()> {
+pub fn write(environment: &Environment, fmu: &Path, orders: &[Order], quick: bool, progress: &Progress) -> Result<()> {
     let mut arguments: Vec<OsString> = vec![fmu.into(), if quick { "quick" } else { "full" }.into()];
     for (place, order) in orders.iter().enumerate() {
         if place > 0 {

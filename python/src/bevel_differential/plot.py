@@ -69,7 +69,7 @@ def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: l
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     panel.ticklabel_format(axis="y", useOffset=False)
     if kind != "Real":
-        panel.yaxis.get_major_locator().set_params(integer=True)
+        panel.locator_params(axis="y", integer=True)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
 
 
