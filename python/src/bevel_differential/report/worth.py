@@ -1,12 +1,13 @@
 """What effects that the scene leaves off would change, and what they would cost."""
 
+import re
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 from . import style, words
 from .blocks import Picture, Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
@@ -19,6 +20,11 @@ PART_OF_THE_QUESTION = ("effects.limited_slip", "effects.tooth_fault", "effects.
 NAMED = 3
 PREFIX = "effects."
 TOGETHER = "all of these together"
+# a run that should change nothing: what it changes is what rounding and the solver do
+CONTROL = "tolerance halved"
+TOLERANCE = "solver.relative_tolerance"
+# changes up to so many times the solver's tolerance are its own
+NOISE = 10.0
 
 
 @dataclass(frozen=True)
@@ -51,13 +57,13 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
     found.say(_named(run, switches, off))
     if not there:
         return found
-    tried = []
+    tried = [attempt(run, CONTROL, {TOLERANCE: 0.5 * float(run.value(TOLERANCE))})]
     for place, name in enumerate(there):
         progress(place / (len(there) + 1))
-        tried.append(attempt(run, name.removeprefix(PREFIX), [name]))
-    tried.append(together(run, [name for name, one in zip(there, tried) if not one.refused]))
+        tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
+    tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
     progress(1.0)
-    if any(one.changes for one in tried):
+    if any(one.changes for one in tried if one.name != CONTROL):
         found.add(Picture("worth", _draw(tried), _caption(tried)))
     found.add(_table(run, tried))
     found.say("What accuracy of what quantity needs which of these is the question of the command accuracy: "
@@ -65,12 +71,12 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
     return found
 
 
-def attempt(run: Simulated, label: str, names: list[str]) -> Tried:
-    """The scene with these effects on."""
+def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
+    """The scene with these values."""
     outputs = list(dict.fromkeys([*main_outputs(run), "solver.rhs_calls"]))
     begin = time.perf_counter()
     try:
-        record = run.scene.run(outputs, dict.fromkeys(names, True))
+        record = run.scene.run(outputs, values)
     except DifferentialError as error:
         return Tried(label, 0.0, {}, {}, refused=reason_of(error))
     seconds = time.perf_counter() - begin
@@ -82,8 +88,7 @@ def attempt(run: Simulated, label: str, names: list[str]) -> Tried:
         mean[name] = float(np.trapezoid(new - old, run.time) / (run.time[-1] - run.time[0]) / size)
         swing[name] = float((np.ptp(new) - np.ptp(old)) / size)
     calls = max(float(run.record["solver.rhs_calls"][-1]), 1.0)
-    tolerance = float(run.value("solver.relative_tolerance"))
-    return Tried(label, tolerance, mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
+    return Tried(label, NOISE * float(run.value(TOLERANCE)), mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
 
 
 def _sizes(run):
@@ -102,7 +107,7 @@ def together(run: Simulated, names: list[str]) -> Tried:
     """All effects at once; those that the FMU names in a refusal go, and are named."""
     left, gone = list(names), []
     while True:
-        found = attempt(run, TOGETHER, left)
+        found = attempt(run, TOGETHER, dict.fromkeys(left, True))
         refused = [name for name in left if name in found.refused]
         if not refused or not found.refused:
             break
@@ -121,7 +126,8 @@ def _named(run, switches, off):
         "looked at. " if question else "") +
         "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is that "
         "of the whole "
-        "run, start included.")
+        "run, start included. The first run only halves the solver's tolerance: where that changes something, as where teeth strike "
+        "again and again, changes of this size by an effect tell nothing.")
 
 
 def _draw(tried):
@@ -136,7 +142,7 @@ def _draw(tried):
         picture = style.figure(0.34 * len(outputs) + 1.9)
         panels = picture.subplots(1, 2, sharey=True)
         tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
-        labels = ["together" if one.name.startswith(TOGETHER) else one.name.replace("_", "\n") for one in rows]
+        labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
         for panel, (title, table) in zip(panels, tables):
             values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
             reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
@@ -159,7 +165,7 @@ def _cell(percent, nothing):
 
 
 def _caption(tried):
-    one = max((one for one in tried if not one.refused and not one.name.startswith(TOGETHER)),
+    one = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
               key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
     what, change = _largest(one)[0]
     return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
