@@ -14,7 +14,7 @@ use crate::tools::progress::Progress;
 use crate::tools::python;
 
 /// All extras of the package.
-const EXTRAS: &str = "[sweep,design,plot]";
+const EXTRAS: &str = "[sweep,design,plot,report]";
 /// The pages whose examples must run.
 const PAGES: [&str; 2] = ["README.md", "docs/python.md"];
 /// Programs of Rust, which the environment must not find.

@@ -1,9 +1,10 @@
 //! What a user of gears runs: the study, scenes and their tooth loads, what accuracy costs, dimensions and solids, contact
-//! patterns. Commands: `study`, `scene`, `loads`, `accuracy`, `geometry`, `pattern`.
+//! patterns, reports. Commands: `study`, `scene`, `loads`, `report`, `accuracy`, `geometry`, `pattern`.
 
 pub mod accuracy;
 pub mod geometry;
 pub mod pattern;
+pub mod report;
 pub mod scene;
 pub mod study;
 
@@ -17,6 +18,7 @@ pub enum GearsCommand {
     Study(study::StudyCommand),
     Scene(scene::command::SceneCommand),
     Loads(scene::command::LoadsCommand),
+    Report(report::ReportCommand),
     Accuracy(accuracy::command::AccuracyCommand),
     Geometry(geometry::command::GeometryCommand),
     Pattern(pattern::PatternCommand),
@@ -29,6 +31,7 @@ impl GearsCommand {
             Self::Study(command) => command.run(),
             Self::Scene(command) => command.run(),
             Self::Loads(command) => command.run(),
+            Self::Report(command) => command.run(),
             Self::Accuracy(command) => command.run(),
             Self::Geometry(command) => command.run(),
             Self::Pattern(command) => command.run(),

@@ -64,6 +64,11 @@ pub fn study() -> PathBuf {
     target().join("study")
 }
 
+/// Reports of scenes.
+pub fn report() -> PathBuf {
+    target().join("report")
+}
+
 /// The comparison with other simulators.
 pub fn simulators_benchmark() -> PathBuf {
     workspace().join("benches").join("peers")

@@ -28,14 +28,15 @@ class Instance:
     Values are written as in `Differential` and read in SI. What the FMU refuses is a `DifferentialError` with the FMU's message
     and status.
 
-    Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `time` (s), to
-    which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
+    Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `events`, what else
+    it has logged; `time` (s), to which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
 
     def __init__(self, fmu: "Fmu", kind: str = "CoSimulation", name: str = "differential"):
         if kind not in KINDS:
             raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
         self.fmu, self.time = fmu, 0.0
         self.messages: list[str] = []
+        self.events: list[str] = []
         self._failure: str | None = None
         description = fmu.description
         make, element = KINDS[kind]
@@ -47,10 +48,8 @@ class Instance:
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
         self._callbacks.freeMemory = defaultCallbacks.freeMemory
         self.raw.instantiate(callbacks=self._callbacks, loggingOn=False)
-        known = {category.name for category in description.logCategories}
-        # a library behind fmpy's remoting cannot be told, and logs errors alone
-        with contextlib.suppress(FMICallException):
-            self.raw.setDebugLogging(True, [category for category in LOGGED if category in known])
+        # only what goes wrong: a quiet log
+        self.log(LOGGED)
         self._component: ctypes.c_void_p | None = ctypes.c_void_p(self.raw.component)
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
         self._get, self._set = ({call: self._function(f"fmi2{verb}{call}", *pointers)
@@ -62,6 +61,13 @@ class Instance:
         self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
         self._is_fresh = True
 
+    def log(self, categories: Iterable[str]) -> None:
+        """Lets the FMU log these categories, as far as it has them; "logEvents" is what it simulates."""
+        known = {category.name for category in self.fmu.description.logCategories}
+        # a library behind fmpy's remoting cannot be told, and logs errors alone
+        with contextlib.suppress(FMICallException):
+            self.raw.setDebugLogging(True, [category for category in categories if category in known])
+
     def _function(self, name, *types):
         # by index ctypes gives a function of its own, whose types are not those of fmpy
         function = self.raw.dll[name]
@@ -69,9 +75,7 @@ class Instance:
         return function
 
     def _record(self, _environment, _name, status, category, message):
-        # only what goes wrong: a quiet log
-        if status >= 1:
-            self.messages.append(message.decode(errors="replace"))
+        (self.messages if status >= 1 else self.events).append(message.decode(errors="replace"))
         if status >= DISCARD:
             self._failure = self.messages[-1]
 
@@ -136,6 +140,7 @@ class Instance:
         """As new: all variables have their start values, nothing is logged."""
         self.check(self._reset(self._component), "fmi2Reset")
         self.messages.clear()
+        self.events.clear()
         self._is_fresh, self.time = True, 0.0
 
     def step(self, size: float) -> None:

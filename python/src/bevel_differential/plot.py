@@ -1,8 +1,9 @@
 """Pictures of a record: a panel for each unit."""
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -11,7 +12,11 @@ from .fmu import Fmu
 from .values import DifferentialError, FileName
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+# (unit, kind): [(name, values in this unit)]
+Panels: TypeAlias = dict[tuple[str, str], list[tuple[str, np.ndarray]]]
 
 # inches
 WIDTH, PANEL, REST = 10.0, 2.3, 1.2
@@ -28,17 +33,13 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
     names = (record.dtype.names or ())[1:]
     if not names:
         raise DifferentialError("the record has no outputs to draw")
-    panels: dict[tuple[str, str], list[tuple[str, np.ndarray]]] = {}
-    for name in names:
-        variable = fmu.variable(name)
-        unit, values = variable.shown(record[name].astype(float))
-        panels.setdefault((unit, variable.kind), []).append((name, values))
+    panels = by_unit(fmu, record, names)
     with matplotlib.rc_context({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
                                 "axes.axisbelow": True}):
         figure = Figure(figsize=(WIDTH, PANEL * len(panels) + REST), layout="constrained")
         axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
         for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-            _draw(panel, record["time"], unit, kind, curves)
+            draw_panel(panel, record["time"], unit, kind, curves)
         axes[-1].set_xlabel("time, s")
         figure.align_ylabels(axes)
         if title:
@@ -49,7 +50,18 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
     return figure
 
 
-def _draw(panel, times, unit, kind, curves):
+def by_unit(fmu: Fmu, record: np.ndarray, names: Iterable[str]) -> Panels:
+    """Outputs of a record as curves, in panels of one unit and kind."""
+    panels: Panels = {}
+    for name in names:
+        variable = fmu.variable(name)
+        unit, values = variable.shown(record[name].astype(float))
+        panels.setdefault((unit, variable.kind), []).append((name, values))
+    return panels
+
+
+def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: list[tuple[str, np.ndarray]]) -> None:
+    """Draws the curves of a panel, with a legend beside it."""
     for place, (name, values) in enumerate(curves):
         # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
         panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
@@ -57,7 +69,7 @@ def _draw(panel, times, unit, kind, curves):
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     panel.ticklabel_format(axis="y", useOffset=False)
     if kind != "Real":
-        panel.yaxis.get_major_locator().set_params(integer=True)
+        panel.locator_params(axis="y", integer=True)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
 
 

@@ -97,6 +97,15 @@ class Scene:
         last = self._differential._simulate(steps, self._signals, names, values)[-1]
         return {name: last[name].item() for name in names}
 
+    def says(self, values: Mapping[str, Value] | None = None) -> str:
+        """What the FMU says that it simulates at the start of the scene."""
+        self.check_settable(values or ())
+        start = {**self.values, **(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
+        with self.fmu.open() as instance:
+            instance.log(["logEvents"])
+            instance.initialise(start, self.stop)
+            return " ".join(instance.events)
+
     @property
     def warnings(self) -> list[str]:
         """What the FMU warned of in the last run of this thread."""

@@ -1,5 +1,5 @@
 //! The command `study`: packages the FMU, simulates the study's two cases through fmpy, and compares the results with the study
-//! and with theory.
+//! and with theory. The reports of both cases come with them.
 
 pub mod comparison;
 pub mod evaluation;
@@ -15,6 +15,7 @@ use bevel_differential::model::Parameters;
 use clap::Args;
 
 use crate::fmu::package;
+use crate::gears::report::{self as page, Order};
 use crate::gears::study::evaluation::{Results, SimulationRequest};
 use crate::gears::study::theory::Theory;
 use crate::tools::progress::Progress;
@@ -31,6 +32,8 @@ const EXCERPT: [&str; 5] = [
     "T/r_p, all planets, outer, N",
     "straight: mesh frequency, Hz",
 ];
+/// The scenes of its two cases.
+const SCENES: [&str; 2] = ["study_straight", "study_turning"];
 /// The lines between which both documents have their table.
 const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
 
@@ -59,12 +62,17 @@ fn run(readme: bool) -> Result<()> {
     paths::create_folder(&folder)?;
     let theory = Theory::new(&Parameters::default());
     let results = simulate(&environment, &fmu, &folder, &SimulationRequest::new(&theory), &progress)?;
+    let pages: Vec<Order> = SCENES
+        .map(|scene| Order { scene: scene.into(), file: folder.join(format!("{scene}.html")), settings: Vec::new() })
+        .into();
+    page::write(&environment, &fmu, &pages, false, &progress)?;
     progress.finish();
     let report = comparison::report(&theory, &results);
     let markdown = report.markdown();
     fs::write(folder.join("table.md"), &markdown).context("the table cannot be written")?;
     print!("{}", report.terminal());
     println!("\nFMU:     {}\nresults: {}", paths::shown(&fmu), paths::shown(&folder));
+    println!("reports: {}", pages.iter().map(|page| paths::shown(&page.file)).collect::<Vec<_>>().join(", "));
     if readme {
         sections::renew(DOCUMENT, MARKS, &markdown)?;
         sections::renew("README.md", MARKS, &report.excerpt(&EXCERPT))?;

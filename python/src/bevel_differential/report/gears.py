@@ -1,0 +1,95 @@
+"""The gears: drawings and a table with the symbols of ISO 23509."""
+
+import math
+from dataclasses import replace
+
+from ..optimise.pair import Pair
+from . import words
+from .axial import draw_section
+from .blocks import Picture, Section, Table
+from .simulated import Simulated
+from .teeth import draw_teeth
+
+GEARS = ("planet", "side")
+
+
+def section(run: Simulated) -> Section:
+    """Both drawings and the table."""
+    pair = pair_of(run)
+    found = Section("gears", "The gears")
+    found.add(Picture("section", draw_section(pair), _section_caption(pair)))
+    found.add(Picture("teeth", draw_teeth(run, pair), _teeth_caption(run, pair)))
+    found.add(_table(run, pair))
+    return found
+
+
+def pair_of(run: Simulated) -> Pair:
+    """The pair with the cones that the FMU has."""
+    names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
+    pair = Pair.of({name: run.value(name) for name in names})
+    planet, side = (_with_cones(run, gear, name) for gear, name in zip(pair.gears, GEARS))
+    return replace(pair, gears=(planet, side), outer_cone=run.constant("geometry.outer_cone_distance"))
+
+
+def _with_cones(run, gear, name):
+    pitch, base, tip, root = (run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch", "base", "tip", "root"))
+    return replace(gear, pitch=pitch, base=base, tip=tip, root=root)
+
+
+def _mm(length):
+    return words.quantity(1e3 * length, "mm")
+
+
+def _deg(angle):
+    return words.quantity(math.degrees(angle), "°").replace(" °", "°")
+
+
+def _section_caption(pair):
+    planet, side = pair.gears
+    share = pair.face_width / pair.outer_cone
+    return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
+            f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
+            ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
+            f"{_mm(pair.face_width)}, "
+            f"{share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes through the root circles, as the "
+            f"FMU has them for masses.")
+
+
+def _teeth_caption(run, pair):
+    planet, side = pair.gears
+    lands = [_mm(pair.land(i)) for i in (0, 1)]
+    return ("Planet 1 (above) in mesh with the left side gear at the heel, seen from outside at the end of the run: spherical "
+            "involutes of "
+            f"the base cones {_deg(planet.base)} and {_deg(side.base)}, on the sphere of {_mm(pair.outer_cone)} unrolled about "
+            "the pitch "
+            f"point. Fillets at the roots are left out. Tip lands {lands[0]} and {lands[1]} wide; lash "
+            f"{words.quantity(1e3 * float(run.value('geometry.backlash')), 'mm')} along the pitch circles; contact ratio "
+            f"{words.number(run.constant('geometry.contact_ratio'))}. The dashed line is the line of action of one flank.")
+
+
+def _table(run, pair):
+    both = [("number of teeth", "z", [str(gear.teeth) for gear in pair.gears]),
+            ("pitch angle", "δ", [_deg(gear.pitch) for gear in pair.gears]),
+            ("face angle (tip cone)", "δ_a", [_deg(gear.tip) for gear in pair.gears]),
+            ("root angle", "δ_f", [_deg(gear.root) for gear in pair.gears]),
+            ("base angle", "δ_b", [_deg(gear.base) for gear in pair.gears]),
+            ("outer pitch diameter", "d_e", [_mm(pair.module * gear.teeth) for gear in pair.gears]),
+            ("outside diameter", "d_ae", [_mm(pair.module * gear.teeth + 2.0 * gear.addendum * math.cos(gear.pitch))
+                                          for gear in pair.gears]),
+            ("outer addendum", "h_ae", [_mm(gear.addendum) for gear in pair.gears]),
+            ("outer dedendum", "h_fe", [_mm(gear.dedendum) for gear in pair.gears]),
+            ("bore", "", [_mm(gear.bore) if gear.bore else "none" for gear in pair.gears]),
+            ("mass", "", [words.quantity(run.constant(f"geometry.{name}_mass"), "kg") for name in GEARS])]
+    one = [("outer transverse module", "m_et", _mm(pair.module)), ("normal pressure angle", "α_n", _deg(pair.pressure_angle)),
+           ("shaft angle", "Σ", _deg(run.value("geometry.shaft_angle"))), ("face width", "b", _mm(pair.face_width)),
+           ("outer cone distance", "R_e", _mm(pair.outer_cone)),
+           ("mean cone distance", "R_m", _mm(pair.outer_cone - 0.5 * pair.face_width)),
+           ("inner cone distance", "R_i", _mm(pair.inner_cone)),
+           ("outer transverse backlash", "j_et", _mm(float(run.value("geometry.backlash")))),
+           ("contact ratio", "ε_α", words.number(run.constant("geometry.contact_ratio"))),
+           ("number of planets", "", str(pair.planets))]
+    rows = [(name, symbol, *values) for name, symbol, values in both]
+    rows += [(name, symbol, value, value) for name, symbol, value in one]
+    return Table(("quantity", "symbol", "planet", "side gear"), rows,
+                 "The gears, with the symbols of ISO 23509. Addenda by the rule "
+                 f"{run.literal('geometry.addendum_system')}.", left=2)

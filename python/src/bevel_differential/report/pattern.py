@@ -1,0 +1,162 @@
+"""The contact pattern of planet 1 with the left side gear: the largest pressure that each place of a flank has seen."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..optimise.pair import Pair
+from . import style, words
+from .blocks import Picture, Section
+from .gears import pair_of
+from .simulated import Simulated
+
+PAIRS = 3
+ENDS = ("toe", "middle", "heel")
+# places along the profile and along the face
+ROWS, COLUMNS = 240, 48
+# strips that are thinner than this part of the height (half of their width) are drawn so wide, to be seen
+THINNEST = 0.006
+MM, MPA = 1e3, 1e6
+FLANKS = ((1.0, "drive"), (-1.0, "coast"))
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Loaded pairs on one kind of flank, by time and tooth: `time` (s), `tooth`, `force` (N), `height` (m, at the mean cone distance)
+    and `pressure` (Pa, shape (contacts, 3): toe, middle, heel); `half_width` of the strip of contact in the middle, m."""
+
+    time: np.ndarray
+    tooth: np.ndarray
+    force: np.ndarray
+    height: np.ndarray
+    pressure: np.ndarray
+    half_width: np.ndarray
+
+    @classmethod
+    def of(cls, run: Simulated, sign: float, face: float) -> "Contacts":
+        """Those of a run on drive (+1) or coast flanks (−1)."""
+        columns = []
+        for k in range(1, PAIRS + 1):
+            name = f"planet[1].left_pair[{k}]"
+            table = [run.time, *(run.series(f"{name}.{what}") for what in ("tooth", "force", "height")),
+                     *(run.series(f"{name}.{end}_pressure") for end in ENDS)]
+            rows = np.column_stack(table)
+            columns.append(rows[(rows[:, 1] >= 0.0) & (sign * rows[:, 2] > 0.0)])
+        found = np.vstack(columns)
+        found = found[np.lexsort((found[:, 0], found[:, 1]))]
+        force, pressure = np.abs(found[:, 2]), found[:, 4:]
+        # Hertz: the force on a length b is π/2 times half width times pressure
+        half = 2.0 * force / (np.pi * face * np.maximum(pressure[:, 1], 1.0))
+        return cls(found[:, 0], found[:, 1], force, found[:, 3], pressure, half)
+
+    def along(self, longest: float, step: float) -> Iterator[tuple[float, float, np.ndarray]]:
+        """(height, half width, pressures) at the contacts, and every `step` of height between those of one tooth that follow each other
+        within `longest` s."""
+        for k, height in enumerate(self.height):
+            yield height, self.half_width[k], self.pressure[k]
+            if k + 1 < len(self.height) and self.tooth[k + 1] == self.tooth[k] and self.time[k + 1] - self.time[k] <= longest:
+                for share in np.linspace(0.0, 1.0, int(abs(self.height[k + 1] - height) / step) + 2)[1:-1]:
+                    yield (height + share * (self.height[k + 1] - height),
+                           self.half_width[k] + share * (self.half_width[k + 1] - self.half_width[k]),
+                           self.pressure[k] + share * (self.pressure[k + 1] - self.pressure[k]))
+
+
+def section(run: Simulated) -> Section:
+    """The picture, or why there is none."""
+    found = Section("pattern", "Contact pattern")
+    if not run.has_pairs:
+        found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
+                  "there is no pattern.")
+        return found
+    pair = pair_of(run)
+    loaded = [(name, Contacts.of(run, sign, pair.face_width)) for sign, name in FLANKS]
+    loaded = [(name, contacts) for name, contacts in loaded if len(contacts.force)]
+    if not loaded:
+        found.say("No tooth of planet 1 touched the left side gear at any communication point.")
+        return found
+    caption = " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)
+    found.add(Picture("pattern", _draw(run, pair, loaded), caption))
+    return found
+
+
+def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longest: float) -> np.ndarray:
+    """Largest pressure (Pa), shape (heights, shares): at `heights` (m) along the profile at the mean cone distance, and at `shares`
+    of the face from the toe. Across the strip of contact it falls off as an ellipse."""
+    # parabola through toe, middle and heel
+    weights = np.array([(2.0 * shares - 1.0) * (shares - 1.0), 4.0 * shares * (1.0 - shares), shares * (2.0 * shares - 1.0)])
+    largest, thinnest = np.zeros((len(heights), len(shares))), THINNEST * float(heights[-1] - heights[0])
+    for height, half, pressure in contacts.along(longest, 0.5 * (heights[1] - heights[0])):
+        half = max(half, thinnest)
+        first, last = np.searchsorted(heights, [height - half, height + half])
+        across = np.sqrt(np.maximum(1.0 - ((heights[first:last] - height) / half) ** 2, 0.0))
+        np.maximum(largest[first:last], across[:, None] * (pressure @ weights), out=largest[first:last])
+    return largest
+
+
+def _draw(run, pair: Pair, loaded):
+    planet = pair.gears[0]
+    mean = 0.5 * (pair.inner_cone + pair.outer_cone)
+    root, tip = mean * (planet.root - planet.pitch), mean * (planet.tip - planet.pitch)
+    heights, shares = np.linspace(root, tip, ROWS), np.linspace(0.0, 1.0, COLUMNS)
+    cones = pair.inner_cone + shares * pair.face_width
+    largest = [envelope(contacts, heights, shares, 1.5 * run.scene.step) for _, contacts in loaded]
+    top = max(float(each.max()) for each in largest) / MPA
+    with style.styled():
+        picture = style.figure(3.5 * len(loaded))
+        panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
+        for (flank, loads), (name, contacts), pressure in zip(panels, loaded, largest):
+            # all lengths of a tooth grow with the distance from the apex
+            place = MM * np.outer(heights, cones / mean)
+            mesh = flank.pcolormesh(np.broadcast_to(MM * cones, place.shape), place, np.ma.masked_less(pressure / MPA, 0.02 * top),
+                                    cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
+            ends = MM * cones[[0, -1]]
+            for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):
+                flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=style.GREY, ls=dash, lw=1.2)
+            for end in (0, -1):
+                flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
+            flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
+            flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
+            flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="center")
+            flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
+                      xlim=(ends[0] - 1.0, ends[1] + 3.0))
+            flank.set_aspect("equal")
+            flank.grid(False)
+            picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25).set_label("largest pressure, MPa")
+            scale, unit = style.kilo([contacts.force])
+            loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
+            loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
+                                                                                 "mm", ylim=(MM * root, MM * tip))
+            loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
+        return style.svg(picture, "pattern")
+
+
+def _caption(name, contacts):
+    low, high = MM * contacts.height.min(), MM * contacts.height.max()
+    k = int(np.argmax(contacts.pressure.max(axis=1)))
+    where = ENDS[int(np.argmax(contacts.pressure[k]))]
+    widest = 2.0 * MM * contacts.half_width.max()
+    peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
+            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch "
+            f"line, {words.quantity(contacts.time[k], 's')})")
+    teeth = len(np.unique(contacts.tooth))
+    who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
+    if high - low < widest:
+        return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, "
+                f"{words.quantity(low, 'mm', 3)} from the pitch "
+                f"line at the mean cone distance, as wide as Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
+    return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} "
+            "at the mean cone distance, in strips "
+            f"up to {words.quantity(widest, 'mm', 2)} wide.")
+
+
+def _reading(pair, loaded):
+    planet = pair.gears[0]
+    least = 2.0 * MM * THINNEST * 0.5 * (pair.inner_cone + pair.outer_cone) * (planet.tip - planet.root)
+    thin = (f" Strips thinner than {words.quantity(least, 'mm', 2)} are drawn that wide."
+            if any(2.0 * MM * contacts.half_width.min() < least for _, contacts in loaded) else "")
+    return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all "
+            "teeth laid on one "
+            f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray "
+            "through the apex. Right: "
+            f"how much one pair carries at which height.{thin}")

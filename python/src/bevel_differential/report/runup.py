@@ -1,0 +1,146 @@
+"""A run-up of the scene's gears: speeds rise in a constant ratio, under loads that stay."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..scene import Scene
+from ..values import DifferentialError, Number
+from .simulated import Simulated
+
+# carrier speeds from and to, rad/s: 100 to 1000 rpm
+SLOWEST, FASTEST = 100.0 * np.pi / 30.0, 1000.0 * np.pi / 30.0
+# spin of the planets over carrier speed where the scene has no steady one: a passenger car in a tight bend
+USUAL_RATIO = 0.2
+# planets roll where their spin is more than this part of the carrier's speed
+ROLLING = 0.02
+# torque on each half-shaft where the scene has next to none, N·m, and what is next to none
+USUAL_LOAD, LEAST_LOAD = 200.0, 5.0
+# turns of a planet in the run-up, and fewer where they would take more evaluations of the tooth forces than `MOST`
+TURNS, FEWER, MOST = 80.0, 24.0, 4e6
+# s at the lowest speed until the start has died out, and s in which the speeds then begin to rise, so that shafts are not struck
+SETTLING, BEGINNING = 3.0, 1.0
+# points in a turn of a planet at the highest speed, and at least so many in a period of the highest order that theory expects
+PER_TURN, PER_ORDER = 256, 6.0
+# where a scene has none, nothing dies out
+DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_damping")
+# multiples of the mesh order that count, and the beginning of the other order's name
+MULTIPLES, RING = 6, "ring gear"
+SIGNAL = "planet[1].left_transmission_error"
+ANGLE = "planet[1].spin_angle"
+RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL)
+
+
+@dataclass(frozen=True)
+class RunUp:
+    """Record of a run-up: `ratio` is spin over carrier speed; `changed` says what differs from the scene; `turns`: of a planet;
+    `seconds`: how long it lasts."""
+
+    record: np.ndarray
+    ratio: float
+    loads: tuple[float, float]
+    changed: list[str]
+    turns: float
+    seconds: float
+
+
+def run_up(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> RunUp:
+    """Simulates it. Raises `DifferentialError` with the FMU's reason where it refuses."""
+    ratio, why_ratio = ratio_of(run)
+    loads, why_loads = loads_of(run)
+    values, changed = _values(run, ratio, loads)
+    changed = [*why_ratio, *why_loads, *changed]
+    per_turn = _per_turn(run, ratio)
+    step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
+    for turns in (TURNS, FEWER):
+        # with a constant rate of all speeds the turns are mean spin times duration
+        seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
+        record = _simulate(run.scene, values, ratio, seconds, step, MOST if turns > FEWER else np.inf, progress)
+        if record is not None:
+            break
+    return RunUp(record, ratio, loads, changed, turns, seconds)
+
+
+def ratio_of(run: Simulated) -> tuple[float, list[str]]:
+    """Spin over carrier speed of the scene where its planets roll steadily, else the usual one and a sentence that says so."""
+    spin, carrier = run.series("planet[1].spin_speed"), run.series("carrier.speed")
+    rolls = np.abs(spin) > ROLLING * np.max(np.abs(carrier), initial=1e-9)
+    one_way = np.all(carrier > 0.0) or np.all(carrier < 0.0)
+    if one_way and np.mean(rolls) > 0.1 and abs(np.mean(spin[rolls])) > 0.9 * np.mean(np.abs(spin[rolls])):
+        return float(np.mean(spin[rolls]) / np.mean(carrier[rolls])), []
+    reason = "the carrier turns to and fro" if not one_way else "the planets of the scene do not roll steadily"
+    return USUAL_RATIO, [f"the planets spin at {USUAL_RATIO:g} of the carrier's speed, as {reason}"]
+
+
+def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
+    """Mean torques of the half-shafts in the scene, else usual ones and a sentence that says so."""
+    means = [float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right")]
+    if min(abs(mean) for mean in means) >= LEAST_LOAD and means[0] * means[1] > 0.0:
+        return (means[0], means[1]), []
+    return (USUAL_LOAD, USUAL_LOAD), [f"each half-shaft carries {USUAL_LOAD:g} N·m, as in the scene at least one of them has "
+                                      "next to no "
+                                      "load on the mean and its teeth would lift"]
+
+
+def _values(run, ratio, loads):
+    """What differs from the scene's values, and in words what a reader would not expect."""
+    values: dict[str, Number | str] = {
+        "scene.carrier_drive": "speed", "scene.planet_spin": "imposed", "scene.left_drive": "torque", "scene.right_drive": "torque",
+        "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
+        "carrier.speed_command": SLOWEST, "planet.spin_command": ratio * SLOWEST}
+    changed = []
+    undamped = [name for name in DAMPING if run.value(name) == 0.0]
+    if undamped:
+        values.update({name: run.scene.fmu.variable(name).start for name in undamped})
+        changed.append(f"{' and '.join(undamped)} {'has its' if len(undamped) == 1 else 'have their'} start value"
+                       f"{'' if len(undamped) == 1 else 's'}, as without damping the start would ring through all speeds")
+    if max(abs(run.series("lock.command"))) > 0.0:
+        values["lock.command"] = 0.0
+        changed.append("the lock is open")
+    for side in ("left", "right"):
+        if max(abs(run.series(f"{side}.brake_torque"))) > 0.0:
+            values[f"{side}.brake_torque"] = 0.0
+            changed.append(f"the {side} brake is released")
+    return values, changed
+
+
+def _per_turn(run, ratio):
+    """Enough points for the orders that theory expects."""
+    highest = max(theory(run, ratio).values())
+    return max(PER_TURN, int(PER_ORDER * highest))
+
+
+def theory(run: Simulated, ratio: float) -> dict[str, float]:
+    """Orders per turn of a planet that theory expects, by name."""
+    teeth = int(run.value("geometry.planet_teeth"))
+    found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
+    if run.value("effects.final_drive"):
+        ring = int(run.value("final_drive.ring_teeth"))
+        found[f"{RING} {ring} per carrier turn"] = ring / abs(ratio)
+    return found
+
+
+def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
+    """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None
+    where it would take more than `most` evaluations, as far as its first tenth tells."""
+    points = int(np.ceil(seconds / step))
+    rate = (FASTEST - SLOWEST) / (seconds - 0.5 * BEGINNING)
+    record = np.empty(points + 1, [("time", float), *((name, float) for name in RECORDED)])
+    with scene.fmu.open() as instance:
+        instance.initialise({**scene.values, **values})
+        instance.step(SETTLING)
+        record[0] = (instance.time, *instance.read(RECORDED))
+        for point in range(1, points + 1):
+            if (point - 1) * step <= BEGINNING + step:
+                slope = rate * 0.5 * (1.0 - np.cos(np.pi * min((point - 0.5) * step / BEGINNING, 1.0)))
+                instance.set_slopes({"carrier.speed_command": slope, "planet.spin_command": ratio * slope})
+            instance.step(step)
+            record[point] = (instance.time, *instance.read(RECORDED))
+            if point % 1000 == 0:
+                progress(point / points)
+            if point == points // 10 and 10.0 * instance.get("solver.rhs_calls") > most:
+                return None
+    if not np.all(np.diff(np.abs(record[ANGLE])) > 0.0):
+        raise DifferentialError("the planets do not roll one way in the run-up")
+    return record

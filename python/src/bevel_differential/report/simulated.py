@@ -1,0 +1,106 @@
+"""The run that a report is about."""
+
+import time
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from ..scene import Scene
+from ..values import DifferentialError, Number
+
+# effects that change no motion and only give outputs; a test holds the command `accuracy` to the same ones
+ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history")
+# runs of which the fastest is timed, if they are short, s
+TIMED, SHORT = 3, 0.5
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """A scene and its record.
+
+    `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: what the scene as it is
+    written took. `says`: what the FMU says that it simulates. `added`: effects that only give outputs and were switched on for
+    the record. `refused`: by such an effect, why the FMU does not have it here. `difference`: largest difference of the scene's
+    own outputs with and without what was added, relative to their largest values."""
+
+    scene: Scene
+    record: np.ndarray
+    seconds: float
+    says: str
+    warnings: list[str]
+    added: tuple[str, ...]
+    refused: dict[str, str]
+    difference: float
+
+    @classmethod
+    def of(cls, scene: Scene) -> Self:
+        """Simulates a scene: as it is written, and with all that can be recorded."""
+        as_written = scene.run()
+        seconds: list[float] = []
+        while not seconds or (len(seconds) < TIMED and sum(seconds) < SHORT):
+            begin = time.perf_counter()
+            scene.run()
+            seconds.append(time.perf_counter() - begin)
+        refused: dict[str, str] = {}
+        added: dict[str, Number] = {}
+        for effect in ONLY_GIVE_OUTPUTS:
+            if not scene.values.get(effect):
+                try:
+                    scene.run(values={**added, effect: True}, stop=scene.step)
+                    added[effect] = True
+                except DifferentialError as reason:
+                    refused[effect] = reason_of(reason)
+        names = [name for name, variable in scene.fmu.variables.items()
+                 if variable.causality in ("input", "output", "calculatedParameter")]
+        record = scene.run(names, added)
+        return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused,
+                   _difference(as_written, record))
+
+    def value(self, name: str) -> Number:
+        """A parameter or the start of an input, SI."""
+        start = self.scene.fmu.variable(name).start
+        return self.scene.values.get(name, 0.0 if start is None else start)
+
+    def literal(self, name: str) -> str:
+        """The name of the choice that a parameter is set to."""
+        literals = self.scene.fmu.variable(name).literals
+        return next(literal for literal, number in literals.items() if number == self.value(name))
+
+    def series(self, name: str) -> np.ndarray:
+        """An output over time, SI, as floats."""
+        return self.record[name].astype(float)
+
+    def shown(self, name: str) -> np.ndarray:
+        """An output over time in the unit that it is usually shown in."""
+        return self.scene.fmu.variable(name).shown(self.series(name))[1]
+
+    def constant(self, name: str) -> float:
+        """A calculated parameter, SI."""
+        return float(self.record[name][-1])
+
+    @property
+    def time(self) -> np.ndarray:
+        """Communication points, s."""
+        return self.record["time"]
+
+    @property
+    def has_teeth(self) -> bool:
+        """Whether forces come from meshes."""
+        return self.literal("scene.gear_contact") != "ideal"
+
+    @property
+    def has_pairs(self) -> bool:
+        """Whether teeth touch pair by pair."""
+        return self.literal("scene.gear_contact") in ("tooth", "solid")
+
+
+def reason_of(error: DifferentialError) -> str:
+    """The FMU's own reason in a refusal, in one line."""
+    lines = str(error).splitlines()
+    return "; ".join(lines[1:] if len(lines) > 1 and lines[0].endswith(":") else lines)
+
+
+def _difference(as_written, record):
+    pairs = [(as_written[name].astype(float), record[name].astype(float)) for name in as_written.dtype.names]
+    return max(float(np.max(np.abs(old - new)) / (np.max(np.abs(old)) or 1.0)) for old, new in pairs)

@@ -1,0 +1,57 @@
+"""Numbers and units as the report writes them."""
+
+from collections.abc import Iterable
+
+from ..fmu import Fmu
+from ..values import Number, Variable
+
+DIGITS = 4
+
+
+def number(value: float, digits: int = DIGITS) -> str:
+    """A number with so many significant digits, without an exponent where it is short enough."""
+    text = f"{value:.{digits}g}"
+    if "e" in text and 1e-4 <= abs(value) < 1e7:
+        text = f"{value:.0f}"
+    return text.replace("-", "−") if text != "-0" else "0"
+
+
+def unit_text(unit: str) -> str:
+    """A unit as it is printed."""
+    return unit.replace(".", "·").replace("um", "µm").replace("^1·5", "^1.5")
+
+
+def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
+    """A number with its unit."""
+    return f"{number(value, digits)} {unit_text(unit)}".strip()
+
+
+def shown(variable: Variable, value: Number, digits: int = DIGITS) -> str:
+    """A value of a variable in the unit that it is usually shown in; a literal by its name."""
+    if variable.kind == "Boolean":
+        return "true" if value else "false"
+    if variable.literals:
+        return next((name for name, of in variable.literals.items() if of == value), str(value))
+    unit, given = variable.shown(float(value))
+    return quantity(given, unit, digits)
+
+
+def of(fmu: Fmu, name: str, value: Number, digits: int = DIGITS) -> str:
+    """The same for the variable of this name."""
+    return shown(fmu.variable(name), value, digits)
+
+
+def percent(part: float, digits: int = 3) -> str:
+    """A fraction in per cent."""
+    return f"{number(100.0 * part, digits)} %"
+
+
+def signed(value: float, digits: int = 3) -> str:
+    """A number with its sign."""
+    return f"{'+' if value > 0.0 else ''}{number(value, digits)}"
+
+
+def listed(words: Iterable[str], last: str = "and") -> str:
+    """"a, b and c"."""
+    words = list(words)
+    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else "".join(words)

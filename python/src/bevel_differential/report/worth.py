@@ -1,0 +1,207 @@
+"""What effects that the scene leaves off would change, and what they would cost."""
+
+import re
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..values import DifferentialError, Number
+from . import style, words
+from .blocks import Picture, Section, Table
+from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
+from .summary import main_outputs
+
+# effects that say what is built in, broken or driven: part of the question, not of how closely it is looked at. A test holds the
+# command `accuracy` to the same ones
+PART_OF_THE_QUESTION = ("effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake")
+# the largest changes that the table names
+NAMED = 3
+PREFIX = "effects."
+TOGETHER = "all of these together"
+# a run that should change nothing: what it changes is what rounding and the solver do
+CONTROL = "tolerance halved"
+TOLERANCE = "solver.relative_tolerance"
+# changes up to so many times the solver's tolerance are its own
+NOISE = 10.0
+
+
+@dataclass(frozen=True)
+class Tried:
+    """A run with an effect on. `mean` and `swing`: by output the change of its mean and of its peak-to-peak value, relative to the
+    largest value of its kind in the scene; `nothing`: changes up to this are within the solver's tolerance; `calls` and `seconds`:
+    evaluations and time, times those of the scene; `refused`: why there is none."""
+
+    name: str
+    nothing: float
+    mean: dict[str, float]
+    swing: dict[str, float]
+    calls: float = 0.0
+    seconds: float = 0.0
+    refused: str = ""
+
+    @property
+    def changes(self) -> bool:
+        """Whether it changes anything."""
+        return any(abs(change) > self.nothing for change in (*self.mean.values(), *self.swing.values()))
+
+
+def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
+    """A run for each effect that is off, and one with all of them."""
+    found = Section("worth", "What is switched off, and what it is worth")
+    variables = run.scene.fmu.variables
+    switches = [name for name, variable in variables.items() if name.startswith(PREFIX) and variable.kind == "Boolean"]
+    off = [name for name in switches if not run.value(name) and name not in ONLY_GIVE_OUTPUTS]
+    there = [name for name in off if name not in PART_OF_THE_QUESTION]
+    found.say(_named(run, switches, off))
+    if not there:
+        return found
+    tried = [attempt(run, CONTROL, {TOLERANCE: 0.5 * float(run.value(TOLERANCE))})]
+    for place, name in enumerate(there):
+        progress(place / (len(there) + 1))
+        tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
+    tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
+    progress(1.0)
+    if any(one.changes for one in tried if one.name != CONTROL):
+        found.add(Picture("worth", _draw(tried), _caption(tried)))
+    found.add(_table(run, tried))
+    found.say("What accuracy of what quantity needs which of these is the question of the command accuracy: "
+              "cargo run --release -- accuracy --scene NAME --want OUTPUT:STATISTIC --within 1%.")
+    return found
+
+
+def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
+    """The scene with these values."""
+    outputs = list(dict.fromkeys([*main_outputs(run), "solver.rhs_calls"]))
+    begin = time.perf_counter()
+    try:
+        record = run.scene.run(outputs, values)
+    except DifferentialError as error:
+        return Tried(label, 0.0, {}, {}, refused=reason_of(error))
+    seconds = time.perf_counter() - begin
+    sizes = _sizes(run)
+    mean, swing = {}, {}
+    for name in main_outputs(run):
+        old, new = run.series(name), record[name].astype(float)
+        size = sizes[name] or float(np.max(np.abs(new))) or 1.0
+        mean[name] = float(np.trapezoid(new - old, run.time) / (run.time[-1] - run.time[0]) / size)
+        swing[name] = float((np.ptp(new) - np.ptp(old)) / size)
+    calls = max(float(run.record["solver.rhs_calls"][-1]), 1.0)
+    return Tried(label, NOISE * float(run.value(TOLERANCE)), mean, swing, float(record["solver.rhs_calls"][-1]) / calls, seconds / run.seconds)
+
+
+def _sizes(run):
+    """By output the largest value of all outputs of its unit; without a unit its own."""
+    names = main_outputs(run)
+    largest = {name: float(np.max(np.abs(run.series(name)))) for name in names}
+    units = {name: run.scene.fmu.variable(name).unit for name in names}
+
+    def alike(one, other):
+        return one == other or (units[one] not in (None, "1") and units[one] == units[other])
+
+    return {name: max(largest[other] for other in names if alike(name, other)) for name in names}
+
+
+def together(run: Simulated, names: list[str]) -> Tried:
+    """All effects at once; those that the FMU names in a refusal go, and are named."""
+    left, gone = list(names), []
+    while True:
+        found = attempt(run, TOGETHER, dict.fromkeys(left, True))
+        refused = [name for name in left if name in found.refused]
+        if not refused or not found.refused:
+            break
+        gone += refused
+        left = [name for name in left if name not in refused]
+    without = f"{TOGETHER}, without {words.listed(name.removeprefix(PREFIX) for name in gone)}" if gone else TOGETHER
+    return replace(found, name=without)
+
+
+def _named(run, switches, off):
+    on = [name.removeprefix(PREFIX) for name in switches if run.value(name) and name not in ONLY_GIVE_OUTPUTS]
+    question = [name.removeprefix(PREFIX) for name in PART_OF_THE_QUESTION if name in off]
+    return (f"On in the scene: {words.listed(on) or 'nothing'}. " + (
+        f"Not tried: {words.listed(question)}, as what is built in, broken or driven is part of the question and not of how "
+        "closely it is "
+        "looked at. " if question else "") +
+        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is that "
+        "of the whole "
+        "run, start included. The first run only halves the solver's tolerance: where that changes something, as where teeth strike "
+        "again and again, changes of this size by an effect tell nothing.")
+
+
+def _draw(tried):
+    rows = [one for one in tried if not one.refused]
+    outputs = list(rows[0].mean)
+    from matplotlib.colors import LinearSegmentedColormap, to_rgba
+
+    # clear in the middle, so that the page's colour shows
+    scale = [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)]
+    colours = LinearSegmentedColormap.from_list("change", scale)
+    with style.styled():
+        picture = style.figure(0.34 * len(outputs) + 1.9)
+        panels = picture.subplots(1, 2, sharey=True)
+        tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
+        labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
+        for panel, (title, table) in zip(panels, tables):
+            values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
+            reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
+            panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
+            for (row, column), value in np.ndenumerate(values):
+                panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
+            panel.set_xticks(range(len(rows)), labels, fontsize=8)
+            panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
+            panel.set_title(f"change of the {title}, %")
+            panel.grid(False)
+            panel.tick_params(length=0)
+            panel.spines[:].set_visible(False)
+        return style.svg(picture, "worth")
+
+
+def _cell(percent, nothing):
+    if abs(percent) <= 100.0 * nothing:
+        return "·"
+    return words.signed(percent, 2) if abs(percent) >= 0.01 else "~0"
+
+
+def _caption(tried):
+    one = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
+              key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
+    what, change = _largest(one)[0]
+    return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
+            "has in the "
+            "scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than 0.01 %. The "
+            "largest change by "
+            f"one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
+
+
+def _largest(one):
+    changes = [(f"{name} mean", change) for name, change in one.mean.items()]
+    changes += [(f"{name} peak to peak", change) for name, change in one.swing.items()]
+    return sorted(changes, key=lambda pair: -abs(pair[1]))
+
+
+def _table(run, tried):
+    rows = []
+    for one in tried:
+        if one.refused:
+            rows.append((one.name, f"refused by the FMU: {one.refused}", "", ""))
+        elif not one.changes:
+            rows.append((one.name, _nothing(run, one), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
+        else:
+            changes = [(name, change) for name, change in _largest(one)[:NAMED] if abs(change) > one.nothing]
+            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in changes]
+            rows.append((one.name, "; ".join(largest), f"{words.number(one.calls, 2)} ×", f"{words.number(one.seconds, 2)} ×"))
+    return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
+                 "Evaluations of the tooth forces and time, times those of the scene. Times of short runs hold the start of the "
+                 "simulation, in which the tables of new gears are made.", left=2)
+
+
+def _nothing(run, one):
+    # its own parameters, and those of others that say that they belong to it
+    own = [variable for variable in run.scene.fmu.variables.values()
+           if variable.name.startswith(f"{one.name}.") or f"{PREFIX}{one.name}" in (variable.description or "")]
+    zero = [variable.name for variable in own
+            if variable.causality in ("parameter", "input") and variable.kind in ("Real", "Integer") and run.value(variable.name) == 0.0]
+    why = f", as {words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0" if zero else ""
+    return f"changes nothing beyond the solver's tolerance{why}"

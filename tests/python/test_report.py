@@ -1,0 +1,100 @@
+"""The report of a scene: one file that needs nothing else, with figures that show something, for every scene."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from bevel_differential import Scene, extras, shipped_scenes
+from bevel_differential.command import main
+from bevel_differential.report.simulated import ONLY_GIVE_OUTPUTS
+from bevel_differential.report.worth import PART_OF_THE_QUESTION
+from bevel_differential.report.write import write
+from report_page import ReportPage
+
+MOST_BYTES = 5e6
+# figures of a scene with teeth, planets that roll and inputs that change
+ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias",
+       "power", "worth"}
+WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
+           "one_wheel_on_ice": {"inputs"}, "torque_bias": {"inputs"}, "rattle": {"bias"}}
+
+
+@pytest.fixture(autouse=True)
+def with_fmu(fmu_file, monkeypatch, tmp_path):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_every_scene_has_a_report_whose_figures_show_something(name, fmu_file):
+    with Scene.load(name, fmu=fmu_file) as scene:
+        text = write(scene, "report.html").read_text(encoding="utf-8")
+    page = ReportPage(text)
+    assert len(text.encode()) < MOST_BYTES
+    assert set(page.figures) == ALL - WITHOUT.get(name, set())
+    for figure, marks in page.figures.items():
+        assert marks and max(marks.values()) >= 1, f"{figure} is empty"
+        assert re.search(r"\d", page.captions[figure]), f"the caption of {figure} has no number"
+        assert "nan" not in page.captions[figure] and "inf " not in page.captions[figure], page.captions[figure]
+    assert all(reference.startswith(("#", "data:")) for reference in page.references)
+    assert not re.search(r"https?:|@import|<script", text)
+    assert all(len(section.strip()) > 40 for section in page.sections.values())
+
+
+def test_a_quick_report_leaves_out_what_needs_other_runs():
+    assert main(["report", "--scene", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
+    page = ReportPage(Path("report-study_turning.html").read_text(encoding="utf-8"))
+    assert set(page.figures) == ALL - {"inputs", "waterfall", "worth"}
+    assert "700 N·m" in page.sections["setup"]
+
+
+def test_what_a_scene_says_is_text_and_no_markup(fmu_file):
+    scene = Scene("a<b>", description="<script>alert(1)</script>", stop=0.01, outputs=["left.speed"], fmu=fmu_file)
+    with scene:
+        text = write(scene, "report.html", quick=True).read_text(encoding="utf-8")
+    assert "<script" not in text and "&lt;script&gt;" in text and "a&lt;b&gt;" in text
+
+
+def test_effects_that_are_off_are_tried_and_refusals_are_the_fmus_own(fmu_file):
+    with Scene.load("study_turning", fmu=fmu_file) as scene:
+        page = ReportPage(write(scene, "report.html").read_text(encoding="utf-8"))
+    worth = page.sections["worth"]
+    assert "effects.body_compliance: does not work with contact.law = impact" in worth
+    assert re.search(r"tooth_errors\s+changes nothing beyond the solver's tolerance, as tooth_errors.accuracy_grade", worth)
+    assert re.search(r"half_shaft\s+changes nothing [^.]*, as .*inertia.left_end", worth)
+    assert "Not tried: limited_slip, tooth_fault, final_drive and wheel_brake" in worth
+
+
+def test_report_and_accuracy_agree_on_the_kinds_of_effects():
+    source = Path(__file__).parents[2] / "fmu-build" / "src" / "gears" / "accuracy" / "switches.rs"
+    text = source.read_text(encoding="utf-8")
+
+    def of(name):
+        return re.findall(r'"(effects\.\w+)"', re.search(rf"const {name}[^=]*=(.*?);", text, re.DOTALL)[1])
+
+    assert sorted(of("PART_OF_THE_QUESTION")) == sorted(PART_OF_THE_QUESTION)
+    assert sorted(of("ONLY_GIVE_OUTPUTS")) == sorted(ONLY_GIVE_OUTPUTS)
+
+
+@pytest.mark.parametrize("arguments, status, said", [
+    ([], 2, "--scene"),
+    (["--scene", "study_turnin"], 1, "did you mean study_turning"),
+    (["--scene", "study_turning", "--out", "nowhere/report.html"], 1, "there is no folder"),
+    (["--scene", "study_turning", "--set", "left.load_torque"], 2, "write NAME=VALUE"),
+    (["--scene", "study_turning", "--set", "geometry.module=0"], 1, "geometry.module"),
+])
+def test_wrong_use_is_said_in_one_line(arguments, status, said, capsys):
+    assert main(["report", *arguments]) == status
+    lines = [line for line in re.split(r"[\r\n]+", capsys.readouterr().err) if said in line]
+    assert len(lines) == 1, lines
+
+
+def test_a_missing_package_is_said_with_its_extra(monkeypatch):
+    def missing(name):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+    with Scene.load("study_turning") as scene:
+        monkeypatch.setattr(extras.importlib, "import_module", missing)
+        with pytest.raises(extras.DifferentialError, match=r"matplotlib.*extra report"):
+            write(scene, "report.html")

@@ -1,0 +1,149 @@
+"""Order tracking, bands of lash and contact patterns of a report, against closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bevel_differential import DifferentialError, Scene
+from bevel_differential.report.gears import pair_of
+from bevel_differential.report.lash import bands, share
+from bevel_differential.report.orders import TURN, waterfall
+from bevel_differential.report.pattern import Contacts
+from bevel_differential.report.runup import ANGLE, SIGNAL, run_up
+from bevel_differential.report.simulated import Simulated
+from bevel_differential.report.teeth import outline, unrolled
+
+# turns in a window: a line is 1/8 of an order wide
+WINDOW = 8
+LINE = 1.0 / WINDOW
+
+
+@pytest.fixture(scope="module")
+def simulated(fmu_file):
+    """simulated(name, values): a scene and its record."""
+
+    def simulate(name, values=None):
+        return Simulated.of(Scene.load(name, fmu=fmu_file).set(values or {}))
+
+    return simulate
+
+
+def swept(orders, turns=64.0, per_turn=400):
+    """A signal of these {order: amplitude}, over an angle that speeds up from 1 to 10; points at equal steps of time."""
+    times = np.linspace(0.0, 1.0, int(turns * per_turn))
+    angle = TURN * turns * (times + 4.5 * times**2) / 5.5
+    return angle, sum(size * np.sin(order * angle + order) for order, size in orders.items()), 1.0 + 9.0 * times
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_orders_of_a_known_signal_stand_within_one_line(sense):
+    known = {10.0: 3.0, 20.5: 1.0, 37.3: 0.4}
+    angle, values, speed = swept(known)
+    spectra = waterfall(sense * angle, values + 5.0, speed, WINDOW, 50.0)
+    found = spectra.strongest(8, 0.02)
+    assert len(found) == len(known)
+    for (order, size), (theirs, amplitude) in zip(found, known.items()):
+        assert abs(order - theirs) < 0.1 * LINE
+        # between two lines the window takes up to 15 % from a tone
+        assert (0.84 if theirs == 37.3 else 0.99) < size / amplitude < 1.01
+    assert np.all(np.diff(spectra.speeds) > 0.0) and 1.0 < spectra.speeds[0] and spectra.speeds[-1] < 10.0
+
+
+def test_orders_above_those_of_interest_do_not_come_back():
+    # at low speeds the record has it, with many points in each of its periods
+    angle, values, speed = swept({10.0: 1.0, 510.0: 1.0}, per_turn=8000)
+    spectra = waterfall(angle, values, speed, WINDOW, 60.0)
+    assert [round(order) for order, _ in spectra.strongest(8, 1e-3)] == [10]
+
+
+def test_too_few_points_and_an_angle_that_turns_back_are_refused():
+    angle, values, speed = swept({10.0: 1.0}, per_turn=40)
+    with pytest.raises(DifferentialError, match="shorter steps"):
+        waterfall(angle, values, speed, WINDOW, 60.0)
+    with pytest.raises(DifferentialError, match="one way"):
+        waterfall(np.sin(angle), values, speed, WINDOW, 2.0)
+
+
+def test_a_run_up_has_the_orders_of_mesh_and_ring_gear(simulated):
+    run = simulated("study_turning", {"effects.final_drive": True, "final_drive.ring_teeth": 9, "final_drive.amplitude": 0.2,
+                                      "effects.half_shaft": True, "inertia.left_end": 1.0, "inertia.right_end": 1.0})
+    up = run_up(run)
+    record = up.record
+    spin, carrier = (np.ptp(record[name]) / np.ptp(record["time"]) for name in (ANGLE, "carrier.angle"))
+    expected = {"mesh": 10.0, "second": 20.0, "ring": 9.0 * carrier / spin}
+    spectra = waterfall(record[ANGLE], record[SIGNAL], record["carrier.speed"], WINDOW, 60.0)
+    found = [order for order, _ in spectra.strongest(12, 1e-3)]
+    for name, order in expected.items():
+        assert min(abs(order - theirs) for theirs in found) < LINE, f"{name}: {order} is not among {found}"
+    # and nothing stands where theory has nothing: all are sums of multiples of both
+    sums = [abs(10.0 * k + expected["ring"] * n) for k in range(-8, 9) for n in range(-3, 4)]
+    assert all(min(abs(order - theirs) for theirs in sums) < LINE for order in found), found
+
+
+def test_a_locked_scene_runs_up_with_the_lock_open(simulated):
+    up = run_up(simulated("locked"))
+    assert any("lock is open" in change for change in up.changed)
+    found = waterfall(up.record[ANGLE], up.record[SIGNAL], up.record["carrier.speed"], WINDOW, 60.0).strongest(3, 1e-2)
+    assert all(abs(order / 10.0 - round(order / 10.0)) * 10.0 < LINE for order, _ in found)
+
+
+def test_bands_of_lash_of_a_known_record():
+    times = np.arange(8.0)
+    force = np.array([0.0, 0.0, 5.0, 5.0, 0.0, 0.0, 7.0, 0.0])
+    assert bands(times, force) == [(0.0, 1.5), (3.5, 5.5), (6.5, 7.0)]
+    assert share(times, bands(times, force)) == pytest.approx(4.0 / 7.0)
+    assert bands(times, np.ones(8)) == [] and bands(times, np.zeros(8)) == [(0.0, 7.0)]
+
+
+def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
+    run = simulated("rattle")
+    free = run.series("planet[1].left_pairs") == 0.0
+    found = bands(run.time, run.series("planet[1].left_normal_force"))
+    inside = np.any([(begin <= run.time) & (run.time <= end) for begin, end in found], axis=0)
+    assert np.array_equal(inside, free) and 0.5 < np.mean(free) < 1.0
+
+
+def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
+    run = simulated("study_straight")
+    pair = pair_of(run)
+    contacts = Contacts.of(run, 1.0, pair.face_width)
+    assert len(np.unique(contacts.tooth)) == 1 and len(Contacts.of(run, -1.0, pair.face_width).force) == 0
+    # radii of both flanks where they touch, R tan ψ with arcs that add up to the line of action
+    planet, side = pair.gears
+    mean = 0.5 * (pair.inner_cone + pair.outer_cone)
+    arc = planet.arc(planet.pitch + contacts.height[-1] / mean)
+    other = planet.arc(planet.pitch) + side.arc(side.pitch) - arc
+    radius = mean / (1.0 / math.tan(arc) + 1.0 / math.tan(other))
+    modulus = run.value("material.young_modulus") / (2.0 * (1.0 - run.value("material.poisson_ratio") ** 2))
+    half = 2.0 * math.sqrt(contacts.force[-1] / pair.face_width * radius / (math.pi * modulus))
+    # loads are even over the face
+    assert contacts.half_width[-1] == pytest.approx(half, rel=1e-3)
+
+
+def test_the_drawn_teeth_touch_where_the_fmu_has_them_touch(simulated):
+    run = simulated("study_turning")
+    pair, last = pair_of(run), run.record[-1]
+    planet, side = pair.gears
+    mean = 0.5 * (pair.inner_cone + pair.outer_cone)
+    polar = planet.pitch + last["planet[1].left_pair[1].height"] / mean
+    tooth = last["planet[1].left_pair[1].tooth"]
+    side_turn = last["left.angle"] - last["carrier.angle"]
+    flank = []
+    for k in range(side.teeth):
+        first = math.pi / side.teeth + 2.0 * math.pi * k / side.teeth
+        flank += [unrolled(pair, (math.cos(p), math.sin(p) * math.cos(a), math.sin(p) * math.sin(a)))
+                  for p, a in outline(side) + (0.0, first + side_turn)]
+    corners = np.array(flank)
+    begin, piece = corners[:-1], np.diff(corners, axis=0)
+    apart = []
+    for bend in (-1.0, 1.0):
+        # the FMU numbers the teeth of a planet against its azimuth: those that come into mesh as it spins forward have falling numbers
+        azimuth = -2.0 * math.pi * tooth / planet.teeth + bend * planet.half_angle(polar) - last["planet[1].spin_angle"]
+        point = np.array(unrolled(pair, (math.sin(polar) * math.cos(azimuth), math.cos(polar), -math.sin(polar) * math.sin(azimuth))))
+        along = np.clip(np.sum((point - begin) * piece, axis=1) / np.maximum(np.sum(piece**2, axis=1), 1e-12), 0.0, 1.0)
+        apart.append(np.min(np.hypot(*(point - begin - along[:, None] * piece).T)))
+    # one flank lies in the other by the deflection, mm at the heel; the other has the lash and more between
+    deflection = 1e3 * last["planet[1].left_transmission_error"] * pair.outer_cone / mean
+    lash = 1e3 * run.value("geometry.backlash") * math.cos(pair.pressure_angle)
+    assert min(apart) == pytest.approx(deflection, rel=0.1) and max(apart) > 0.9 * lash
