@@ -1,6 +1,6 @@
 """Renders the solids of the differential, with half-shafts, pin and carrier added for orientation.
 
-Writes the picture of the README and the FMU's icon, from the solids that `fmu-build geometry` wrote:
+Writes the picture of docs/geometry.md and the FMU's icon, from the solids that `fmu-build geometry` wrote:
 
     cargo run --release -- geometry
     python3 -m venv target/rendering && target/rendering/bin/pip install -r fmu-build/python/rendering/requirements.txt
