@@ -1,10 +1,12 @@
 //! The model description in the repository and the archive.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 
 use anyhow::Result;
 use fmu_build::fmu::{describe, libraries, package};
 use fmu_build::tools::paths;
+use zip::ZipArchive;
 
 #[test]
 fn the_model_description_and_the_lists_of_effects_in_the_repository_are_the_table_s() -> Result<()> {
@@ -14,13 +16,20 @@ fn the_model_description_and_the_lists_of_effects_in_the_repository_are_the_tabl
 }
 
 #[test]
-fn packing_twice_gives_the_same_bytes() -> Result<()> {
+fn packing_twice_gives_the_same_bytes_with_and_without_the_page() -> Result<()> {
     let libraries = libraries::build()?.built;
     let folder = paths::target().join("same-bytes");
     let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
-    for archive in &archives {
-        package::write_archive(&libraries, archive)?;
+    for page in [None, Some(&b"<!DOCTYPE html>"[..])] {
+        for archive in &archives {
+            package::write_archive(&libraries, page, archive)?;
+        }
+        assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
+        let mut packed = ZipArchive::new(File::open(&archives[0])?)?;
+        assert_eq!(packed.by_name("documentation/BevelDifferential.html").is_ok(), page.is_some());
+        let mut index = String::new();
+        packed.by_name("documentation/index.html")?.read_to_string(&mut index)?;
+        assert_eq!(index.contains("BevelDifferential.html"), page.is_some());
     }
-    assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Surfaces of the gears for given parameters.
 
+use bevel_differential::geometry::involute::Gear;
 use bevel_differential::geometry::solid::manifold::{GearSolid, Shape};
 use bevel_differential::geometry::{Pair, checks};
 use bevel_differential::model::Parameters;
@@ -17,10 +18,12 @@ pub struct Assignment {
     value: f64,
 }
 
-/// A surface of triangles.
+/// A surface of triangles, and the cones that it lies between.
 pub struct Surface {
     vertices: Vec<f32>,
     triangles: Vec<u32>,
+    /// Pitch, tip, root and base angle from the gear's axis [rad]; outer, mean and inner cone distance [mm].
+    cones: [f64; 7],
 }
 
 /// The surface of gear `gear` (0 planet, 1 side gear) with start values but for the `count` assignments; null where these gears
@@ -57,10 +60,13 @@ fn surface(parameters: &Parameters, gear: usize) -> Option<Surface> {
     let shape = Shape { facets: FACETS, strips: STRIPS, crowning: 0.0 };
     let solid = GearSolid::shaped(&pair, &spec, gear, &shape);
     let vertices = solid.vertices.iter().flat_map(|vertex| vertex.iter().map(|x| (1e3 * x) as f32)).collect();
-    Some(Surface { vertices, triangles: solid.triangles.concat() })
+    let Gear { pitch, tip, root, base, .. } = pair.gears[gear];
+    let [outer, mean, inner] = [pair.outer_cone, pair.mean_cone, pair.inner_cone].map(|distance| 1e3 * distance);
+    Some(Surface { vertices, triangles: solid.triangles.concat(), cones: [pitch, tip, root, base, outer, mean, inner] })
 }
 
-/// Place of the numbers of a surface: kind 0, coordinates of vertices (f32); kind 1, triangles (u32). `count` takes how many.
+/// Place of the numbers of a surface: kind 0, coordinates of vertices (f32); kind 1, triangles (u32); kind 2, cones (f64).
+/// `count` takes how many.
 ///
 /// # Safety
 /// `surface` is from [`page_gear`] and not null; `count` is a place for a number.
@@ -68,12 +74,19 @@ fn surface(parameters: &Parameters, gear: usize) -> Option<Surface> {
 pub unsafe extern "C" fn page_gear_numbers(surface: *const Surface, kind: u32, count: *mut usize) -> *const u8 {
     // SAFETY: the caller's promise
     let (surface, count) = unsafe { (&*surface, &mut *count) };
-    if kind == 0 {
-        *count = surface.vertices.len();
-        surface.vertices.as_ptr().cast()
-    } else {
-        *count = surface.triangles.len();
-        surface.triangles.as_ptr().cast()
+    match kind {
+        0 => {
+            *count = surface.vertices.len();
+            surface.vertices.as_ptr().cast()
+        }
+        1 => {
+            *count = surface.triangles.len();
+            surface.triangles.as_ptr().cast()
+        }
+        _ => {
+            *count = surface.cones.len();
+            surface.cones.as_ptr().cast()
+        }
     }
 }
 

@@ -12,9 +12,9 @@ const RIGHT = axes([0, 1, 0], [0, 0, -1], [-1, 0, 0]);
 const PLANET = axes([1, 0, 0], [0, 0, -1], [0, 1, 0]);
 
 export class Assembly {
-  // Teeth and planets are counts; angles [rad] and lengths [mm] of the pair.
-  constructor({ planetTeeth, sideTeeth, planets, planetPitch, outerCone, pressureAngle }) {
-    Object.assign(this, { planetTeeth, sideTeeth, planets, planetPitch, outerCone, pressureAngle });
+  // Teeth and planets are counts; `planet` and `side` are the gears' cones, the pressure angle is in rad.
+  constructor({ planetTeeth, sideTeeth, planets, pressureAngle, planet, side }) {
+    Object.assign(this, { planetTeeth, sideTeeth, planets, pressureAngle, cones: planet, sideCones: side });
     this.half = Math.PI / sideTeeth;
     // a planet with an odd number of teeth shows a gap behind the tooth that faces the left
     this.rightGap = planetTeeth % 2 === 0 ? this.half : 0;
@@ -39,17 +39,36 @@ export class Assembly {
     return aboutX(carrier + this.azimuth(planet)).multiply(PLANET).multiply(aboutZ(-turned));
   }
 
-  // Mesh of a planet with the left (+1) or right (−1) side gear: its pitch line, and the direction of the force on the side
-  // gear when the planet pushes it forward (+1) or back (−1).
-  mesh(planet, side, carrier, sense) {
+  // Axes of the mesh of a planet with the left (+1) or right (−1) side gear: along its pitch line, forward, and away from the
+  // planet.
+  axes(planet, side, carrier) {
     const outward = new Vector3(0, 1, 0).applyAxisAngle(X, carrier + this.azimuth(planet));
-    const forward = X.clone().cross(outward);
     const axis = X.clone().multiplyScalar(side);
-    const [sine, cosine] = [Math.sin(this.planetPitch), Math.cos(this.planetPitch)];
+    const [sine, cosine] = [Math.sin(this.cones.pitch), Math.cos(this.cones.pitch)];
     const line = outward.clone().multiplyScalar(cosine).addScaledVector(axis, sine);
     const apart = axis.clone().multiplyScalar(cosine).addScaledVector(outward, -sine);
+    return { outward, line, apart, forward: X.clone().cross(outward) };
+  }
+
+  // The pitch line of a mesh, and the direction of the force on the side gear when the planet pushes it forward (+1) or back (−1).
+  mesh(planet, side, carrier, sense) {
+    const { outward, line, apart, forward } = this.axes(planet, side, carrier);
     const force = forward.multiplyScalar(sense * Math.cos(this.pressureAngle));
     force.addScaledVector(apart, Math.sin(this.pressureAngle));
-    return { line, force };
+    return { outward, line, force };
+  }
+
+  // Direction of a line of contact in a mesh: where the great circle of action, which runs through the pitch line toward the
+  // force, has the polar angle `polar` from the planet's axis.
+  contact(planet, side, carrier, sense, polar) {
+    const { outward, line, force } = this.mesh(planet, side, carrier, sense);
+    // cos(polar) = cos(s) (line·outward) + sin(s) (force·outward), s the arc from the pitch line
+    const [along, across] = [line.dot(outward), force.dot(outward)];
+    const most = Math.hypot(along, across);
+    const middle = Math.atan2(across, along);
+    const apart = Math.acos(Math.min(Math.max(Math.cos(polar) / most, -1), 1));
+    // contact lies beyond the planet's base circle, which the great circle touches in the middle
+    const arc = middle + apart;
+    return line.multiplyScalar(Math.cos(arc)).addScaledVector(force, Math.sin(arc));
   }
 }

@@ -37,10 +37,12 @@ async function main([library, data, out]) {
     const text = existsSync(join(HERE, file)) ? own(file).trim() : `Licence: ${license}, ${author}`;
     return `${name} ${version}\n\n${text}`;
   });
+  const known = JSON.parse(readFileSync(data, "utf8"));
   const parts = {
+    guid: known.guid,
     style: asStyle(own("node_modules/uplot/dist/uPlot.min.css") + own("style.css")),
     licences: asHtml(licences.join("\n\n\n")),
-    data: packed(JSON.stringify(JSON.parse(readFileSync(data, "utf8")))),
+    data: packed(JSON.stringify(known)),
     // its code repeats at distances beyond the window of gzip
     library: readFileSync(library).toString("base64"),
     program: packed(outputFiles[0].text),

@@ -1,5 +1,5 @@
 // Which outputs are drawn.
-import { MOST } from "./traces.js";
+import { MOST_TRACES } from "./setup.js";
 
 export class TraceChoice {
   // `chosen(names)` is called when the reader has changed the choice.
@@ -21,7 +21,7 @@ export class TraceChoice {
   show(names) {
     for (const box of this.boxes) {
       box.checked = names.includes(box.value);
-      box.disabled = !box.checked && names.length >= MOST;
+      box.disabled = !box.checked && names.length >= MOST_TRACES;
     }
     // the last one stays: a page without traces has nothing to follow
     if (names.length === 1) this.boxes.find((box) => box.checked).disabled = true;

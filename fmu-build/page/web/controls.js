@@ -1,5 +1,6 @@
 // Parameters and inputs in groups, effects as switches: made from the table of variables.
-import { readable, shown, unitText } from "./table.js";
+import { range, readable, unitText } from "./table.js";
+import { readValue } from "./value.js";
 
 const EFFECTS = "effects";
 const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
@@ -43,7 +44,7 @@ export class Controls {
     const unit = element("span", { className: "unit", textContent: unitText(variable.shown) });
     if (price) unit.textContent = `× ${readable(price, 3)}`;
     if (price) unit.title = `time of a simulation with this effect over that without it: ${readable(price, 3)}`;
-    const what = element("p", { className: "what", textContent: `${description}${range(variable)}` });
+    const what = element("p", { className: "what", textContent: range(variable) ? `${description} (${range(variable)})` : description });
     const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, fault);
     frame.dataset.words = `${name} ${description}`.toLowerCase().replaceAll("_", " ");
     body.append(frame);
@@ -63,18 +64,14 @@ export class Controls {
     if (kind === "Boolean") this.setup.set(name, input.checked);
     else if (kind === "Enumeration") this.setup.set(name, Number(input.value));
     else {
-      const number = Number(input.value.trim().replace("−", "-").replace(",", "."));
-      if (input.value.trim() === "" || !Number.isFinite(number)) {
-        this.complain(name, `${name}: “${input.value}” is not a number`);
-        return;
-      }
-      if (kind === "Integer" && !Number.isInteger(number)) {
-        this.complain(name, `${name}: ${number} is not a whole number`);
+      const { value, fault } = readValue(variable, input.value, factor);
+      if (fault) {
+        this.complain(name, fault);
         return;
       }
       // what is shown for the value of the scene is that value, not its rounded text
-      const same = readable(this.setup.valueInScene(name) * factor, 7) === readable(number, 7);
-      this.setup.set(name, same ? this.setup.valueInScene(name) : number / factor);
+      const same = readable(this.setup.valueInScene(name) * factor, 7) === readable(value * factor, 7);
+      this.setup.set(name, same ? this.setup.valueInScene(name) : value);
     }
     this.done(name);
   }
@@ -90,7 +87,8 @@ export class Controls {
       const value = this.setup.value(name);
       if (variable.kind === "Boolean") input.checked = value;
       else if (variable.kind === "Enumeration") input.value = String(value);
-      else input.value = readable(value * variable.factor, 7).replaceAll("−", "-");
+      else if (Number.isFinite(value)) input.value = readable(value * variable.factor, 7).replaceAll("−", "-");
+      else input.value = String(value);
       frame.classList.toggle("own", this.setup.isOwn(name));
       frame.classList.toggle("driven", this.setup.isDriven(name) && !this.setup.isOwn(name));
       fault.hidden = true;
@@ -138,10 +136,4 @@ function field({ kind, literals }, id) {
     return element("select", { id }, ...literals.map(({ name, value }) => new Option(name, String(value))));
   }
   return element("input", { type: "text", inputMode: "decimal", id, autocomplete: "off", spellcheck: false });
-}
-
-function range(variable) {
-  if (variable.min === null || variable.min === undefined) return "";
-  const end = (value) => readable(value * variable.factor, 4);
-  return ` (${end(variable.min)} to ${shown({ ...variable, kind: "Real" }, variable.max, 4)})`;
 }

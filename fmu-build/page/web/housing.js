@@ -1,26 +1,58 @@
-// What holds the gears, drawn for orientation: half a case, cut open toward the eye, a flange, pins and half-shafts.
+// What holds the gears, drawn for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches, half-shafts.
 import {
-  BoxGeometry, CylinderGeometry, DoubleSide, Group, LatheGeometry, Mesh, MeshStandardMaterial, Shape, ShapeGeometry, Vector2,
+  BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2,
 } from "three";
+import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
+import { paint } from "./paint.js";
 
 const WALL = 5; // mm
 const AIR = 3; // mm between what turns and the case
 const ROUND = 48;
+const CREASE = 0.45; // rad: faces that meet at more keep an edge
 
-const metal = (color, roughness = 0.45) => new MeshStandardMaterial({ color, metalness: 0.7, roughness });
+// Parts that are painted alike, by the names of colouring.js, and their own metal.
+const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
 
 export class Housing {
-  // `size`: reach of all gears from the apex, back of a side gear [mm].
-  constructor({ reach, back, planets, azimuth }) {
+  // Reach of all gears from the apex, backs of side gears and planets [mm]; `azimuth(i)` of planet i, `metal(colour, roughness)`.
+  constructor({ reach, back, planetBack, planets, azimuth, metal }) {
+    this.metals = Object.fromEntries(Object.entries(OWN).map(([name, colour]) => [name, metal(colour)]));
+    const { metals } = this;
     this.shell = new Group();
     this.carrier = new Group();
-    this.shafts = [1, -1].map((side) => shaft(side, reach, back));
+    this.shafts = [1, -1].map((side) => shaft(side, reach, back, metals, metal));
     const [radius, half] = [reach + AIR, back + AIR];
     const profile = section(radius, half, shaftRadius(reach) + 2);
-    this.shell.add(lathe(profile), ...cuts(profile));
-    this.flange = flange(radius, half);
+    this.shell.add(lathe(profile, metals.case), ...cuts(profile, metal));
+    this.flange = flange(radius, half, metal);
     this.carrier.add(this.flange);
-    for (let i = 0; i < planets; i += 1) this.carrier.add(pin(azimuth(i), radius + WALL + 3, reach));
+    for (let i = 0; i < planets; i += 1) {
+      const [length, inner] = [radius + WALL + 3, 0.16 * reach];
+      const axle = new Group();
+      axle.add(cylinder(inner, length, metals.pins), ring(inner, 2.4 * inner, planetBack, 0.7 * AIR, metals.washers));
+      axle.rotation.x = azimuth(i);
+      this.carrier.add(axle);
+    }
+    // a washer and, around it, a clutch pack between each side gear and the case
+    const [inner, middle, outer] = [shaftRadius(reach), 0.42 * reach, 0.62 * reach];
+    for (const side of [1, -1]) {
+      const pack = new Group();
+      pack.add(ring(inner, middle, back, 0.7 * AIR, metals.washers));
+      for (const k of [0, 1]) pack.add(ring(middle + 1, outer, back + 0.45 * AIR * k, 0.3 * AIR, metals.clutches));
+      pack.rotation.z = (-side * Math.PI) / 2;
+      this.carrier.add(pack);
+      if (side > 0) this.left = [pack, this.shafts[0]];
+    }
+  }
+
+  // Colours by part; a part without one has its own metal.
+  paint(parts) {
+    for (const [name, own] of Object.entries(OWN)) paint(this.metals[name], own, parts[name]);
+  }
+
+  // Shows or hides what stands behind the left side gear.
+  showLeft(visible) {
+    for (const part of this.left) part.visible = visible;
   }
 
   // Shows or hides the case.
@@ -69,30 +101,29 @@ function section(radius, half, hub) {
   return [...inner, ...outer.reverse(), inner[0]];
 }
 
-function lathe(profile) {
-  const mesh = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI), metal("#8d949e", 0.6));
-  mesh.material.side = DoubleSide;
+function lathe(profile, material) {
+  const mesh = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI), material);
+  material.roughness = 0.6;
   mesh.geometry.rotateZ(-Math.PI / 2);
   return mesh;
 }
 
 // The faces of the cut, painted as on cut-away models.
-function cuts(profile) {
+function cuts(profile, metal) {
   return [1, -1].map((side) => {
     const shape = new Shape(profile.map(({ x, y }) => new Vector2(y, side * x)));
-    const material = new MeshStandardMaterial({ color: "#3f7f6c", roughness: 0.8, metalness: 0, side: DoubleSide });
+    const material = metal("#3f7f6c", 0.8);
+    material.metalness = 0;
     return new Mesh(new ShapeGeometry(shape).rotateX(Math.PI / 2), material);
   });
 }
 
 // Flange for the ring gear, with bolts that show how the carrier turns.
-function flange(radius, half) {
+function flange(radius, half, metal) {
   const group = new Group();
   const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
   const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
-  const ring = new Mesh(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), metal("#78818d"));
-  ring.material.flatShading = true;
-  ring.material.side = DoubleSide;
+  const ring = new Mesh(toCreasedNormals(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), CREASE), metal("#78818d"));
   ring.position.x = place;
   group.add(ring);
   for (let k = 0; k < 10; k += 1) {
@@ -104,19 +135,23 @@ function flange(radius, half) {
   return group;
 }
 
-function pin(azimuth, length, reach) {
-  const mesh = new Mesh(new CylinderGeometry(0.16 * reach, 0.16 * reach, length, ROUND), metal("#6d747e", 0.3));
-  mesh.geometry.translate(0, length / 2, 0);
-  mesh.rotation.x = azimuth;
-  return mesh;
+function cylinder(radius, length, material) {
+  return new Mesh(new CylinderGeometry(radius, radius, length, ROUND).translate(0, length / 2, 0), material);
 }
 
-function shaft(side, reach, back) {
+// A flat ring about y, from `place` on.
+function ring(inner, outer, place, thick, material) {
+  const [low, high] = [place, place + thick];
+  const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
+  return new Mesh(toCreasedNormals(new LatheGeometry(outline, ROUND), CREASE), material);
+}
+
+function shaft(side, reach, back, metals, metal) {
   const group = new Group();
   const [begin, end, radius] = [0.62 * back, back + 0.75 * reach, shaftRadius(reach)];
-  const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metal("#767d88", 0.32));
+  const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metals.shafts);
   bar.position.x = (side * (begin + end)) / 2;
-  const plate = new Mesh(new CylinderGeometry(1.55 * radius, 1.55 * radius, 6, ROUND).rotateZ(Math.PI / 2), metal("#5b626c"));
+  const plate = new Mesh(new CylinderGeometry(1.55 * radius, 1.55 * radius, 6, ROUND).rotateZ(Math.PI / 2), metals.brakes);
   plate.position.x = side * end;
   group.add(bar, plate);
   for (let k = 0; k < 5; k += 1) {
@@ -126,7 +161,7 @@ function shaft(side, reach, back) {
     group.add(bolt);
   }
   // a stripe shows how the shaft turns
-  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), new MeshStandardMaterial({ color: "#e0a030", roughness: 0.6 }));
+  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal("#e0a030", 0.6));
   stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
   group.add(stripe);
   return group;

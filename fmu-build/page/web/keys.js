@@ -14,9 +14,10 @@ export function listenToKeys(page) {
     End: () => page.seek(player.stop),
     ArrowUp: () => { player.share = Math.min(player.share + 0.05, 1); },
     ArrowDown: () => { player.share = Math.max(player.share - 0.05, 0); },
-    1: () => page.look("whole"),
-    2: () => page.look("mesh"),
-    3: () => page.look("side"),
+    1: () => page.choose("whole"),
+    2: () => page.choose("mesh"),
+    3: () => page.choose("side"),
+    4: () => page.choose("flank"),
     w: () => (page.walk.isOpen ? page.walk.close() : page.walk.show(0)),
     Escape: () => page.walk.close(),
   };

@@ -2,6 +2,7 @@
 
 const BYTES = { Real: 8, Integer: 4, Boolean: 4 };
 const ERROR = 2; // fmi2Discard and worse
+const CONES = ["pitch", "tip", "root", "base", "outer", "mean", "inner"]; // angles in rad, distances in mm
 
 // What the library refused: its own messages.
 export class Refused extends Error {}
@@ -71,13 +72,23 @@ export class Library {
     }
   }
 
-  // Values of Reals by their references, a Float64Array of its own.
-  get(wanted) {
-    if (wanted.length === 0) return new Float64Array(0);
-    const room = this.room("Real", wanted.length);
-    this.views("Real", room, wanted.length).references.set(wanted);
-    this.check(this.exports.fmi2GetReal(this.component, room.references, wanted.length, room.values), "reading");
-    return this.views("Real", room, wanted.length).values.slice();
+  // A function that reads these Reals into an array from a place on: references are written once, and nothing is allocated.
+  reader(references) {
+    const count = references.length;
+    const [from, to] = [this.exports.page_allocate(4 * count), this.exports.page_allocate(8 * count)];
+    new Uint32Array(this.exports.memory.buffer, from, count).set(references);
+    let values = new Float64Array(this.exports.memory.buffer, to, count);
+    const read = (target, place) => {
+      this.check(this.exports.fmi2GetReal(this.component, from, count, to), "reading");
+      // the memory moves when it grows
+      if (values.length === 0) values = new Float64Array(this.exports.memory.buffer, to, count);
+      target.set(values, place);
+    };
+    const free = () => {
+      this.exports.page_free(from, 4 * count);
+      this.exports.page_free(to, 8 * count);
+    };
+    return { count, read, free };
   }
 
   // Starts anew with these assignments, for a run to `stop`.
@@ -114,7 +125,11 @@ export class Library {
       this.exports.page_free(count, 4);
       return copy;
     };
-    const made = { vertices: numbers(0, Float32Array), triangles: numbers(1, Uint32Array) };
+    const cones = numbers(2, Float64Array);
+    const made = {
+      vertices: numbers(0, Float32Array), triangles: numbers(1, Uint32Array),
+      cones: Object.fromEntries(CONES.map((name, i) => [name, cones[i]])),
+    };
     this.exports.page_gear_free(surface);
     return made;
   }

@@ -65,6 +65,19 @@ export class Record {
     return column[this.low] + this.share * (column[this.high] - column[this.low]);
   }
 
+  // At the point before the time: for what comes and goes from point to point.
+  point(name) {
+    const place = this.place.get(name);
+    return place === undefined || this.count === 0 ? 0 : this.columns[place][this.share < 1 ? this.low : this.high];
+  }
+
+  // Rate of change between the points around the time [1/s].
+  rate(name) {
+    const place = this.place.get(name);
+    const width = this.columns[0][this.high] - this.columns[0][this.low];
+    return place === undefined || !(width > 0) ? 0 : (this.columns[place][this.high] - this.columns[place][this.low]) / width;
+  }
+
   // Largest size of a column so far.
   largest(name) {
     return this.has(name) ? this.column(name).reduce((most, value) => Math.max(most, Math.abs(value)), 0) : 0;

@@ -1,12 +1,23 @@
-// What is simulated: a scene, and what differs from it. The fragment of the page's address holds both.
+// What is simulated and how it is looked at: a scene, what differs from it, view and colours. The fragment of the page's address
+// holds all of it.
+import { MODES } from "./colouring.js";
+import { readable } from "./table.js";
+import { readValue } from "./value.js";
+import { PRESETS } from "./view.js";
 
 const DURATION = "stop_time";
 const FIRST = "study_turning";
+const MOST_POINTS = 2e5; // of a run
+export const MOST_TRACES = 6; // as many as there are colours for them
+// words of the address that are no variables, and what they are when it has none
+const PLAIN = { view: "whole", colour: "load" };
+const KNOWN = { view: PRESETS, colour: MODES };
 
 export class Setup {
   constructor(table) {
     this.table = table;
     this.choose(FIRST);
+    Object.assign(this, PLAIN);
   }
 
   choose(name) {
@@ -40,6 +51,14 @@ export class Setup {
 
   reset(name) {
     this.own.delete(name);
+  }
+
+  // Takes a duration [s]; returns what is wrong with it.
+  setStop(stop) {
+    const longest = MOST_POINTS * this.scene.step;
+    if (!(stop > 0 && stop <= longest)) return `The duration takes a time above 0 s, up to ${readable(longest)} s in this scene.`;
+    this.stop = stop;
+    return null;
   }
 
   // Outputs to draw.
@@ -80,34 +99,53 @@ export class Setup {
       words.set(name, literal ? literal.name : String(value));
     }
     if (this.traces) words.set("show", this.traces.join(" "));
+    return this.withLook(words);
+  }
+
+  // Of a scene as it is, looked at as now.
+  fragmentOf(scene) {
+    return this.withLook(new URLSearchParams({ scene }));
+  }
+
+  withLook(words) {
+    for (const [word, plain] of Object.entries(PLAIN)) if (this[word] !== plain) words.set(word, this[word]);
     return `#${words}`;
   }
 
-  // Takes the set-up of a fragment; returns what it did not understand.
+  // Takes the set-up of a fragment. Returns {odd, faults}: words that it did not know, and [{name, text}] for variables with
+  // values that are none.
   read(fragment) {
     const words = new URLSearchParams(fragment.replace(/^#/, ""));
-    const odd = [];
-    this.choose(FIRST);
-    if (this.table.scene(words.get("scene"))) this.choose(words.get("scene"));
-    else if (words.has("scene")) odd.push(`scene ${words.get("scene")}`);
-    for (const [name, text] of words) {
-      if (name === "scene") continue;
-      const known = name === "show" || (name === DURATION ? Number(text) > 0 : this.readValue(name, text));
-      if (!known) odd.push(`${name}=${text}`);
+    const [odd, faults] = [[], []];
+    this.choose(this.table.scene(words.get("scene")) ? words.get("scene") : FIRST);
+    Object.assign(this, PLAIN);
+    for (const [word, text] of words) {
+      if (this.take(word, text, faults)) continue;
+      odd.push(`${word}=${text}`);
     }
-    if (Number(words.get(DURATION)) > 0) this.stop = Number(words.get(DURATION));
-    const names = words.get("show")?.split(" ").filter((name) => this.table.find(name)?.causality === "output");
-    if (names?.length > 0) this.traces = names;
-    return odd;
+    return { odd, faults };
   }
 
-  readValue(name, text) {
-    const variable = this.table.find(name);
-    if (!variable || !["parameter", "input"].includes(variable.causality) || text === "") return false;
-    const literal = variable.literals.find((each) => each.name === text)?.value;
-    const value = variable.kind === "Boolean" ? { true: true, false: false }[text] : literal ?? Number(text);
-    if (value === undefined || Number.isNaN(value)) return false;
-    this.set(name, value);
+  // Whether a word of the address is known.
+  take(word, text, faults) {
+    if (word === "scene") return this.scene.name === text;
+    if (word === DURATION) return this.setStop(Number(text)) === null;
+    if (word in KNOWN) {
+      if (!Object.hasOwn(KNOWN[word], text)) return false;
+      this[word] = text;
+      return true;
+    }
+    if (word === "show") {
+      const isOutput = (name) => this.table.find(name)?.causality === "output";
+      const names = text.split(" ").filter(Boolean);
+      if (names.some(isOutput)) this.traces = [...new Set(names.filter(isOutput))].slice(0, MOST_TRACES);
+      return names.length > 0 && names.every(isOutput);
+    }
+    const variable = this.table.find(word);
+    if (!variable || !["parameter", "input"].includes(variable.causality)) return false;
+    const { value, fault } = readValue(variable, text, 1);
+    if (fault) faults.push({ name: word, text: fault });
+    else this.set(word, value);
     return true;
   }
 }

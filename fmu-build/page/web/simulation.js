@@ -1,49 +1,72 @@
-// The worker as the page sees it: one run at a time, the latest request wins, and a trap starts a new worker.
+// The worker as the page sees it: one run at a time, the latest request wins, and a worker that fails or hangs is replaced.
 import program from "worker:worker.js";
 
-const PATIENCE = 1000; // ms without a word after which a new run takes a new worker
+const PATIENCE = 1000; // ms that a run which is no longer wanted may keep the worker
 
 export class Simulation {
-  // `on`: functions ready, gears, started, points, over, refused, trap; each takes the worker's message.
-  constructor(bytes, on) {
-    this.bytes = bytes;
-    this.on = on;
-    this.number = 0;
+  // `packed`: the library as it is in the page. `on`: functions gears, started, points, over, refused, trap, each for a message
+  // of the worker, and `anew`, called when a worker takes the place of another.
+  constructor(packed, on) {
+    Object.assign(this, { packed, on, number: 0, module: null });
     this.address = URL.createObjectURL(new Blob([program], { type: "text/javascript" }));
     this.begin();
   }
 
   begin() {
     this.worker?.terminate();
-    this.isReady = false;
+    clearTimeout(this.watch);
     this.isBusy = false;
+    this.isReady = false;
     this.worker = new Worker(this.address);
     this.worker.onmessage = ({ data }) => this.hear(data);
     this.worker.onerror = (event) => this.fall(event.message || "the worker failed");
-    this.worker.postMessage({ kind: "load", bytes: this.bytes });
+    // what is compiled once is compiled for the next worker, too
+    this.worker.postMessage({ kind: "load", packed: this.packed, module: this.module });
   }
 
   hear(message) {
-    this.heard = performance.now();
-    if (message.kind === "ready") this.isReady = true;
-    if (message.number === this.number && message.kind !== "started" && message.kind !== "points") this.isBusy = false;
+    if (message.kind === "ready") {
+      this.isReady = true;
+      this.module = message.module;
+      return;
+    }
+    if (message.kind === "trap") {
+      this.fall(message.text);
+      return;
+    }
     const isOld = message.number !== undefined && message.number !== this.number;
-    if (message.kind === "trap") this.fall(message.text);
-    else if (!isOld) this.on[message.kind](message);
+    if (isOld) return;
+    if (message.number === this.number) {
+      clearTimeout(this.watch);
+      this.isBusy = ["taken", "started", "points"].includes(message.kind);
+    }
+    if (message.kind !== "taken") this.on[message.kind](message);
   }
 
   // A worker that has never been ready is not tried again.
   fall(text) {
-    if (this.isReady) this.begin();
+    if (this.isReady) {
+      this.begin();
+      this.on.anew();
+    }
     this.on.trap({ text });
   }
 
-  run(scene, references, constants) {
-    // a step that takes long hears nothing
-    if (this.isBusy && this.isReady && performance.now() - this.heard > PATIENCE) this.begin();
-    this.isBusy = true;
+  run(scene, references) {
     this.number += 1;
-    this.worker.postMessage({ kind: "run", number: this.number, scene, references, constants });
+    const request = { kind: "run", number: this.number, scene, references };
+    clearTimeout(this.watch);
+    // a step that hangs hears no new request
+    if (this.isBusy && this.isReady) this.watch = setTimeout(() => this.replace(request), PATIENCE);
+    this.isBusy = true;
+    this.worker.postMessage(request);
+  }
+
+  replace(request) {
+    this.begin();
+    this.isBusy = true;
+    this.worker.postMessage(request);
+    this.on.anew();
   }
 
   gears(settings) {

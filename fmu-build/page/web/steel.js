@@ -1,20 +1,44 @@
-// Metal that lights up along the pitch lines of loaded meshes.
-import { Color, MeshStandardMaterial, Vector4 } from "three";
+// Metal, which on gears lights up along the lines of contact. All of it is one program of the graphics unit: each one more delays
+// the first picture.
+import { Color, DoubleSide, MeshStandardMaterial, Vector3, Vector4 } from "three";
+import { paint } from "./paint.js";
 
-export const MOST = 8; // meshes: four planets, two side gears
+const MOST = 10; // lines: two meshes of each of four planets, and three pairs in place of one of them
+const X = new Vector3(1, 0, 0);
 
-// Shared by all gears: direction of each pitch line in the scene, and the load's share of the largest in w.
+const dark = () => ({ value: Array.from({ length: MOST }, () => new Vector4(0, 0, 0, 0)) });
+
+// Shared by all gears: directions of lines in the scene with the strength of their light in w, and their colours.
 export class Glow {
   constructor() {
-    this.lines = { value: Array.from({ length: MOST }, () => new Vector4()) };
+    this.lines = dark();
+    this.noLines = dark();
+    this.colours = { value: Array.from({ length: MOST }, () => new Color()) };
     this.width = { value: 5 };
-    this.colour = { value: new Color("#ff5a1f") };
   }
 
-  material(colour) {
-    const material = new MeshStandardMaterial({ color: colour, metalness: 0.75, roughness: 0.36 });
+  // `lights`: [{line, share, colour}], the rest is dark; the scene is turned by `held` about x against the carrier.
+  show(lights, held) {
+    const turned = new Vector3();
+    this.lines.value.forEach((place, i) => {
+      const light = lights[i];
+      if (!light) {
+        place.w = 0;
+        return;
+      }
+      turned.copy(light.line).applyAxisAngle(X, -held);
+      place.set(turned.x, turned.y, turned.z, Math.min(light.share, 1));
+      this.colours.value[i].copy(light.colour);
+    });
+  }
+
+  // `isLit` for gears: light at the lines, none on what lies behind them.
+  material(colour, roughness = 0.4, isLit = false) {
+    const material = new MeshStandardMaterial({ color: colour, roughness, side: DoubleSide });
+    const lines = isLit ? this.lines : this.noLines;
+    paint(material, colour, null);
     material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, { glowLines: this.lines, glowWidth: this.width, glowColour: this.colour });
+      Object.assign(shader.uniforms, { glowLines: lines, glowWidth: this.width, glowColours: this.colours });
       shader.vertexShader = shader.vertexShader
         .replace("#include <common>", "#include <common>\nvarying vec3 placed;")
         .replace("#include <begin_vertex>", "#include <begin_vertex>\nplaced = (modelMatrix * vec4(position, 1.0)).xyz;");
@@ -23,14 +47,18 @@ export class Glow {
           varying vec3 placed;
           uniform vec4 glowLines[${MOST}];
           uniform float glowWidth;
-          uniform vec3 glowColour;`)
+          uniform vec3 glowColours[${MOST}];`)
         .replace("#include <emissivemap_fragment>", `#include <emissivemap_fragment>
           for (int i = 0; i < ${MOST}; i += 1) {
+            if (glowLines[i].w == 0.0) continue;
             vec3 along = glowLines[i].xyz;
             float far = length(placed - max(dot(placed, along), 0.0) * along) / glowWidth;
-            totalEmissiveRadiance += glowLines[i].w * glowColour * exp(-far * far);
+            float share = glowLines[i].w * exp(-far * far);
+            diffuseColor.rgb = mix(diffuseColor.rgb, glowColours[i], share);
+            totalEmissiveRadiance = mix(totalEmissiveRadiance, 0.8 * glowColours[i], share);
           }`);
     };
     return material;
   }
 }
+

@@ -70,3 +70,10 @@ export function shown(variable, value, digits = 5) {
   const unit = unitText(variable.shown);
   return `${readable(value * variable.factor, digits)}${unit && ` ${unit}`}`;
 }
+
+// What a variable takes, with its shown unit; empty where it takes any number.
+export function range(variable) {
+  if (variable.min === null) return "";
+  const end = (value) => readable(value * variable.factor, 4);
+  return `${end(variable.min)} to ${shown({ ...variable, kind: "Real" }, variable.max, 4)}`;
+}

@@ -4,7 +4,6 @@ import { HIGHEST, spectrum } from "./spectrum.js";
 import { shown } from "./table.js";
 
 const COLOURS = ["--trace-1", "--trace-2", "--trace-3", "--trace-4", "--trace-5", "--trace-6"];
-export const MOST = COLOURS.length;
 const AHEAD = 0.2; // part of the window after now
 
 export class Traces {
@@ -27,7 +26,7 @@ export class Traces {
     this.names.forEach((name, i) => {
       const unit = this.table.find(name).shown;
       if (!units.has(unit)) units.set(unit, []);
-      units.get(unit).push({ name, stroke: colour(COLOURS[i % MOST]) });
+      units.get(unit).push({ name, stroke: colour(COLOURS[i % COLOURS.length]) });
     });
     this.plots = [...units].map(([unit, series]) => this.panel(unit, series));
     this.fit();

@@ -1,17 +1,20 @@
 // The window on the gears: camera, light, labels, and drawing when something has changed.
-import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, PMREMGenerator, Scene, Vector3, WebGLRenderer } from "three";
+import { ACESFilmicToneMapping, DirectionalLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { RoomEnvironment } from "three/examples/jsm/environments/RoomEnvironment.js";
 import { Differential } from "./differential.js";
+import { studio } from "./studio.js";
 
 const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
 
 // From the rear of a vehicle: +x, its left, is at the left.
+// `from` is where the eye is, in axes of the scene or, with `at`, of the left mesh of planet 1: along its pitch line, forward,
+// away from the planet. `at` is the place looked at along the pitch line; lengths are in reaches of the gears.
 export const PRESETS = {
   whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7 },
-  mesh: { from: null, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
+  mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
   side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
+  flank: { from: [0.5, -0.7, 0.6], at: 0.8, distance: 1.8, hold: true, shell: false, arrows: 0, through: true },
 };
 
 export class View {
@@ -21,10 +24,9 @@ export class View {
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
-    const light = new PMREMGenerator(this.renderer);
-    this.scene.environment = light.fromScene(new RoomEnvironment(), 0.04).texture;
-    this.scene.environmentIntensity = 0.75;
-    const key = new DirectionalLight("#fff4e4", 2.2);
+    this.scene.environment = studio(this.renderer);
+    this.scene.environmentIntensity = 0.7;
+    const key = new DirectionalLight("#fff4e4", 1.8);
     key.position.set(-0.6, 1.2, -0.9);
     // a lamp beside the eye: no face that is seen stays black
     this.lamp = new DirectionalLight("#ffffff", 0.9);
@@ -35,6 +37,8 @@ export class View {
     this.orbit.addEventListener("change", () => { this.stale = true; });
     this.differential = new Differential();
     this.scene.add(this.differential.group, this.differential.still);
+    // the graphics unit compiles its programs while the library is loaded
+    this.renderer.compile(this.scene, this.camera);
     this.labels = labels;
     this.preset = "whole";
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
@@ -44,7 +48,7 @@ export class View {
     const first = !this.differential.gears;
     const before = this.differential.reach;
     this.differential.build(surfaces, assembly);
-    if (first || Math.abs(before / this.differential.reach - 1) > 0.05 || this.preset === "mesh") this.look(this.preset);
+    if (first || Math.abs(before / this.differential.reach - 1) > 0.05 || PRESETS[this.preset].at) this.look(this.preset);
     this.stale = true;
   }
 
@@ -52,22 +56,28 @@ export class View {
     this.preset = name;
     const { reach, assembly } = this.differential;
     if (!reach) return;
-    const { from, distance, hold, shell, arrows } = PRESETS[name];
+    const { from, at, distance, hold, shell, arrows, through } = PRESETS[name];
     this.hold = hold;
-    this.differential.showCase(shell);
+    this.showCase(shell);
+    this.differential.showThrough(Boolean(through));
     this.differential.arrowLength = arrows;
     const target = new Vector3();
-    let direction = new Vector3(...(from ?? []));
-    if (!from) {
-      const { line } = assembly.mesh(0, 1, 0, 1);
-      target.copy(line).multiplyScalar(0.92 * reach);
-      direction = line.clone().add(new Vector3(-0.1, 0.1, -0.28));
+    const direction = new Vector3(...from);
+    if (at) {
+      const { line, forward, apart } = assembly.axes(0, 1, 0);
+      target.copy(line).multiplyScalar(at * reach);
+      direction.copy(line).multiplyScalar(from[0]).addScaledVector(forward, from[1]).addScaledVector(apart, from[2]);
     }
     // a narrow window sees the whole from farther away
-    const wide = Math.max(1, 1.45 / this.camera.aspect);
-    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * (from ? wide : 1)).add(target);
+    const wide = Math.max(1, (at ? 0.9 : 1.45) / this.camera.aspect);
+    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * wide).add(target);
     this.orbit.target.copy(target);
     this.orbit.update();
+    this.stale = true;
+  }
+
+  showCase(visible) {
+    this.differential.showCase(visible);
     this.stale = true;
   }
 
@@ -101,9 +111,8 @@ export class View {
     this.fit();
   }
 
-  pose(read, largest) {
-    this.differential.pose(read, largest);
-    this.differential.hold(this.hold ? read("carrier.angle") : 0);
+  pose(record, largest, colours, pressed) {
+    this.differential.pose(record, largest, colours, this.hold ? record.value("carrier.angle") : 0, pressed);
     this.stale = true;
   }
 

@@ -4,14 +4,12 @@ export const STEPS = [
   {
     title: "Straight ahead",
     fragment: "scene=study_straight&show=carrier.speed+left.speed+left.normal_force+right.normal_force",
-    camera: "whole",
     text: "Both wheels bear the same load. Carrier and side gears turn as one: the planets stand still on their pins and push "
       + "both sides like the bar of a balance. Red arrows are the forces of the planets on the side gears. They are all alike.",
   },
   {
     title: "A turn",
-    fragment: "scene=study_turning&show=carrier.speed+left.speed+right.speed+planet%5B1%5D.left_normal_force",
-    camera: "mesh",
+    fragment: "scene=study_turning&show=carrier.speed+left.speed+right.speed+planet%5B1%5D.left_normal_force&view=mesh",
     text: "In a curve the outer wheel runs faster. The planets roll between the side gears, and what one side gains the other "
       + "one loses: the mean of both speeds is the carrier's. The picture rides with the carrier. See how one pair of teeth "
       + "hands its load to the next, and how the force follows.",
@@ -19,23 +17,20 @@ export const STEPS = [
   {
     title: "One wheel on ice",
     fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
-    camera: "whole",
     text: "The left wheel has no load but its inertia. The teeth give both wheels the same torque, so the right one gets no "
-      + "more than the left one can take. The left wheel spins up and the right one falls back; the arrows stay equal. This is the "
-      + "weakness of an open differential.",
+      + "more than the left one can take. The left wheel spins up, and the right one falls back until its own load turns it the other way. "
+      + "The arrows stay equal. This is the weakness of an open differential.",
   },
   {
     title: "Limited slip",
     fragment: "scene=limited_slip&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
-    camera: "whole",
     text: "Clutch packs press the side gears to the carrier. At 0.1 s the left load falls a little, and the packs hold: "
       + "nothing slips. At 0.25 s it fails. Now the packs slip, but they pass torque to the wheel that still has grip: see the "
       + "shaft torques part.",
   },
   {
     title: "The clunk",
-    fragment: "scene=clunk&show=carrier.speed+left.shaft_torque+planet%5B1%5D.left_transmission_error",
-    camera: "mesh",
+    fragment: "scene=clunk&show=carrier.speed+left.shaft_torque+planet%5B1%5D.left_transmission_error&view=mesh",
     text: "A drive of 100 N·m comes on from rest. The teeth cross their play in two thousandths of a second, and the carrier "
       + "has gathered speed when the flanks meet. So each half-shaft is wound up to 133 N·m instead of 50, and throws the teeth "
       + "back through their play: the clunk you hear when you come on the throttle.",

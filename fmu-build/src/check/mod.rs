@@ -1,5 +1,5 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms or a machine without Rust; one that counts what effects cost together; and one that looks
+//! time, other hosts, other platforms, a browser or a machine without Rust; one that counts what effects cost together; and one that looks
 //! for changes that no test notices.
 
 pub mod executed;
@@ -7,6 +7,7 @@ pub mod fuzz;
 pub mod hosts;
 pub mod memcheck;
 pub mod mutants;
+pub mod page;
 pub mod platforms;
 pub mod prices;
 pub mod python_tests;
@@ -24,6 +25,7 @@ use clap::Subcommand;
 pub enum CheckCommand {
     TestPython(python_tests::TestPythonCommand),
     TestWheel(wheel::TestWheelCommand),
+    TestPage(page::TestPageCommand),
     #[command(alias = "off")]
     ZeroCost(zero_cost::ZeroCostCommand),
     Prices(prices::PricesCommand),
@@ -42,6 +44,7 @@ impl CheckCommand {
         match self {
             Self::TestPython(command) => command.run(),
             Self::TestWheel(command) => command.run(),
+            Self::TestPage(command) => command.run(),
             Self::ZeroCost(command) => command.run(),
             Self::Prices(command) => command.run(),
             Self::RealTime(command) => command.run(),

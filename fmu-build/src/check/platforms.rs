@@ -51,7 +51,7 @@ fn run(write: bool) -> Result<()> {
     let mut arguments: Vec<OsString> = vec![paths::scenes().into(), wine.into()];
     for (index, (name, library)) in named.into_iter().enumerate() {
         let fmu = paths::target().join("platforms").join(format!("{index}.fmu"));
-        package::write_archive(&[library], &fmu)?;
+        package::write_archive(&[library], None, &fmu)?;
         let mut pair = OsString::from(format!("{name}="));
         pair.push(fmu);
         arguments.push(pair);

@@ -20,6 +20,7 @@ const STYLE: &str = "body{font:15px/1.5 sans-serif;max-width:70em;margin:2em aut
 const INTRODUCTION: &str = "Dynamics of a bevel gear differential as an FMU for co-simulation and model exchange: carrier, two \
      to four planets and two side gears with straight spherical-involute teeth, in contact pair by pair along the exact path \
      of contact, with backlash and tip-corner contact.";
+const LIVE: &str = "The differential live in a browser: scenes, parameters and effects, with the gears in motion.";
 const USE: [&str; 5] = [
     "Import the FMU into any host of FMI 2.0 on one of the platforms below.",
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
@@ -74,8 +75,9 @@ pub const FIGURES: [Figure; 3] = [
     Figure { file: ["docs", "figures", "ripple.png"], caption: "Ripple in the turn, from pair to pair of teeth." },
 ];
 
-/// The page of an archive with `libraries`, into which all of `linked` is linked.
-pub fn page(libraries: &[Library], linked: &[LinkedPart]) -> Result<String> {
+/// The page of an archive with `libraries`, into which all of `linked` is linked; `live` is the file beside it with the
+/// differential in motion, if there is one.
+pub fn page(libraries: &[Library], linked: &[LinkedPart], live: Option<&str>) -> Result<String> {
     let mut body = Element::new("body")
         .child(Element::new("h1").text(MODEL_NAME))
         .child(Element::new("p").text(concat!(
@@ -84,6 +86,10 @@ pub fn page(libraries: &[Library], linked: &[LinkedPart]) -> Result<String> {
             ", FMI 2.0 co-simulation and model exchange."
         )))
         .child(paragraph(INTRODUCTION))
+        .children(live.map(|file| {
+            let link = Element::new("a").with("href", file).text(LIVE);
+            Element::new("p").child(link)
+        }))
         .child(title("Use"))
         .child(Element::new("ol").children(USE.map(|step| Element::new("li").text(step))))
         .child(table_of(&["Platform", "Needs"], libraries.iter().map(platform)))

@@ -11,6 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::fmu::libraries::{self, Library};
+use crate::fmu::page::{self, Page};
 use crate::fmu::{describe, documentation, effect_list, licences, plain_types};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -70,14 +71,19 @@ pub fn package() -> Result<PathBuf> {
 pub fn packed() -> Result<PackedFmu> {
     let libraries = libraries::build()?;
     let fmu = paths::fmu();
-    write_archive(&libraries.built, &fmu)?;
+    let page = Page::found()?;
+    write_archive(&libraries.built, page.text(), &fmu)?;
     effect_list::write_json(&fmu)?;
-    Ok(PackedFmu { fmu, left_out: libraries.left_out })
+    let mut left_out = libraries.left_out;
+    if page.text().is_none() {
+        left_out.push(page.remark());
+    }
+    Ok(PackedFmu { fmu, left_out })
 }
 
-/// Packs the FMU around `libraries` into `target`, which is complete or not there.
-pub fn write_archive(libraries: &[Library], target: &Path) -> Result<()> {
-    let bytes = archive(&entries(libraries)?).context("the archive cannot be created")?;
+/// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
+pub fn write_archive(libraries: &[Library], page: Option<&[u8]>, target: &Path) -> Result<()> {
+    let bytes = archive(&entries(libraries, page)?).context("the archive cannot be created")?;
     let folder = target.parent().unwrap_or(Path::new("."));
     paths::create_folder(folder)?;
     let partial = target.with_extension(format!("{}.part", std::process::id()));
@@ -86,7 +92,7 @@ pub fn write_archive(libraries: &[Library], target: &Path) -> Result<()> {
         .with_context(|| format!("{} cannot be written", target.display()))
 }
 
-fn entries(libraries: &[Library]) -> Result<Vec<ArchiveFile>> {
+fn entries(libraries: &[Library], page: Option<&[u8]>) -> Result<Vec<ArchiveFile>> {
     let plain = |path: String, content: Vec<u8>| ArchiveFile { path, content, permissions: PLAIN };
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
     let mut entries = vec![plain("modelDescription.xml".into(), describe::model_description()?.into_bytes())];
@@ -95,8 +101,12 @@ fn entries(libraries: &[Library]) -> Result<Vec<ArchiveFile>> {
         entries.push(ArchiveFile { path, content: read(&library.file)?, permissions: EXECUTABLE });
     }
     let licences = licences::collected(libraries)?;
-    let page = documentation::page(libraries, &licences.linked)?;
-    entries.push(plain("documentation/index.html".into(), page.into_bytes()));
+    let live = page.map(|_| page::FILE);
+    let index = documentation::page(libraries, &licences.linked, live)?;
+    entries.push(plain("documentation/index.html".into(), index.into_bytes()));
+    if let Some(page) = page {
+        entries.push(plain(format!("documentation/{}", page::FILE), page.to_vec()));
+    }
     for figure in documentation::FIGURES {
         let file = figure.file.iter().fold(paths::workspace(), |path, part| path.join(part));
         entries.push(plain(format!("documentation/{}", figure.name()), read(&file)?));

@@ -9,8 +9,10 @@ use clap::Args;
 
 use crate::fmu::libraries::Library;
 use crate::fmu::package;
+use crate::fmu::page::{self, Page};
 use crate::fmu::platforms::{self, Platform};
 use crate::gears::scene;
+use crate::tools::files::{copy_file, copy_folder};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{self, Environment};
@@ -40,6 +42,7 @@ impl WheelCommand {
         let wheel = write(&libraries, &environment, &paths::wheel())?;
         progress.finish();
         println!("{}", paths::shown(&wheel));
+        println!("{}", Page::found()?.remark());
         for Library { platform, needs, .. } in &libraries {
             println!("{platform}: {needs}");
         }
@@ -79,7 +82,7 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
 fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     let (from, to) = (paths::workspace(), source.join("python"));
     let package = to.join("src").join("bevel_differential");
-    copy_folder(&from.join("python").join("src").join("bevel_differential"), &package)?;
+    copy_folder(&from.join("python").join("src").join("bevel_differential"), &package, "__pycache__")?;
     copy_file(&from.join("python").join("pyproject.toml"), &to)?;
     // with the version
     copy_file(&from.join("Cargo.toml"), source)?;
@@ -89,25 +92,11 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     for scene in scene::files()? {
         copy_file(&scene, &package.join("scenes"))?;
     }
-    package::write_archive(libraries, &package.join(format!("{MODEL_NAME}.fmu")))
-}
-
-/// Copies all files below `from`, but for what Python compiled.
-fn copy_folder(from: &Path, to: &Path) -> Result<()> {
-    for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
-        let path = entry?.path();
-        let name = path.file_name().unwrap_or_default();
-        if path.is_file() {
-            copy_file(&path, to)?;
-        } else if name != "__pycache__" {
-            copy_folder(&path, &to.join(name))?;
-        }
+    // beside the FMU, not in it: its address stays, and links to set-ups with it
+    if let Page::Made(page) = Page::found()? {
+        let folder = package.join("page");
+        paths::create_folder(&folder)?;
+        fs::write(folder.join(page::FILE), page).context("the page cannot be written")?;
     }
-    Ok(())
-}
-
-fn copy_file(file: &Path, folder: &Path) -> Result<()> {
-    paths::create_folder(folder)?;
-    let target = folder.join(file.file_name().unwrap_or_default());
-    fs::copy(file, target).with_context(|| format!("{} cannot be copied", paths::shown(file))).map(drop)
+    package::write_archive(libraries, None, &package.join(format!("{MODEL_NAME}.fmu")))
 }

@@ -2,6 +2,7 @@
 //! nothing here uses another room.
 
 pub mod csv_file;
+pub mod files;
 pub mod machine;
 pub mod numbers;
 pub mod paths;

@@ -44,6 +44,11 @@ pub fn fmu() -> PathBuf {
     target().join("fmu").join(format!("{}.fmu", bevel_differential::variables::MODEL_NAME))
 }
 
+/// The page for browsers, with what it is bundled from.
+pub fn page() -> PathBuf {
+    target().join("page")
+}
+
 /// The Python package as a wheel, and the proof that it works.
 pub fn wheel() -> PathBuf {
     target().join("wheel")
@@ -77,6 +82,11 @@ pub fn solvers_benchmark() -> PathBuf {
 /// The scripts and scenes of other hosts.
 pub fn hosts() -> PathBuf {
     workspace().join("tests").join("hosts")
+}
+
+/// The tests of the page in a browser.
+pub fn browser_tests() -> PathBuf {
+    workspace().join("tests").join("browser")
 }
 
 /// The drivetrain coupled from FMUs.

@@ -57,6 +57,13 @@ impl Environment {
             .made(report)
     }
 
+    /// The environment with what drives a browser.
+    pub fn for_browser(report: impl Fn(&str)) -> Result<Self> {
+        let requirements = paths::browser_tests().join("requirements.txt");
+        Self { folder: paths::target().join("browser"), requirements, holds: "playwright, pytest, fmpy, numpy" }
+            .made(report)
+    }
+
     /// The environment with the linker for old Linux systems.
     pub fn for_old_linux(report: impl Fn(&str)) -> Result<Self> {
         Self::of_old_linux().made(report)

@@ -151,8 +151,7 @@ pub fn pair_lines<const N: usize, const G: usize, const P: usize, const WITH_EFF
     }
     let mut gathered: [Option<Gathered>; MOST] = [None; MOST];
     equations.tooth_loads(pair, at, g, s, |load| {
-        // written so that NaN fails
-        if !(load.normal > 0.0) {
+        if load.normal.is_nan() || load.normal <= 0.0 {
             return;
         }
         let is_it = |own: &Gathered| (own.flank, own.teeth) == (load.flank, load.teeth);

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use anyhow::{Context, Result};
-use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::model::effects::Declared;
+use bevel_differential::model::{EFFECTS, Inputs, Parameters};
+use bevel_differential::variables::{Access, Variable, guid, table};
 use serde::Serialize;
 
 use crate::fmu::describe::{causality, variability};
@@ -16,6 +17,7 @@ use crate::tools::paths;
 #[derive(Serialize)]
 pub struct PageData {
     version: &'static str,
+    guid: &'static str,
     variables: Vec<PageVariable>,
     scenes: Vec<PageScene>,
     prices: Vec<Price>,
@@ -36,6 +38,8 @@ struct PageVariable {
     start: Option<Value>,
     description: &'static str,
     literals: Vec<Literal>,
+    /// Switches of the effects that give the output; none where it is always there.
+    switches: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -88,7 +92,7 @@ struct Price {
 pub fn data() -> Result<PageData> {
     let scenes = scene::files()?.iter().map(|file| load::load(file).map(page_scene)).collect::<Result<_>>()?;
     let variables = table().rows.iter().enumerate().map(|(reference, row)| page_variable(reference, row)).collect();
-    Ok(PageData { version: env!("CARGO_PKG_VERSION"), variables, scenes, prices: prices()? })
+    Ok(PageData { version: env!("CARGO_PKG_VERSION"), guid: guid(), variables, scenes, prices: prices()? })
 }
 
 fn page_variable(reference: usize, row: &'static Variable) -> PageVariable {
@@ -124,7 +128,14 @@ fn page_variable(reference: usize, row: &'static Variable) -> PageVariable {
         start,
         description: row.description,
         literals: literals.collect(),
+        switches: EFFECTS.iter().filter(|effect| gives(effect, row.name)).filter_map(|effect| effect.switch).collect(),
     }
+}
+
+/// Whether the effect brings the output.
+fn gives(effect: &Declared, output: &str) -> bool {
+    let heat = effect.heat.map(|heat| heat.output);
+    heat.into_iter().chain(effect.readings.iter().map(|reading| reading.name)).any(|name| name == output)
 }
 
 fn page_scene(scene: Scene) -> PageScene {

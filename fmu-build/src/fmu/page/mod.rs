@@ -1,6 +1,9 @@
 //! The page: the library for browsers, the gears, traces and controls in one HTML file that needs no server.
 
 pub mod data;
+mod made;
+
+pub use made::{FILE, Page};
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,6 +14,7 @@ use clap::Args;
 
 use crate::fmu::libraries;
 use crate::fmu::toolchains::{self, UnpackedToolchain, WASM};
+use crate::tools::files::copy_folder;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{Environment, finish};
@@ -20,6 +24,8 @@ const CRATE: &str = "bevel-differential-page";
 const LIBRARY: &str = "bevel_differential_page.wasm";
 /// Rust's name of the target.
 const TARGET: &str = "wasm32-unknown-unknown";
+/// Parts of a crate that are compiled beside each other where that is wanted.
+const PARTS: &str = "16";
 /// Packs a file by Python's own library, with the check that browsers' unpackers know.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
                     Path(sys.argv[2]).write_bytes(lzma.compress(Path(sys.argv[1]).read_bytes(), \
@@ -30,7 +36,11 @@ const PACK: &str = "import lzma, sys; from pathlib import Path; \
 /// The page is one file that needs no server. It takes the tool chain `toolchains wasm`, and node with npm, which gets three.js,
 /// uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
-pub struct PageCommand {}
+pub struct PageCommand {
+    /// Compile the library in parts, on all cores: sooner here, a little slower in the browser, the same results
+    #[arg(long)]
+    quick: bool,
+}
 
 impl PageCommand {
     /// Builds the page and prints where it is.
@@ -42,7 +52,7 @@ impl PageCommand {
             bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
         }
         let progress = Progress::start("building the library for browsers");
-        let library = library(&tools)?;
+        let library = library(&tools, if self.quick { PARTS } else { "1" })?;
         progress.stage("bundling the page");
         let page = bundle(&library)?;
         progress.finish();
@@ -52,8 +62,8 @@ impl PageCommand {
     }
 }
 
-/// The library for browsers.
-fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
+/// The library for browsers, each crate compiled in this many parts.
+fn library(tools: &UnpackedToolchain, parts: &str) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("wasm");
     let mut cargo = Command::new(libraries::cargo());
     cargo
@@ -65,8 +75,8 @@ fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
         // Debian's Rust is a stable one, and building the standard library is not yet
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"))
-        // as for users, whatever this build is for
-        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
+        // whatever this build is for
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
     finish(&mut cargo, "the library for browsers cannot be built")?;
@@ -75,16 +85,16 @@ fn library(tools: &UnpackedToolchain) -> Result<PathBuf> {
 
 /// The page around `library`; the sources are copied, so that nothing is written where they are.
 fn bundle(library: &Path) -> Result<PathBuf> {
-    let folder = paths::target().join("page");
+    let folder = paths::page();
     let web = folder.join("web");
-    copy_sources(&paths::workspace().join("fmu-build").join("page").join("web"), &web)?;
+    copy_folder(&paths::workspace().join("fmu-build").join("page").join("web"), &web, "node_modules")?;
     let packed = packed(library, &folder)?;
     let data = folder.join("data.json");
     fs::write(&data, serde_json::to_vec(&data::data()?)?).context("data.json cannot be written")?;
     let mut npm = Command::new("npm");
     npm.current_dir(&web).args(["ci", "--silent", "--no-audit", "--no-fund"]);
     finish(&mut npm, "three.js and uPlot cannot be had (check the network)")?;
-    let page = folder.join("BevelDifferential.html");
+    let page = folder.join(FILE);
     let mut node = Command::new("node");
     node.current_dir(&web).arg("build.mjs").args([&packed, &data, &page]);
     finish(&mut node, "the page cannot be bundled")?;
@@ -98,16 +108,4 @@ fn packed(library: &Path, folder: &Path) -> Result<PathBuf> {
     python.arg("-c").arg(PACK).args([library, &file]);
     finish(&mut python, "the library for browsers cannot be packed")?;
     Ok(file)
-}
-
-fn copy_sources(from: &Path, to: &Path) -> Result<()> {
-    paths::create_folder(to)?;
-    for entry in fs::read_dir(from).with_context(|| format!("{} cannot be read", paths::shown(from)))? {
-        let file = entry?.path();
-        if file.is_file() {
-            let name = file.file_name().unwrap_or_default();
-            fs::copy(&file, to.join(name)).with_context(|| format!("{} cannot be copied", paths::shown(&file)))?;
-        }
-    }
-    Ok(())
 }

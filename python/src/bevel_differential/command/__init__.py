@@ -14,7 +14,7 @@ from ..values import DifferentialError, suggestion
 
 NAME = "bevel-differential"
 COMMANDS = {"run": ".command.run", "sweep": ".command.sweep", "optimise": ".optimise.command", "tolerance": ".tolerance.command",
-            "spectrum": ".spectrum.command", "report": ".report.command"}
+            "spectrum": ".spectrum.command", "report": ".report.command", "page": ".command.page"}
 PACKAGE = __package__.partition(".")[0]
 # exit statuses: what fails while running, wrong use, Ctrl-C
 FAILED, WRONG_USE, INTERRUPTED = 1, 2, 130

@@ -76,7 +76,7 @@ impl Overload {
         Problem::new(
             variable,
             format!(
-                "{stress} of {:.1} MPa exceeds the strength of {:.1} MPa at t = {} s; reported once",
+                "{stress} of {:.1} MPa exceeds the strength of {:.1} MPa at t = {:.6} s; reported once",
                 self.stress * 1e-6,
                 self.strength * 1e-6,
                 self.time

@@ -1,0 +1,44 @@
+// What the colours of the picture mean, and their values at its time.
+import { css, gradient } from "./scale.js";
+
+const element = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
+
+export class Legend {
+  // `switchOn(name)` is called where an effect is to give what is missing.
+  constructor(host, switchOn) {
+    Object.assign(this, { host, switchOn, shown: "" });
+  }
+
+  show(mode, legend) {
+    const { lines, scale, off } = legend;
+    const plain = JSON.stringify([mode, lines.map(({ text, colour }) => [text, colour && css(colour)]), scale, off]);
+    if (plain === this.shown) return;
+    this.shown = plain;
+    this.host.hidden = false;
+    const parts = lines.map(({ text, colour }) => {
+      const mark = element("i");
+      mark.style.background = colour ? css(colour) : "none";
+      return element("li", {}, mark, text);
+    });
+    const bar = element("div", { className: "bar" });
+    bar.style.setProperty("--scale", gradient());
+    const made = [element("ul", {}, ...parts)];
+    if (scale) made.unshift(element("p", { className: "ends" }, scale.least, bar, scale.most));
+    if (off) made.push(this.missing(off));
+    this.host.replaceChildren(...made);
+  }
+
+  missing({ text, name }) {
+    const line = element("p", { className: "off" }, text);
+    if (name) {
+      const button = element("button", { type: "button", textContent: name, title: `Switch ${name} on` });
+      button.addEventListener("click", () => this.switchOn(name));
+      line.append(" ", button);
+    }
+    return line;
+  }
+}

@@ -1,0 +1,286 @@
+// The page: the set-up goes to the worker, its points go into the record, and the picture follows the player's time.
+import { bind } from "./bindings.js";
+import { TraceChoice } from "./choice.js";
+import { coloured, MODES } from "./colouring.js";
+import { largestPower } from "./colour_heat.js";
+import { Controls } from "./controls.js";
+import { Flank } from "./flank.js";
+import { Legend } from "./legend.js";
+import { Notice } from "./notice.js";
+import { hasPairs, pressureNames } from "./pairs.js";
+import { Player } from "./player.js";
+import { showFigures, showTransport, toothTime } from "./readings.js";
+import { Record } from "./record.js";
+import { scaled } from "./scale.js";
+import { Setup } from "./setup.js";
+import { Shapes } from "./shapes.js";
+import { Simulation } from "./simulation.js";
+import { readable, Table } from "./table.js";
+import { Traces } from "./traces.js";
+import { PRESETS, View } from "./view.js";
+import { Walk } from "./walk.js";
+import { forces, wanted } from "./wanted.js";
+
+const $ = (id) => document.getElementById(id);
+const REFRESH = 100; // ms between two drawings of new points
+const ASIDE = { wide: [-0.19, 0], narrow: [0, -0.2] }; // shares of the window that the picture gives way by
+const NARROW = 820; // pixels
+
+export class Page {
+  // `library` as it is in the page, still packed.
+  constructor(data, library) {
+    this.table = new Table(data);
+    this.setup = new Setup(this.table);
+    this.player = new Player();
+    this.record = new Record([]);
+    this.notice = new Notice($("message"));
+    this.simulation = new Simulation(library, {
+      gears: (message) => this.shapes.take(message),
+      started: (message) => this.started(message),
+      points: (message) => this.points(message),
+      over: () => { this.isOver = true; },
+      refused: ({ text }) => this.refuse(text),
+      trap: ({ text }) => this.trapped(text),
+      anew: () => this.shapes.forget(),
+    });
+    this.shapes = new Shapes(this.table, (settings) => this.simulation.gears(settings), (surfaces, assembly) => {
+      this.view.build(surfaces, assembly);
+      this.flank.shape(assembly);
+      this.moved = true;
+    });
+    const labels = Object.fromEntries([...document.querySelectorAll("[data-label]")].map((label) => [label.dataset.label, label]));
+    this.view = new View($("canvas"), labels);
+    this.legend = new Legend($("legend"), (name) => this.switchOn(name));
+    this.flank = new Flank($("flank"), this.table);
+    this.traces = new Traces($("traces"), this.table, (time) => this.seek(time));
+    this.choice = new TraceChoice($("trace-list"), this.table, (names) => {
+      this.setup.traces = names;
+      this.keep();
+      this.simulate();
+    });
+    this.controls = new Controls($("groups"), this.table, this.setup, () => this.changed());
+    this.walk = new Walk($("walk"), (step) => this.walkTo(step), () => this.makeRoom());
+    bind(this);
+    this.restore();
+    requestAnimationFrame((now) => {
+      this.last = now;
+      this.frame(now);
+    });
+  }
+
+  // Takes the set-up of the page's address.
+  restore() {
+    const { odd, faults } = this.setup.read(location.hash);
+    this.player.chosen = false;
+    if (this.player.time > 0 && this.shownScene !== this.setup.scene.name) this.player.time = 0;
+    this.shownScene = this.setup.scene.name;
+    this.look(this.setup.view);
+    this.changed();
+    this.odd = odd.length > 0 ? `The address has what this page does not know: ${odd.join(", ")}. ` : "";
+    for (const { name, text } of faults) this.controls.complain(name, text);
+    if (faults.length > 0) this.odd += `The address has values that are left out: ${faults.map(({ name }) => name).join(", ")}. `;
+    if (this.odd) this.notice.say(this.odd, true);
+  }
+
+  changed() {
+    this.controls.show();
+    $("scene").value = this.setup.scene.name;
+    $("about").textContent = this.setup.scene.description;
+    $("duration").value = String(this.setup.stop);
+    $("colour").value = this.setup.colour;
+    this.keep();
+    this.notice.say("");
+    this.simulate();
+  }
+
+  // The address is the set-up.
+  keep() {
+    try {
+      history.replaceState(null, "", this.setup.fragment());
+    } catch {
+      location.hash = this.setup.fragment();
+    }
+  }
+
+  get names() {
+    const mode = MODES[this.setup.colour];
+    const withPressures = mode.withPressures || this.setup.view === "flank";
+    return wanted(this.table, this.setup, mode.needs(this.table), withPressures);
+  }
+
+  simulate() {
+    this.run = { names: this.names, forces: forces(this.setup), shown: this.setup.shown(), stop: this.setup.stop };
+    this.simulation.run(this.setup.compiled(), this.run.names.map((name) => this.table.find(name).reference));
+    // the first picture does not wait for the run
+    if (!this.shapes.shown) this.shapes.want(this.setup);
+  }
+
+  // A run has begun: only now the old one goes.
+  started({ warnings }) {
+    const { names, forces, shown, stop } = this.run;
+    this.record = new Record(names);
+    this.isOver = false;
+    this.forces = forces;
+    this.most = 0;
+    this.mostHeat = 0;
+    this.mostPressure = 0;
+    this.player.begin(stop);
+    this.traces.begin(shown, this.record, stop);
+    this.choice.show(shown);
+    this.flank.begin(this.record, this.setup);
+    $("time").max = stop;
+    this.scroll();
+    if (warnings.length > 0 && !this.odd) this.notice.say(this.table.subject(warnings[0]).text);
+    this.shapes.want(this.setup);
+  }
+
+  points({ points, time, seconds }) {
+    this.record.append(points);
+    this.isFresh = true;
+    if (seconds > 0 && time > 0) $("speed").textContent = `${readable(time / seconds, 2)} × real time`;
+  }
+
+  // What depends on all points so far.
+  refresh() {
+    this.isFresh = false;
+    this.refreshed = performance.now();
+    this.traces.refresh();
+    this.most = Math.max(...this.forces.map((name) => this.record.largest(name)));
+    this.mostPressure = Math.max(...pressureNames().map((name) => this.record.largest(name)));
+    if (this.setup.colour === "heat") this.mostHeat = largestPower(this.record, this.table);
+    $("scale").lastElementChild.textContent = this.most > 0
+      ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
+    this.tooth = toothTime(this.record, (name) => this.setup.value(name));
+    this.player.limit(this.tooth);
+    this.moved = true;
+  }
+
+  trapped(text) {
+    this.isOver = true;
+    this.shapes.standIn();
+    this.notice.say(`The simulation failed and was started anew; your set-up is kept. Change a value to try again. (${text})`, true);
+  }
+
+  refuse(text) {
+    this.isOver = true;
+    const about = text.split("\n").map((line) => this.table.subject(line));
+    for (const { name, text: own } of about) this.controls.complain(name, own);
+    const placed = about[0].name && `The library refuses this ${about[0].name}: see the message at it.`;
+    const kept = this.record.count > 0 ? " The picture shows the last set-up that worked." : " The gears stand still.";
+    this.notice.say(`${this.odd}${placed || about[0].text}${kept}`, true);
+    this.odd = "";
+  }
+
+  takeDuration() {
+    const fault = this.setup.setStop(Number($("duration").value));
+    if (fault) this.notice.say(fault, true);
+    else this.changed();
+  }
+
+  // Another mode of colours; a run is made again where it has not noted what the mode needs.
+  colour(mode) {
+    this.setup.colour = mode;
+    this.again();
+  }
+
+  again() {
+    this.keep();
+    if (this.names.every((name) => this.record.has(name))) this.refresh();
+    else this.simulate();
+  }
+
+  switchOn(name) {
+    this.setup.set(name, true);
+    this.changed();
+  }
+
+  // Another view; as with colours.
+  choose(name) {
+    this.look(name);
+    this.again();
+  }
+
+  themed() {
+    this.traces.build();
+    this.moved = true;
+  }
+
+  look(name) {
+    this.setup.view = name;
+    this.view.look(name);
+    this.view.hold = PRESETS[name].hold;
+    $("hold").checked = PRESETS[name].hold;
+    $("shell").checked = PRESETS[name].shell;
+    this.flank.show(name === "flank");
+    for (const button of document.querySelectorAll("[data-camera]")) {
+      button.setAttribute("aria-pressed", button.dataset.camera === name);
+    }
+    this.makeRoom();
+    this.moved = true;
+  }
+
+  walkTo(step) {
+    this.player.chosen = false;
+    this.player.time = 0;
+    this.player.playing = true;
+    location.hash = step.fragment;
+  }
+
+  // The picture gives way to what lies over it.
+  makeRoom() {
+    const isCovered = this.walk.isOpen || this.setup.view === "flank";
+    this.view.shift(...(isCovered ? ASIDE[innerWidth > NARROW ? "wide" : "narrow"] : [0, 0]));
+  }
+
+  play() {
+    this.player.playing = !this.player.playing;
+  }
+
+  seek(time) {
+    this.player.playing = false;
+    this.player.seek(time);
+    this.moved = true;
+  }
+
+  scroll() {
+    this.traces.share = $("scroll").checked ? 0.3 : 1;
+    this.traces.refresh();
+  }
+
+  spectral() {
+    this.traces.isSpectral = $("spectrum").checked;
+    this.traces.build();
+    if ($("spectrum").checked && this.isOver && this.traces.plots[0].plot.data[0].length === 0) {
+      this.notice.say("No spectrum: the planets roll through no whole mesh cycle in this run. "
+        + "Choose a turn, or a longer duration.");
+    }
+  }
+
+  frame(now) {
+    const seconds = Math.min((now - this.last) / 1e3, 0.1);
+    this.last = now;
+    const { player, record } = this;
+    if (this.isFresh && !(now - this.refreshed < REFRESH)) this.refresh();
+    const before = player.time;
+    player.tick(seconds, record.end, this.isOver);
+    if (player.time !== before || this.moved || this.view.hold !== this.held) this.show();
+    this.view.draw();
+    showTransport(player, this.tooth);
+    requestAnimationFrame((next) => this.frame(next));
+  }
+
+  // The picture, the figures and the traces at the player's time.
+  show() {
+    const { player, record, table, setup, most, mostHeat } = this;
+    this.moved = false;
+    this.held = this.view.hold;
+    record.seek(player.time);
+    const colours = coloured(setup.colour, { table, setup, record, most, mostHeat, hasPairs: hasPairs(record) });
+    this.view.pose(record, most, colours, (pressure) => scaled(pressure / this.mostPressure));
+    if (record.count === 0) return;
+    this.legend.show(setup.colour, colours.legend);
+    this.flank.at(player.time, this.mostPressure);
+    this.traces.at(player.time);
+    showFigures(record, table);
+  }
+}

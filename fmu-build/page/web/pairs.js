@@ -1,0 +1,26 @@
+// The tooth pairs in the mesh of planet 1 with the left side gear, which the library lists one by one.
+
+const MOST = 3;
+const at = (k, part) => `planet[1].left_pair[${k}].${part}`;
+const PLACE = ["tooth", "force", "height"];
+const PRESSURES = ["toe_pressure", "middle_pressure", "heel_pressure"];
+const each = Array.from({ length: MOST }, (_, k) => k + 1);
+
+export const pairNames = (withPressures) => {
+  const parts = withPressures ? [...PLACE, ...PRESSURES] : PLACE;
+  return each.flatMap((k) => parts.map((part) => at(k, part)));
+};
+
+export const pressureNames = () => each.flatMap((k) => PRESSURES.map((part) => at(k, part)));
+
+// Whether the record lists pairs at all, and with their pressures.
+export const hasPairs = (record, withPressures = false) => pairNames(withPressures).every((name) => record.has(name));
+
+// Pairs in contact: [{tooth, force, height, pressures: [toe, middle, heel]}]. `value(name)` is a number of one point: between two
+// points pairs come and go, and a place in the list passes to another pair.
+export function pairs(value) {
+  return each.filter((k) => value(at(k, "tooth")) >= 0 && value(at(k, "force")) !== 0).map((k) => ({
+    tooth: value(at(k, "tooth")), force: value(at(k, "force")), height: value(at(k, "height")),
+    pressures: PRESSURES.map((part) => value(at(k, part))),
+  }));
+}

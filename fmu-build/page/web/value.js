@@ -1,0 +1,31 @@
+// A value from a text, of a field or of the address. What is a number of the right kind is for the library to judge, also NaN and
+// what is out of range: its messages are better than a second list of rules.
+import { range, unitText } from "./table.js";
+
+const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity, "-infinity": -Infinity };
+const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+const MOST_INTEGER = 2 ** 31 - 1;
+
+// {value} in SI or {fault}; the text has `factor` times the value.
+export function readValue(variable, text, factor) {
+  const { name, kind, literals, unit } = variable;
+  const seen = factor === 1 ? { ...variable, factor, shown: unit ?? "1" } : variable;
+  const plain = text.trim().replace("−", "-").replace(",", ".");
+  if (kind === "Boolean") {
+    if (plain === "true" || plain === "false") return { value: plain === "true" };
+    return { fault: `${name}: “${text}” is neither true nor false` };
+  }
+  if (kind === "Enumeration") {
+    const literal = literals.find((each) => each.name === plain || String(each.value) === plain);
+    if (literal) return { value: literal.value };
+    return { fault: `${name}: “${text}” is none of ${literals.map((each) => each.name).join(", ")}` };
+  }
+  const number = NUMBER.test(plain) ? Number(plain) : SPECIAL[plain.toLowerCase()];
+  const inUnit = unitText(seen.shown) && ` in ${unitText(seen.shown)}`;
+  const takes = `it takes ${kind === "Integer" ? "a whole number" : `a number${inUnit}`}${range(seen) && `, ${range(seen)}`}`;
+  if (number === undefined) return { fault: `${name}: “${text}” is not a number; ${takes}` };
+  if (kind === "Integer" && !(Number.isInteger(number) && Math.abs(number) <= MOST_INTEGER)) {
+    return { fault: `${name}: ${text} is not a whole number of 32 bits; ${takes}` };
+  }
+  return { value: number / factor };
+}

@@ -1,0 +1,44 @@
+"""The command `page`: the differential live in a browser."""
+
+import argparse
+import importlib.resources
+import webbrowser
+from pathlib import Path
+
+from ..values import DifferentialError
+
+HELP = "open the differential live in a browser"
+EXTRA = None
+FILE = "BevelDifferential.html"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds what the command takes."""
+    parser.add_argument("--path", action="store_true", help="only print where the page is")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Opens the page and prints its address. Returns 0. Raises `DifferentialError`."""
+    page = found()
+    if arguments.path:
+        print(page)
+        return 0
+    address = page.as_uri()
+    print(address)
+    if not webbrowser.open(address):
+        raise DifferentialError("no browser can be opened from here: open the address above in one")
+    return 0
+
+
+def found() -> Path:
+    """The page of this package, or of the repository that it is used from."""
+    package = Path(str(importlib.resources.files(__package__.partition(".")[0])))
+    places = [package / "page" / FILE]
+    # in a checkout: src/bevel_differential, src, python, the repository
+    if len(package.parents) > 2:
+        places.append(package.parents[2] / "target" / "page" / FILE)
+    for place in places:
+        if place.is_file():
+            return place.resolve()
+    raise DifferentialError("the page is not in this package: make it in a checkout with `cargo run --release -- page`, and then "
+                            "the wheel with `cargo run --release -- wheel`")

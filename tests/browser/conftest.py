@@ -1,0 +1,140 @@
+"""The page in Chromium for the tests, and beside it the native FMU and node.
+
+The command `cargo run --release -- test-page` runs them and gives the environment variables PAGE, FMU, CHROMIUM and NODE."""
+
+import csv
+import os
+from pathlib import Path
+
+import pytest
+from bevel_differential import Fmu
+from playwright.sync_api import sync_playwright
+
+from live import Live
+
+ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
+# small: without a graphics card a picture takes as long as it is large
+WINDOW = {"width": 900, "height": 480}
+# of the page itself, beside the file: its worker, and what it holds packed
+INSIDE = ("blob:", "data:")
+
+
+def pytest_addoption(parser):
+    parser.addoption("--shots", type=Path, help="folder that keeps the screenshots")
+    parser.addoption("--table", type=Path, help="CSV file for what was checked")
+
+
+def pytest_configure(config):
+    # by the name of a test: [cases, what was found, seconds]
+    config.checked = {}
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(item, call):
+    report = yield
+    if report.when == "call":
+        name = item.originalname.removeprefix("test_").replace("_", " ")
+        row = item.config.checked.setdefault(name, [0, [], 0.0])
+        row[0] += 1
+        row[1] += [value for key, value in item.user_properties if key == "found"]
+        row[2] += report.duration
+    return report
+
+
+def pytest_sessionfinish(session):
+    file = session.config.getoption("table")
+    if file:
+        with open(file, "w", newline="", encoding="utf-8") as out:
+            csv.writer(out).writerows([name, cases, "; ".join(found), f"{seconds:.1f}"]
+                                      for name, (cases, found, seconds) in session.config.checked.items())
+
+
+def named_file(variable):
+    """The file that an environment variable names."""
+    path = Path(os.environ.get(variable, ""))
+    if not path.is_file():
+        pytest.exit(f"{variable} names no file; use: cargo run --release -- test-page", returncode=2)
+    return path
+
+
+@pytest.fixture
+def found(record_property):
+    """found(text): figures for the table of what was checked."""
+    return lambda text: record_property("found", text)
+
+
+@pytest.fixture(scope="session")
+def fmu():
+    """The native FMU."""
+    return Fmu.of(named_file("FMU"))
+
+
+@pytest.fixture(scope="session")
+def scene_names():
+    """Of the scenes in the repository."""
+    return sorted(file.stem for file in (Path(__file__).parents[2] / "scenes").glob("*.toml"))
+
+
+@pytest.fixture(scope="session")
+def page_file():
+    """The page, one HTML file."""
+    return named_file("PAGE").resolve()
+
+
+@pytest.fixture(scope="session")
+def browser():
+    with sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=named_file("CHROMIUM"), args=ARGUMENTS)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture(scope="session")
+def opened(browser, page_file):
+    """opened(fragment, scripts): a new page in a window of its own, with the network cut off. The caller closes it."""
+
+    def open_page(fragment="", scripts=()):
+        context = browser.new_context(viewport=WINDOW, color_scheme="light")
+        context.set_offline(True)
+        return Live(context.new_page(), page_file.as_uri(), fragment, scripts)
+
+    return open_page
+
+
+def close(live):
+    """Closes a page, which must have made no request but for itself and had no errors."""
+    live.page.context.close()
+    strange = [address for address in live.asked if address.split("#")[0] != live.address and not address.startswith(INSIDE)]
+    assert strange == [], "a page that needs no server has asked for these"
+    assert live.faults == []
+
+
+@pytest.fixture
+def fresh(opened):
+    """As `opened`, at rest; the pages are closed, and what they asked for is checked, at the end of the test."""
+    pages = []
+
+    def open_page(*arguments):
+        pages.append(opened(*arguments))
+        pages[-1].rest()
+        return pages[-1]
+
+    yield open_page
+    for live in pages:
+        close(live)
+
+
+@pytest.fixture(scope="session")
+def shared(opened):
+    """The page that most tests use, one after the other."""
+    live = opened("scene=study_straight")
+    yield live
+    close(live)
+
+
+@pytest.fixture
+def live(shared):
+    """The page that most tests use, with the straight scene; its picture stands still, and is drawn seldom."""
+    shared.rest()
+    shared.go("scene=study_straight")
+    yield shared

@@ -1,0 +1,4 @@
+// A step that never comes back.
+window.failure = () => {
+  for (;;);
+};

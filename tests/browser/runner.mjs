@@ -1,0 +1,37 @@
+// Runs scenes in node with the page's own programs: node runner.mjs WEB LIBRARY.wasm SCENES.json OUT.json
+//
+// WEB is the folder with library.js and run.js; SCENES holds {name: {scene, references}} as the page gives them to its worker. OUT gets
+// {name: rows}, each number as the 16 digits of its bits.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const [web, file, scenes, out] = process.argv.slice(2);
+const from = (name) => import(pathToFileURL(join(web, name)));
+const [{ Library }, { Run }] = await Promise.all([from("library.js"), from("run.js")]);
+const compiled = await WebAssembly.compile(readFileSync(file));
+
+const view = new DataView(new ArrayBuffer(8));
+function bits(number) {
+  view.setFloat64(0, number);
+  return view.getBigUint64(0).toString(16).padStart(16, "0");
+}
+
+const records = {};
+for (const [name, { scene, references }] of Object.entries(JSON.parse(readFileSync(scenes, "utf8")))) {
+  const library = await Library.of(compiled);
+  const run = new Run(library, scene);
+  const reader = library.reader(references);
+  const values = new Float64Array(references.length);
+  const row = () => {
+    reader.read(values, 0);
+    return [run.time, ...values].map(bits);
+  };
+  const rows = [row()];
+  while (!run.isOver) {
+    run.advance();
+    rows.push(row());
+  }
+  records[name] = rows;
+}
+writeFileSync(out, JSON.stringify(records));

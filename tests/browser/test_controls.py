@@ -1,0 +1,178 @@
+"""Every parameter and input is set from its control, and what the native FMU says of a value is what the page says."""
+
+import pytest
+from bevel_differential import DifferentialError, Scene
+
+# short, as values count here and not what becomes of them
+SCENE, STOP = "study_straight", 0.02
+# of the whole numbers of FMI
+LARGEST = 2**31 - 1
+FRAGMENT = f"scene={SCENE}&stop_time={STOP}"
+
+
+@pytest.fixture
+def short(live):
+    """The page with a run of a few points, and few pictures."""
+    live.go(FRAGMENT)
+    live.ask("ear.pictures = 0.02")
+    return live
+
+
+def settable(fmu):
+    return [variable for variable in fmu.variables.values() if variable.causality in ("parameter", "input")]
+
+
+def text_of(number):
+    """A number as a reader types it."""
+    return f"{number:.5g}"
+
+
+def shown_factor(variable):
+    """By which an SI value is multiplied where it is shown."""
+    return variable.shown(1.0)[1]
+
+
+def another(variable, value):
+    """Another valid value than `value`: (what a reader gives to the control, the same in SI)."""
+    if variable.kind == "Boolean":
+        return not value, not value
+    if variable.kind == "Enumeration":
+        name, number = next(item for item in variable.literals.items() if item[1] != value)
+        return name, number
+    low, high = variable.minimum, variable.maximum
+    if variable.kind == "Integer":
+        number = value + 1 if high is None or value < high else value - 1
+        return str(number), number
+    candidates = [1.1 * value, 0.9 * value, *([low + 0.3 * (high - low), low + 0.6 * (high - low)] if low is not None else [1.0])]
+    factor = shown_factor(variable)
+    for candidate in candidates:
+        number = float(text_of(candidate * factor)) / factor
+        if number != value and (low is None or low <= number <= high):
+            return text_of(candidate * factor), number
+    raise AssertionError(f"{variable.name}: no other value")
+
+
+def from_link(variable, word):
+    """The value of a word in a link, in SI."""
+    if variable.kind == "Boolean":
+        return {"true": True, "false": False}[word]
+    return variable.literals[word] if variable.literals else float(word)
+
+
+def beyond(variable):
+    """A value above the range, as a reader types it, and in SI."""
+    factor = shown_factor(variable)
+    if variable.kind == "Integer":
+        return str(variable.maximum + 1), variable.maximum + 1
+    text = text_of(2.0 * variable.maximum * factor if variable.maximum > 0.0 else 1.0)
+    return text, float(text) / factor
+
+
+class Native:
+    """What the native FMU says to the scene with a value of its own."""
+
+    def __init__(self, fmu):
+        self.fmu, self.values = fmu, Scene.load(SCENE).values
+
+    def says(self, name, value):
+        """Its refusal at the start, a line, or None."""
+        pairs = [(self.fmu.variable(each), number) for each, number in {**self.values, name: value}.items()]
+        with self.fmu.open() as instance:
+            try:
+                # past the package's own checks
+                instance.start(pairs, STOP)
+            except DifferentialError as refusal:
+                return str(refusal).replace("\n", " ")
+        return None
+
+
+def subject(fmu, message):
+    """(variable that a message is about, the message from its name on)."""
+    words = message.split()
+    name = next(word[:-1] for word in words if word.endswith(":") and word[:-1] in fmu.variables)
+    return name, message[message.index(f"{name}:"):]
+
+
+def check(live, fmu, answer, native, name, value):
+    """The page says what the native FMU says: nothing, or its message at a control. Returns whether the value was refused."""
+    refusal = native.says(name, value)
+    if refusal is None:
+        assert "started" in answer, f"{name} = {value}: {answer}"
+        return False
+    assert answer.get("refused") == refusal, f"{name} = {value}: {answer}"
+    place, text = subject(fmu, refusal)
+    assert live.complaints().get(place) == text, f"{name} = {value}"
+    assert place in live.message()
+    return True
+
+
+def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found):
+    native, refused = Native(fmu), []
+    variables = settable(fmu)
+    for variable in variables:
+        name = variable.name
+        before = short.value(name)
+        given, wanted = another(variable, before)
+        answer = short.put(name, given, "started", "refused")
+        assert short.value(name) == wanted, name
+        assert from_link(variable, short.link()[name]) == wanted, name
+        if check(short, fmu, answer, native, name, wanted):
+            refused.append(name)
+        assert "started" in short.back(name, "started", "refused"), name
+        assert short.value(name) == before and name not in short.link() and short.complaints() == {}
+    # most values are taken, or the check says little
+    assert len(refused) < len(variables) / 4
+    found(f"{len(variables)} variables; of {len(refused)} the FMU refuses the other value")
+
+
+def test_a_value_beyond_the_range_shows_the_message_of_the_fmu_at_its_control(short, fmu, found):
+    native = Native(fmu)
+    ranged = [each for each in settable(fmu) if each.maximum is not None and (each.kind == "Real" or each.maximum < LARGEST)]
+    for variable in ranged:
+        text, value = beyond(variable)
+        answer = short.put(variable.name, text, "started", "refused")
+        assert check(short, fmu, answer, native, variable.name, value), f"{variable.name} = {text} is not refused"
+        assert variable.name in short.complaints()
+        assert "started" in short.back(variable.name, "started", "refused"), variable.name
+        assert short.complaints() == {} and short.message() == ""
+    assert "over" in short.answer()
+    whole = sum(each.kind == "Integer" for each in ranged)
+    found(f"{len(ranged)} variables, {whole} of them whole numbers")
+
+
+@pytest.mark.parametrize("name, text, message", [
+    ("geometry.module", "", "“” is not a number"),
+    ("geometry.module", "abc", "“abc” is not a number"),
+    ("left.brake_torque", "3 N", "“3 N” is not a number"),
+    ("geometry.planet_teeth", "10.5", "10.5 is not a whole number"),
+    ("tooth_errors.seed", str(LARGEST + 1), f"{LARGEST + 1} is not a whole number"),
+])
+def test_what_the_fmu_cannot_be_given_is_refused_at_its_control_and_not_simulated(short, name, text, message):
+    number, control = short.number, short.control(name)
+    control.fill(text)
+    control.press("Enter")
+    short.wait("() => [...document.querySelectorAll('.fault')].some((each) => !each.hidden)")
+    complaints = short.complaints()
+    assert [*complaints] == [name] and complaints[name].startswith(f"{name}: {message}")
+    assert short.number == number and name not in short.link()
+    assert "over" in short.put(name, "12") and short.complaints() == {}
+
+
+@pytest.mark.parametrize("text", ["nan", "inf", "-inf"])
+@pytest.mark.parametrize("name", ["geometry.module", "left.load_torque"])
+def test_numbers_that_are_not_finite_are_refused_in_the_words_of_the_fmu(short, fmu, name, text):
+    assert check(short, fmu, short.put(name, text), Native(fmu), name, float(text))
+    assert "started" in short.back(name, "started", "refused") and short.complaints() == {}
+
+
+def test_values_that_do_not_fit_together_stand_at_the_control_that_can_mend_them(live, fmu):
+    native = Native(fmu)
+    native.values["scene.gear_contact"] = fmu.variable("scene.gear_contact").number("ideal")
+    live.put("scene.gear_contact", "ideal")
+    answer = live.put("effects.tooth_friction", True)
+    assert check(live, fmu, answer, native, "effects.tooth_friction", True)
+    before = live.ask("page.record.count")
+    answer = live.put("scene.gear_contact", "tooth")
+    assert "over" in answer and live.complaints() == {} and live.message() == ""
+    assert live.ask("page.record.count") == before == answer["points"]
+    assert live.link()["effects.tooth_friction"] == "true"
