@@ -36,7 +36,9 @@ def pytest_runtest_makereport(item, call):
         name = item.originalname.removeprefix("test_").replace("_", " ")
         row = item.config.checked.setdefault(name, [0, [], 0.0])
         row[0] += 1
-        row[1] += [value for key, value in item.user_properties if key == "found"]
+        # of a skipped test pytest gives file, line and reason
+        row[1] += [f"not run: {report.longrepr[2].removeprefix('Skipped: ')}"] if report.skipped else [
+            value for key, value in item.user_properties if key == "found"]
         row[2] += report.duration
     return report
 

@@ -71,4 +71,4 @@ def test_chromium_node_and_the_native_fmu_give_the_same_bits(scene, in_chromium,
     # values that never change would be no proof
     moving = sum(np.unique(numbers).size > 1 for numbers in native.values())
     assert moving > len(OUTPUTS) / 2
-    found(f"{scene}: {len(record)} points × {len(OUTPUTS)} outputs")
+    found(f"{scene} {len(record)} × {len(OUTPUTS)}")
