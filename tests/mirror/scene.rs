@@ -8,7 +8,7 @@ use bevel_differential::model::{
     BODIES, Body, GearContact, Given, InputDerivatives, Inputs, Layout, Parameters, Simulation, State, Watched,
 };
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Access, OutputSource, Variable, table};
 
 /// A communication step.
 #[derive(Clone, Copy, Debug)]
@@ -45,10 +45,12 @@ pub struct Course {
     pub failure: Option<String>,
 }
 
-/// Rows of the outputs and local variables, and the way to their values.
+/// Rows of the outputs and local variables, and the way to their values. Single tooth pairs are read of one mesh alone, which has
+/// no image: `tests/pair_lines.rs` reverses them.
 pub fn outputs() -> &'static [&'static Variable] {
     static OUTPUTS: OnceLock<Vec<&'static Variable>> = OnceLock::new();
-    OUTPUTS.get_or_init(|| table().rows.iter().filter(|row| matches!(row.access, Access::Output(_))).collect())
+    let is_mapped = |row: &&'static Variable| matches!(row.access, Access::Output(source) if !matches!(source, OutputSource::Pair(..)));
+    OUTPUTS.get_or_init(|| table().rows.iter().filter(is_mapped).collect())
 }
 
 /// Index of an output.

@@ -6,6 +6,8 @@ import csv
 from math import atan2, cos, sin
 from pathlib import Path
 
+import numpy as np
+
 TABLE = Path(__file__).resolve().parents[1] / "data" / "symmetry.csv"
 IDEAL, BY_TORQUE = 1, 2
 NONE, PLANET = 1, 2
@@ -95,10 +97,20 @@ class Image:
         cone = s["geometry.module"] * self.planet_teeth / (2.0 * sin(atan2(self.planet_teeth, self.side_teeth)))
         return s["geometry.backlash"] * cos(s["geometry.pressure_angle"]) * (cone - s["geometry.face_width"] / 2.0) / cone
 
+    def has(self, name):
+        """Whether the image has the output: single tooth pairs are read of planet 1's left mesh alone."""
+        return self.way == "reversed" or "_pair[" not in name
+
     def expected(self, outputs):
         """Outputs of the image, given those of the scene."""
         image = {}
         for name, value in outputs.items():
+            if not self.has(name):
+                continue
+            if name.endswith("].tooth"):
+                # planet 1 is its own image, and its teeth are counted the other way
+                image[name] = np.where(value < 0.0, value, -value % self.planet_teeth)
+                continue
             there = any(f"planet[{i}]" in name for i in range(1, self.planets + 1))
             apart = self.lash() if there and self.parity(name) == "lash" else 0.0
             image[self.name(name)] = self.factor(name) * value - apart

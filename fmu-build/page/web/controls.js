@@ -44,8 +44,9 @@ export class Controls {
     const unit = element("span", { className: "unit", textContent: unitText(variable.shown) });
     if (price) unit.textContent = `× ${readable(price, 3)}`;
     if (price) unit.title = `time of a simulation with this effect over that without it: ${readable(price, 3)}`;
+    const warning = element("p", { className: "warning" });
     const what = element("p", { className: "what", textContent: range(variable) ? `${description} (${range(variable)})` : description });
-    const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, fault);
+    const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, warning, fault);
     frame.dataset.words = `${name} ${description}`.toLowerCase().replaceAll("_", " ");
     body.append(frame);
     input.addEventListener("change", () => this.take(variable, input));
@@ -54,7 +55,7 @@ export class Controls {
       this.done(name);
       input.focus();
     });
-    const row = { variable, frame, input, fault };
+    const row = { variable, frame, input, warning, fault };
     this.rows.set(name, row);
     return row;
   }
@@ -94,10 +95,24 @@ export class Controls {
       fault.hidden = true;
       input.removeAttribute("aria-invalid");
     }
+    this.count();
+  }
+
+  // Says of each group what is unusual in it.
+  count() {
     for (const { count, rows } of this.groups) {
       const own = rows.filter(({ variable }) => this.setup.isOwn(variable.name)).length;
-      count.textContent = own > 0 ? `${own} changed` : "";
+      const warned = rows.filter(({ warning }) => warning.textContent !== "").length;
+      const words = [own > 0 && `${own} changed`, warned > 0 && (warned > 1 ? `${warned} warnings` : "1 warning")];
+      count.textContent = words.filter(Boolean).join(", ");
     }
+  }
+
+  // Shows warnings [{name, text}] at the controls they are about: those of a run that begins, then `more` of the same run.
+  warn(warnings, more = false) {
+    for (const { warning } of more ? [] : this.rows.values()) warning.textContent = "";
+    for (const { name, text } of warnings) this.rows.get(name)?.warning.append(element("span", {}, text));
+    this.count();
   }
 
   // Shows a message at the control it is about.

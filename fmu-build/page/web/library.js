@@ -18,6 +18,8 @@ export class Library {
     this.component = exports.page_instantiate();
     this.said();
     if (!this.component) throw new Refused("the library makes no instance");
+    // warnings, too
+    this.exports.fmi2SetDebugLogging(this.component, 1, 0, 0);
     this.rooms = new Map();
   }
 

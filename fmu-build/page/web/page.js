@@ -38,7 +38,10 @@ export class Page {
       gears: (message) => this.shapes.take(message),
       started: (message) => this.started(message),
       points: (message) => this.points(message),
-      over: () => { this.isOver = true; },
+      over: ({ warnings }) => {
+        this.isOver = true;
+        this.controls.warn(warnings.map((line) => this.table.subject(line)), true);
+      },
       refused: ({ text }) => this.refuse(text),
       trap: ({ text }) => this.trapped(text),
       anew: () => this.shapes.forget(),
@@ -130,7 +133,7 @@ export class Page {
     this.flank.begin(this.record, this.setup);
     $("time").max = stop;
     this.scroll();
-    if (warnings.length > 0 && !this.odd) this.notice.say(this.table.subject(warnings[0]).text);
+    this.controls.warn(warnings.map((line) => this.table.subject(line)));
     this.shapes.want(this.setup);
   }
 

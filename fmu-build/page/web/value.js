@@ -4,7 +4,7 @@ import { range, unitText } from "./table.js";
 
 const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity, "-infinity": -Infinity };
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
-const MOST_INTEGER = 2 ** 31 - 1;
+const INTEGERS = [-(2 ** 31), 2 ** 31 - 1];
 
 // {value} in SI or {fault}; the text has `factor` times the value.
 export function readValue(variable, text, factor) {
@@ -24,7 +24,7 @@ export function readValue(variable, text, factor) {
   const inUnit = unitText(seen.shown) && ` in ${unitText(seen.shown)}`;
   const takes = `it takes ${kind === "Integer" ? "a whole number" : `a number${inUnit}`}${range(seen) && `, ${range(seen)}`}`;
   if (number === undefined) return { fault: `${name}: “${text}” is not a number; ${takes}` };
-  if (kind === "Integer" && !(Number.isInteger(number) && Math.abs(number) <= MOST_INTEGER)) {
+  if (kind === "Integer" && !(Number.isInteger(number) && number >= INTEGERS[0] && number <= INTEGERS[1])) {
     return { fault: `${name}: ${text} is not a whole number of 32 bits; ${takes}` };
   }
   return { value: number / factor };

@@ -51,7 +51,7 @@ const requests = {
     } finally {
       reader.free();
     }
-    if (current === number) postMessage({ kind: "over", number, said: library.said().map(({ text }) => text) });
+    if (current === number) postMessage({ kind: "over", number, warnings: warned() });
   },
 };
 
@@ -75,11 +75,13 @@ async function warm(number, scene, reader) {
   isWarm = isWarm || current === number;
 }
 
+// Warnings of the library since they were last asked for.
+const warned = () => library.said().filter(({ status }) => status > 0).map(({ text }) => text);
+
 // The run that is shown.
 async function noted(number, scene, reader) {
   const run = new Run(library, scene);
-  const warnings = library.said().filter(({ status }) => status > 0).map(({ text }) => text);
-  postMessage({ kind: "started", number, warnings });
+  postMessage({ kind: "started", number, warnings: warned() });
   const batch = new Batch(reader);
   batch.note(run);
   let busy = 0;
