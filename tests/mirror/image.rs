@@ -36,7 +36,7 @@ impl Scene {
             }
         }
         let (mut from, to) = (self.parameters, &mut image.parameters);
-        for row in &table().rows {
+        for row in table().rows.iter().filter(|row| !matches!(row.access, Access::Output(_))) {
             let there = same(&self.name(view, row.name));
             let sign = self.sign(view, row.name);
             match (row.access, there.access) {
@@ -112,7 +112,8 @@ impl Scene {
     fn image_of_inputs(&self, view: View, inputs: &Inputs) -> Inputs {
         let (mut from, mut image) = (*inputs, Inputs::ZERO);
         for row in &table().rows {
-            if let (Access::Input(here), Access::Input(there)) = (row.access, same(&self.name(view, row.name)).access) {
+            let Access::Input(here) = row.access else { continue };
+            if let Access::Input(there) = same(&self.name(view, row.name)).access {
                 *there(&mut image) = self.sign(view, row.name) * *here(&mut from);
             }
         }
