@@ -1,5 +1,7 @@
 """The packaged FMU, seen from a host: theory, spectra, refusals. Names of tests are sentences."""
 
+import re
+
 import numpy as np
 import pytest
 import theory
@@ -223,6 +225,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
                         opened.step(1e-3)
                     observed |= acted_on(opened, inputs, outputs)
     assert observed - declared == set()
-    # numbers of pairs jump, where a load passes through zero; efficiency is 1 wherever nothing is lost
-    quiet = ("_pairs", "efficiency")
-    assert {(output, name) for output, name in declared - observed if not output.endswith(quiet)} == set()
+    # numbers of pairs and the place of a pair jump, where a load passes through zero; efficiency is 1 wherever nothing is lost;
+    # and these meshes have one pair
+    quiet = re.compile(r"_pairs$|efficiency$|_pair\[1\]\.(tooth|height)$|_pair\[[23]\]")
+    assert {(output, name) for output, name in declared - observed if not quiet.search(output)} == set()

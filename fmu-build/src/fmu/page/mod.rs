@@ -24,8 +24,10 @@ const CRATE: &str = "bevel-differential-page";
 const LIBRARY: &str = "bevel_differential_page.wasm";
 /// Rust's name of the target.
 const TARGET: &str = "wasm32-unknown-unknown";
-/// Parts of a crate that are compiled beside each other where that is wanted.
-const PARTS: &str = "16";
+/// Settings of the compiler for users, and those of a build that is sooner done: parts of a crate that are compiled beside each
+/// other, and the level of optimisation. Neither touches a result.
+const FOR_USERS: [&str; 2] = ["1", "3"];
+const QUICK: [&str; 2] = ["16", "1"];
 /// Packs a file by Python's own library, with the check that browsers' unpackers know.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
                     Path(sys.argv[2]).write_bytes(lzma.compress(Path(sys.argv[1]).read_bytes(), \
@@ -37,7 +39,7 @@ const PACK: &str = "import lzma, sys; from pathlib import Path; \
 /// uPlot and esbuild.
 #[derive(Args, Clone, Debug)]
 pub struct PageCommand {
-    /// Compile the library in parts, on all cores: sooner here, a little slower in the browser, the same results
+    /// Compile the library in less time: slower in the browser, the same results
     #[arg(long)]
     quick: bool,
 }
@@ -52,7 +54,7 @@ impl PageCommand {
             bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
         }
         let progress = Progress::start("building the library for browsers");
-        let library = library(&tools, if self.quick { PARTS } else { "1" })?;
+        let library = library(&tools, if self.quick { QUICK } else { FOR_USERS })?;
         progress.stage("bundling the page");
         let page = bundle(&library)?;
         progress.finish();
@@ -62,8 +64,8 @@ impl PageCommand {
     }
 }
 
-/// The library for browsers, each crate compiled in this many parts.
-fn library(tools: &UnpackedToolchain, parts: &str) -> Result<PathBuf> {
+/// The library for browsers, compiled in so many parts at this level of optimisation.
+fn library(tools: &UnpackedToolchain, [parts, level]: [&str; 2]) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("wasm");
     let mut cargo = Command::new(libraries::cargo());
     cargo
@@ -77,6 +79,7 @@ fn library(tools: &UnpackedToolchain, parts: &str) -> Result<PathBuf> {
         .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"))
         // whatever this build is for
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
+        .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
     finish(&mut cargo, "the library for browsers cannot be built")?;
