@@ -32,7 +32,7 @@ pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::mesh_forces::MeshForces;
 pub use outputs::motion::Motion;
-pub use outputs::pairs::{PAIRS, PairLine, PairLines};
+pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
     Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
 };

@@ -1,6 +1,7 @@
 // Colour by heat: the power that each cause turns into heat now, where it does so.
 import { scaled } from "./scale.js";
 import { readable } from "./table.js";
+import { heats } from "./wanted.js";
 
 // What has a place in the picture. `meshes` are the teeth, the rest are parts of the housing.
 const PLACES = {
@@ -13,13 +14,13 @@ const FAINT = 1e-3; // W: less is none
 
 export const label = "heat";
 
-export const needs = (table) => table.outputs().map(({ name }) => name).filter((name) => name.startsWith("heat."));
+export { heats as needs };
 
 export function colours({ table, setup, record, mostHeat }) {
   const powers = new Map();
   const lines = [];
   const off = [];
-  for (const name of needs(table)) {
+  for (const name of heats(table)) {
     const [place, words] = PLACES[name] ?? [null, name];
     const { switches } = table.find(name);
     const power = record.rate(name);
@@ -53,7 +54,7 @@ export function colours({ table, setup, record, mostHeat }) {
 // Largest power of a place over the record [W].
 export function largestPower(record, table) {
   const places = new Map();
-  for (const name of needs(table)) {
+  for (const name of heats(table)) {
     const place = PLACES[name]?.[0] ?? name;
     places.set(place, [...(places.get(place) ?? []), record.column(name)]);
   }

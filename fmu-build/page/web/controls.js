@@ -1,15 +1,10 @@
 // Parameters and inputs in groups, effects as switches: made from the table of variables.
+import { element } from "./element.js";
 import { range, readable, unitText } from "./table.js";
 import { readValue } from "./value.js";
 
 const EFFECTS = "effects";
 const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
-
-const element = (tag, properties = {}, ...children) => {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-};
 
 export class Controls {
   // `changed(name)` is called after a value has been put into the set-up.
@@ -108,10 +103,10 @@ export class Controls {
     }
   }
 
-  // Shows warnings [{name, text}] at the controls they are about: those of a run that begins, then `more` of the same run.
+  // Shows warnings of the library at the controls they are about: those of a run that begins, then `more` of the same run.
   warn(warnings, more = false) {
     for (const { warning } of more ? [] : this.rows.values()) warning.textContent = "";
-    for (const { name, text } of warnings) this.rows.get(name)?.warning.append(element("span", {}, text));
+    for (const { name, text } of warnings.map((line) => this.table.subject(line))) this.rows.get(name)?.warning.append(element("span", {}, text));
     this.count();
   }
 

@@ -44,7 +44,7 @@ export class Flank {
   at(time, most) {
     if (this.host.hidden || !this.cones) return;
     this.scale = most;
-    const literal = this.table.find("scene.gear_contact").literals.find(({ value }) => value === this.contact).name;
+    const literal = shown(this.table.find("scene.gear_contact"), this.contact);
     const hasTeeth = TEETH.includes(literal) && hasPairs(this.record, true);
     for (const canvas of this.canvases) canvas.hidden = !hasTeeth;
     if (!hasTeeth) {

@@ -1,11 +1,6 @@
 // What the colours of the picture mean, and their values at its time.
+import { element } from "./element.js";
 import { css, gradient } from "./scale.js";
-
-const element = (tag, properties = {}, ...children) => {
-  const made = Object.assign(document.createElement(tag), properties);
-  made.append(...children);
-  return made;
-};
 
 export class Legend {
   // `switchOn(name)` is called where an effect is to give what is missing.

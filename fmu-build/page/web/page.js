@@ -40,7 +40,7 @@ export class Page {
       points: (message) => this.points(message),
       over: ({ warnings }) => {
         this.isOver = true;
-        this.controls.warn(warnings.map((line) => this.table.subject(line)), true);
+        this.controls.warn(warnings, true);
       },
       refused: ({ text }) => this.refuse(text),
       trap: ({ text }) => this.trapped(text),
@@ -133,7 +133,7 @@ export class Page {
     this.flank.begin(this.record, this.setup);
     $("time").max = stop;
     this.scroll();
-    this.controls.warn(warnings.map((line) => this.table.subject(line)));
+    this.controls.warn(warnings);
     this.shapes.want(this.setup);
   }
 

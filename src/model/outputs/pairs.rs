@@ -17,7 +17,7 @@ use crate::model::dynamics::equations::Equations;
 use crate::strength::LineContact;
 
 /// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.
-pub const PAIRS: usize = 3;
+const PAIRS: usize = 3;
 /// Pairs that can touch at once: those of both flanks.
 const MOST: usize = 2 * PAIRS;
 /// Sections of a pair whose loads differ: most are eight on either side of a broken tooth's edge.

@@ -1,0 +1,6 @@
+// A new element of the document with its properties and children.
+export const element = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
