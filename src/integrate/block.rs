@@ -18,7 +18,7 @@ pub struct Block<const N: usize> {
 
 impl<const N: usize> Block<N> {
     /// Inverts I/s − J; `None` if it is singular.
-    #[inline(always)]
+    #[inline]
     pub fn new<E: SecondOrder<N>>(system: &E, lin: &Linearisation<N, E::Power>, s: f64) -> Option<Self> {
         let mut matrix = lin.by_position;
         system.times_rates(&mut matrix);
@@ -39,7 +39,7 @@ impl<const N: usize> Block<N> {
     }
 
     /// Solves for the right-hand side `r` in place.
-    #[inline(always)]
+    #[inline]
     pub fn solve<E: SecondOrder<N>>(&self, system: &E, r: &mut Point<N>) {
         let s = self.s;
         let pulled = times::<N, E>(&self.stiffness, &r.q);

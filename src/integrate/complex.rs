@@ -25,14 +25,14 @@ impl Complex {
     const ZERO: Self = Self { re: 0.0, im: 0.0 };
 
     /// 1/z.
-    #[inline(always)]
+    #[inline]
     pub fn inverse(self) -> Self {
         let scale = 1.0 / (self.re * self.re + self.im * self.im);
         Self { re: self.re * scale, im: -self.im * scale }
     }
 
     /// Between |z| and √2 |z|.
-    #[inline(always)]
+    #[inline]
     fn size(self) -> f64 {
         self.re.abs() + self.im.abs()
     }
@@ -40,7 +40,7 @@ impl Complex {
 
 impl Add for Complex {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn add(self, b: Self) -> Self {
         Self { re: self.re + b.re, im: self.im + b.im }
     }
@@ -48,7 +48,7 @@ impl Add for Complex {
 
 impl Sub for Complex {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn sub(self, b: Self) -> Self {
         Self { re: self.re - b.re, im: self.im - b.im }
     }
@@ -56,7 +56,7 @@ impl Sub for Complex {
 
 impl Mul for Complex {
     type Output = Self;
-    #[inline(always)]
+    #[inline]
     fn mul(self, b: Self) -> Self {
         Self { re: self.re * b.re - self.im * b.im, im: self.re * b.im + self.im * b.re }
     }
@@ -71,7 +71,7 @@ pub struct ComplexBlock<const N: usize> {
 
 impl<const N: usize> ComplexBlock<N> {
     /// Factorises a I − J; `None` if it is singular.
-    #[inline(always)]
+    #[inline]
     pub fn new<E: SecondOrder<N>>(system: &E, lin: &Linearisation<N, E::Power>, a: Complex) -> Option<Self> {
         let mut product = lin.by_position;
         system.times_rates(&mut product);
@@ -104,7 +104,7 @@ impl<const N: usize> ComplexBlock<N> {
     }
 
     /// Solves for the right-hand side `re` + i `im` in place.
-    #[inline(always)]
+    #[inline]
     pub fn solve<E: SecondOrder<N>>(&self, system: &E, k: &Matrix<N>, re: &mut Point<N>, im: &mut Point<N>) {
         let (m, per_a) = (&self.m, self.per_a);
         let mut b = [Complex::ZERO; N];

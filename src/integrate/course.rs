@@ -9,7 +9,7 @@ use super::system::Point;
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
 /// ends and bends b. One that does not change in the step keeps its bits.
-#[inline(always)]
+#[inline]
 pub fn bent(start: f64, end: f64, bends: [f64; 3], fraction: f64) -> f64 {
     let bend = bends[0] + fraction * (bends[1] + fraction * bends[2]);
     start + fraction * ((end - start) + (1.0 - fraction) * bend)
@@ -28,7 +28,7 @@ pub struct Extension<const N: usize> {
 
 impl<const N: usize> Extension<N> {
     /// The motion after a fraction of the step.
-    #[inline(always)]
+    #[inline]
     pub fn at(&self, fraction: f64) -> Point<N> {
         let Self { start, end, bends } = self;
         if fraction == 1.0 {
@@ -44,7 +44,7 @@ impl<const N: usize> Extension<N> {
 
     /// By how much the motion halfway, over a step of size `h` [s], contradicts the equations: `slope` is what they demand
     /// there, less what the extension does.
-    #[inline(always)]
+    #[inline]
     pub fn defect(&self, slope: &Point<N>, h: f64) -> Point<N> {
         let Self { start, end, bends } = self;
         let per_h = 1.0 / h;

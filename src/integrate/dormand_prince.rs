@@ -51,7 +51,7 @@ impl Method for DormandPrince {
     const ESTIMATE: u32 = 4;
     const IMPLICIT: bool = false;
 
-    #[inline(always)]
+    #[inline]
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,

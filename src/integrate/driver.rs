@@ -123,7 +123,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
 ///
 /// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
 /// completed, and thus leaves no trace.
-#[inline(always)]
+#[inline]
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
     method: &M,
     system: &S,
@@ -244,7 +244,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
 
 impl<const N: usize, P> Course<N, P> {
     /// Time that is left to the end of the equations, or to where it is expected [s].
-    #[inline(always)]
+    #[inline]
     fn remaining(&self) -> f64 {
         let is_ahead = self.expected > self.time + self.resolution;
         (if is_ahead { self.expected.min(self.end) } else { self.end }) - self.time
@@ -253,7 +253,7 @@ impl<const N: usize, P> Course<N, P> {
 
 /// The step to take when `wanted` is predicted and `remaining` is left, and whether it was fitted to the end: the last
 /// few steps are made equal, and slightly longer than predicted where that saves one.
-#[inline(always)]
+#[inline]
 fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     let steps = remaining / (LONGEST_FIT * wanted);
     if steps <= 1.0 {

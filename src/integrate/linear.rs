@@ -22,14 +22,14 @@ pub struct Inverse<const N: usize> {
 }
 
 /// Whether body `i` may be alike to others.
-#[inline(always)]
+#[inline]
 const fn is_alike<const N: usize, S: SecondOrder<N>>(i: usize) -> bool {
     i >= S::ALIKE.0 && i < S::ALIKE.0 + S::ALIKE.1
 }
 
 /// Divides row `k` of `a` by its pivot, which once was `before`, and leaves the reciprocal in its place; `None` if the pivot
 /// vanishes or is not finite.
-#[inline(always)]
+#[inline]
 fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option<()> {
     let pivot = a[k][k];
     // the comparison fails for NaN too
@@ -45,7 +45,7 @@ fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option
 }
 
 /// Takes so much of row `k` from row `i` that its element in column `k` vanishes; what the inverse has there takes its place.
-#[inline(always)]
+#[inline]
 fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
     let factor = a[i][k];
     a[i][k] = 0.0;
@@ -56,7 +56,7 @@ fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
 
 impl<const N: usize> Inverse<N> {
     /// Inverts `a` for the system `S`; `None` if a pivot vanishes or is not finite.
-    #[inline(always)]
+    #[inline]
     pub fn new<S: SecondOrder<N>>(mut a: Matrix<N>) -> Option<Self> {
         let (first, count) = S::ALIKE;
         let mut diagonal = [0.0; N];
@@ -104,7 +104,7 @@ impl<const N: usize> Inverse<N> {
     }
 
     /// Solves for the right-hand side `b` in place.
-    #[inline(always)]
+    #[inline]
     pub fn solve<S: SecondOrder<N>>(&self, b: &mut [f64; N]) {
         let mut x = of_alike::<N, S>(&self.columns, b);
         let mut left = *b;
@@ -118,7 +118,7 @@ impl<const N: usize> Inverse<N> {
 }
 
 /// Σ of those `columns` times `x` that belong to bodies that may be alike, in pairs.
-#[inline(always)]
+#[inline]
 fn of_alike<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let (first, count) = S::ALIKE;
     // plain loops: what they call is inlined, for vectors of any width
@@ -130,7 +130,7 @@ fn of_alike<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]
 }
 
 /// Adds the other `columns` times `x`.
-#[inline(always)]
+#[inline]
 fn add_others<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N], sum: &mut [f64; N]) {
     for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
         for i in 0..N {
@@ -140,7 +140,7 @@ fn add_others<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; 
 }
 
 /// Σ of `columns` times `x`.
-#[inline(always)]
+#[inline]
 pub fn times<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let mut sum = of_alike::<N, S>(columns, x);
     add_others::<N, S>(columns, x, &mut sum);

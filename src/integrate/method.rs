@@ -34,7 +34,7 @@ impl<const N: usize, P: Copy> Trial<N, P> {
     /// The trial with a look at its middle, unless its end is in error already. Halfway in a step of size `h` from `time`
     /// the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
     /// part of h.
-    #[inline(always)]
+    #[inline]
     pub fn looked_into<S: SecondOrder<N, Power = P>>(
         self,
         system: &S,
@@ -67,7 +67,7 @@ pub struct ErrorNorm<const N: usize> {
 
 impl<const N: usize> ErrorNorm<N> {
     /// Largest component of `of` over the allowed one; ignores NaN.
-    #[inline(always)]
+    #[inline]
     pub fn size(&self, of: &Point<N>) -> f64 {
         let mut largest = 0.0f64;
         for i in 0..N {
@@ -77,7 +77,7 @@ impl<const N: usize> ErrorNorm<N> {
     }
 
     /// Largest component of the error of a step to `end` over the allowed one; NaN if anything is not finite.
-    #[inline(always)]
+    #[inline]
     pub fn judge(&self, error: &Point<N>, end: &Point<N>) -> f64 {
         let weight = &self.weights;
         let (mut largest, mut sum) = (0.0f64, 0.0);
@@ -112,7 +112,7 @@ pub trait Method {
     ) -> Option<Trial<N, S::Power>>;
 
     /// x^(1/(p+1)), to a per mille, which suffices for a step size.
-    #[inline(always)]
+    #[inline]
     fn root(x: f64) -> f64 {
         match Self::ESTIMATE {
             3 => x.sqrt().sqrt(),
@@ -123,7 +123,7 @@ pub trait Method {
 }
 
 /// y += scale Σ weight_j u_j over the first stages.
-#[inline(always)]
+#[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
     for (weight, u) in weights.iter().zip(u) {
         let weight = weight * scale;

@@ -57,7 +57,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 impl Method for Radau {
     const ESTIMATE: u32 = 3;
 
-    #[inline(always)]
+    #[inline]
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,
@@ -147,7 +147,7 @@ impl Method for Radau {
     }
 }
 
-#[inline(always)]
+#[inline]
 fn shifted<const N: usize>(from: &Point<N>, by: &Point<N>) -> Point<N> {
     let mut to = *from;
     combine(&mut to, &[1.0], 1.0, std::slice::from_ref(by));

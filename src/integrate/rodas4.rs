@@ -15,7 +15,7 @@ pub struct Rodas4;
 impl Method for Rodas4 {
     const ESTIMATE: u32 = 3;
 
-    #[inline(always)]
+    #[inline]
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,

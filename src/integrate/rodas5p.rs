@@ -15,7 +15,7 @@ pub struct Rodas5P;
 impl Method for Rodas5P {
     const ESTIMATE: u32 = 4;
 
-    #[inline(always)]
+    #[inline]
     fn step<const N: usize, S: SecondOrder<N>>(
         &self,
         system: &S,

@@ -47,7 +47,7 @@ impl<const S: usize> Tableau<S> {
 }
 
 /// One step of size `h` from `start` at `time`, where `lin` was taken. `None` if the matrix is singular. Counts its evaluations.
-#[inline(always)]
+#[inline]
 pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     tableau: &Tableau<S>,
     system: &E,

@@ -18,7 +18,7 @@ impl<const N: usize> Point<N> {
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
 
     /// Positions and velocities in one row, which fills vectors better than two.
-    #[inline(always)]
+    #[inline]
     #[allow(unsafe_code)]
     pub fn row(&self) -> &[f64] {
         // SAFETY: two arrays of N numbers, one behind the other (repr(C)).
@@ -26,7 +26,7 @@ impl<const N: usize> Point<N> {
     }
 
     /// The same, to be changed.
-    #[inline(always)]
+    #[inline]
     #[allow(unsafe_code)]
     pub fn row_mut(&mut self) -> &mut [f64] {
         // SAFETY: as above.
@@ -62,13 +62,13 @@ pub trait SecondOrder<const N: usize> {
     const ALIKE: (usize, usize) = (N, 0);
 
     /// B v.
-    #[inline(always)]
+    #[inline]
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         *v
     }
 
     /// Replaces `m` by m B, row by row.
-    #[inline(always)]
+    #[inline]
     fn times_rates(&self, _m: &mut Matrix<N>) {}
 
     /// Accelerations and ledger rates.
@@ -78,19 +78,19 @@ pub trait SecondOrder<const N: usize> {
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Power>;
 
     /// Whether accelerations depend on the time as well.
-    #[inline(always)]
+    #[inline]
     fn is_driven(&self) -> bool {
         false
     }
 
     /// [`Self::evaluate`] of a driven system at `time` [s].
-    #[inline(always)]
+    #[inline]
     fn evaluate_at(&self, at: &Point<N>, _time: f64) -> ([f64; N], Self::Power) {
         self.evaluate(at)
     }
 
     /// [`Self::linearise`] of a driven system at `time` [s].
-    #[inline(always)]
+    #[inline]
     fn linearise_at(&self, at: &Point<N>, _time: f64) -> Linearisation<N, Self::Power> {
         self.linearise(at)
     }
@@ -104,34 +104,34 @@ pub trait SecondOrder<const N: usize> {
     fn weights(&self, at: &Point<N>) -> Point<N>;
 
     /// Kinetic and stored energy.
-    #[inline(always)]
+    #[inline]
     fn energy(&self, _at: &Point<N>) -> [f64; 2] {
         [0.0; 2]
     }
 
     /// [`Self::linearise_at`] and [`Self::energy`] at one point, for systems that find both in one go.
-    #[inline(always)]
+    #[inline]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Self::Power>, [f64; 2]) {
         (self.linearise_at(at, time), self.energy(at))
     }
 
     /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the
     /// energies at its ends and the ledger rates at begin, middle and end.
-    #[inline(always)]
+    #[inline]
     fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Power; 3]) -> f64 {
         0.0
     }
 
     /// The fraction of an iteration from `from` to `to` to take, so that it does not jump deep into a contact whose force
     /// it has not evaluated yet.
-    #[inline(always)]
+    #[inline]
     fn reach(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
         1.0
     }
 
     /// Where the first kink of the accelerations lies on the way that a step of size `h` from `at` will take, as the
     /// fraction of the step to take instead, as far as that can be seen from `at`.
-    #[inline(always)]
+    #[inline]
     fn kink(&self, _at: &Point<N>, _h: f64) -> Option<f64> {
         None
     }
@@ -139,14 +139,14 @@ pub trait SecondOrder<const N: usize> {
     /// Where a switch of the system's equations falls within the step from `start` to `end`, as the fraction of the step
     /// to take instead; `None` if there is none, or if it falls on the end as closely as it needs to. Both ends come with
     /// their times [s].
-    #[inline(always)]
+    #[inline]
     fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None
     }
 }
 
 /// Sum of `count` terms, 0, 1, 2, 4 or 8, in pairs.
-#[inline(always)]
+#[inline]
 pub fn in_pairs(count: usize, term: impl Fn(usize) -> f64) -> f64 {
     let two = |i: usize| term(i) + term(i + 1);
     match count {

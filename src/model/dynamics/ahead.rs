@@ -57,13 +57,13 @@ impl Ahead {
     }
 
     /// Whether the step contains the time `now` of its clock [s].
-    #[inline(always)]
+    #[inline]
     pub fn contains(&self, now: f64) -> bool {
         now <= self.clock.time + self.attempt.h
     }
 
     /// Writes the first `n` positions and velocities at the present to `q` and `v`.
-    #[inline(always)]
+    #[inline]
     pub fn motion(&self, n: usize, [q, v]: [&mut [f64; MAX_DOF]; 2]) {
         let fraction = (self.clock.now - self.clock.time) / self.attempt.h;
         for (k, to) in [q, v].into_iter().enumerate() {

@@ -71,19 +71,19 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// Dry friction on all bodies.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn friction(&self) -> &Friction {
         self.friction.as_ref().unwrap_or(&Friction::NONE)
     }
 
     /// Whether there is any.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn rubs(&self) -> bool {
         WITH_EFFECTS && self.rubs
     }
 
     /// Whether inputs change while they act.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
         WITH_EFFECTS && self.driven
     }
@@ -100,7 +100,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// State of the mesh of group `g` with side `s`.
-    #[inline(always)]
+    #[inline]
     pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
         let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
@@ -119,7 +119,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
 
     /// A group before `g` whose plain meshes are in the same state to the last bit: what its teeth do, those of `g` do too.
     /// Planets that are simulated one by one move together until something tells them apart, such as a tooth that breaks.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if G == 1 || matches!(self.teeth.mesh.law, Law::Solid(_)) {
             return None;
@@ -134,18 +134,18 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// Pitches by which the planets of group `g` have been wrapped, in the sense of x of the mesh with side `s`.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn wrapped(&self, g: usize, s: usize) -> i64 {
         if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
     }
 
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn members(&self, g: usize) -> f64 {
         self.teeth.plan.group(g).members
     }
 
     /// Adds mesh forces (conjugate to q and x) to side gears, carrier or pins, and planets.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
         let [planet, side] = self.teeth.sin_base;
         let on = |s: usize| in_pairs(G, |g| self.members(g) * side * force(g, s)[0]);
@@ -166,13 +166,13 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         self.block_between(s, s, by)
     }
 
     /// The same of the mesh of side `s` by the coordinates of that of side `other`.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn block_between(&self, s: usize, other: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let [planet, side] = self.teeth.sin_base;
         let [turn, turned] = [s, other].map(|s| SIGMA[s] * planet);
@@ -187,14 +187,14 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// The same of a mesh whose side gear cannot move along its axis.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn block(&self, s: usize, by: &[[f64; 2]; 2]) -> [[f64; 3]; 3] {
         let [[qq, qx], [xq, xx]] = *by;
         self.local_block(s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
     }
 
     /// Adds the blocks of all meshes to ∂(sums)/∂(positions) or ∂(sums)/∂(rates).
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn add_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
         for g in 0..G {
             let (i, members) = (Self::PLANET + g, self.members(g));
@@ -235,7 +235,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.input_derivatives.rates[0];
@@ -278,7 +278,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// Sums of tooth torques on side gears, carrier, planets and pins without any input, and the heat of contact.
-    #[inline(always)]
+    #[inline]
     pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
         let mut sum = [0.0; N];
         let mut load = [[MeshForce::default(); 2]; G];
@@ -323,7 +323,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     }
 
     /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
-    #[inline(always)]
+    #[inline]
     pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
         let mut deepest = (f64::NEG_INFINITY, 0, 0);
         for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {

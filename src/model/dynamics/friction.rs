@@ -95,7 +95,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Adds the torques and the heat of dry friction under the loads on its surfaces.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn add_friction(
         &self,
         at: &Point<N>,
@@ -242,7 +242,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Adds to row `row` the slopes of something by q, x, w, or their rates, of all meshes of side `s`.
-    #[inline(always)]
+    #[inline]
     fn spread_positions(
         &self,
         row: usize,
@@ -314,7 +314,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.rubs() {
             return;

@@ -89,7 +89,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     pub(super) const SEAT: usize = CARRIER + 1;
 
     /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn in_detail(&self) -> bool {
         self.teeth.additions.in_detail || self.fault
     }
@@ -100,7 +100,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// State of the mesh of group `g` with side `s` in detail.
-    #[inline(always)]
+    #[inline]
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
         let [w, dw] = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
@@ -124,7 +124,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// The fraction of a step of `h` [s] from `at` on after which the force of the mesh of group `g` with side `s` has its
     /// first kink; `moved` tells what others move its pairs by.
-    #[inline(always)]
+    #[inline]
     pub(super) fn mesh_kink(
         &self,
         at: &Point<N>,

@@ -37,13 +37,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// The equations linearised, and the elastic energy of all meshes [J].
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
         if WITH_EFFECTS { self.linearise_all(at) } else { self.linearise_teeth(at) }
     }
 
     /// The equations of teeth without effects, linearised, and the elastic energy [J].
-    #[inline(always)]
+    #[inline]
     fn linearise_teeth(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
         let mut power = Power::default();
         let (mut acceleration, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
@@ -77,7 +77,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// The equations with all effects, linearised, and the elastic energy of all meshes [J].
-    #[inline(always)]
+    #[inline]
     fn linearise_all(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
         let mut power = Power::default();
         let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);

@@ -24,7 +24,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     type Power = Power;
     const ALIKE: (usize, usize) = (Self::PLANET, (1 + P) * G);
 
-    #[inline(always)]
+    #[inline]
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         let mut rates = *v;
         for s in 0..2 {
@@ -43,7 +43,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         rates
     }
 
-    #[inline(always)]
+    #[inline]
     fn times_rates(&self, m: &mut Matrix<N>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
@@ -59,7 +59,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
         let mut power = Power::default();
         if WITH_EFFECTS {
@@ -79,17 +79,17 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         self.linearise_and_store(at).0
     }
 
-    #[inline(always)]
+    #[inline]
     fn is_driven(&self) -> bool {
         self.is_driven_by_inputs()
     }
 
-    #[inline(always)]
+    #[inline]
     fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
         if self.is_driven_by_inputs() { self.later(time).evaluate(at) } else { self.evaluate(at) }
     }
 
-    #[inline(always)]
+    #[inline]
     fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
         if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
     }
@@ -99,7 +99,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
-    #[inline(always)]
+    #[inline]
     fn weights(&self, at: &Point<N>) -> Point<N> {
         let per_approach = 1.0 / (self.deepest(at).0.max(0.0) + APPROACH_FLOOR);
         let [planet, side] = self.teeth.sin_base.map(|lever| lever * per_approach);
@@ -133,12 +133,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         Point { q, v }
     }
 
-    #[inline(always)]
+    #[inline]
     fn energy(&self, at: &Point<N>) -> [f64; 2] {
         [self.kinetic_energy(at), if WITH_EFFECTS { self.stored(at, true) } else { self.elastic_energy(at) }]
     }
 
-    #[inline(always)]
+    #[inline]
     fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Power>, [f64; 2]) {
         let (lin, teeth) = if self.is_driven_by_inputs() {
             self.later(time).linearise_and_store(at)
@@ -149,7 +149,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         (lin, [self.kinetic_energy(at), teeth + bodies])
     }
 
-    #[inline(always)]
+    #[inline]
     fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
         // pairs that come and go abruptly bring energy that no force gave
         if !self.teeth.mesh.engagement.corner_contact() {
@@ -173,7 +173,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         part
     }
 
-    #[inline(always)]
+    #[inline]
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
         for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
@@ -189,7 +189,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         first
     }
 
-    #[inline(always)]
+    #[inline]
     fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
         if WITH_EFFECTS { self.friction_crossing(start, end) } else { None }
     }

@@ -27,14 +27,14 @@ macro_rules! with_teeth {
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// The bodies that pairs share, where they are elastic.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn bodies_of_gears(&self) -> Option<&SharedBodies> {
         // a constant where no effect acts, so that plain scenes do not even ask
         if WITH_EFFECTS { self.teeth.shared.as_deref() } else { None }
     }
 
     /// Number of the tooth of the unrolled sequence of the pair `number` of `flank`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn pair_name(&self, g: usize, s: usize, flank: Flank, number: i64) -> PairName {
         let wrapped = self.wrapped(g, s);
         let tooth = if flank == Flank::Drive {
@@ -46,12 +46,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// States of both meshes of group `g`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn mesh_states(&self, at: &Point<N>, g: usize) -> [MeshState; 2] {
         [0, 1].map(|s| self.mesh_state(at, g, s))
     }
 
-    #[inline(always)]
+    #[inline]
     fn meshes<'b>(&'b self, bodies: &'b SharedBodies, g: usize) -> SharedMeshes<'b> {
         let opposite = self.teeth.additions.perfect.opposite(self.teeth.plan.group(g).planet);
         SharedMeshes { mesh: &self.teeth.mesh, bodies, opposite, wrapped: [0, 1].map(|s| self.wrapped(g, s)) }
@@ -134,7 +134,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Loads of both meshes of group `g` in detail.
-    #[inline(always)]
+    #[inline]
     pub(super) fn planet_loads<T: Local>(&self, at: &Point<N>, g: usize) -> [DetailedLoad<T>; 2] {
         let mesh = &self.teeth.additions.detailed;
         match self.bodies_of_gears() {
@@ -146,7 +146,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Adds ∂(F_α, F_ψ, F_w of side s)/∂(α, ψ, w of the other side) of all planets.
-    #[inline(always)]
+    #[inline]
     pub(super) fn add_cross_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
         for s in 0..2 {
             let (other, [seat, other_seat]) = (1 - s, [s, 1 - s].map(|s| CARRIER + 1 + s));

@@ -45,7 +45,7 @@ impl Power {
 
     /// Residual of the energy balance of a step of size `h`, over the energy exchanged in the step: stored,
     /// worked and turned into heat. Kinetic energy, most of which nothing ever touches, counts by its rounding alone.
-    #[inline(always)]
+    #[inline]
     pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> f64 {
         let simpson = |of: &dyn Fn(&Self) -> f64| h / 6.0 * (of(a) + 4.0 * of(m) + of(b));
         let work = simpson(&|p| p.input);
@@ -58,14 +58,14 @@ impl Power {
 }
 
 /// Simpson's rule on begin, middle and end of a step.
-#[inline(always)]
+#[inline]
 pub fn simpson<const N: usize>(step: &Step<N, Power>, of: impl Fn(&Power) -> f64) -> f64 {
     let [a, m, b] = &step.power;
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 
 /// Adds work and heat of a step to the ledger; heat other than that of contact only where effects act.
-#[inline(always)]
+#[inline]
 pub fn add_to_ledger<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
     *work += simpson(step, |p| p.input);
     for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {

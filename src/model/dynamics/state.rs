@@ -82,7 +82,7 @@ impl State {
     }
 
     /// Moves to `until` [s] if the step ahead contains it, for `n` degrees of freedom. Returns whether it does.
-    #[inline(always)]
+    #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
         let Some(ahead) = &mut self.ahead else { return false };
         let now = ahead.clock.now + (until - self.time);

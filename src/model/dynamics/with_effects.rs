@@ -20,7 +20,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Forces of everything but commanded torques; derivatives where they are asked for.
-    #[inline(always)]
+    #[inline]
     pub(in crate::model) fn act(
         &self,
         at: &Point<N>,

@@ -75,7 +75,7 @@ impl Friction {
     }
 
     /// Friction on body `i` of those that may stick.
-    #[inline(always)]
+    #[inline]
     pub fn on(&self, i: usize) -> &DryFriction {
         match i {
             0..FRICTION_PLANETS => &self.side,
@@ -95,7 +95,7 @@ impl Friction {
     }
 
     /// Limit torques of the wheels under `inputs`, as loads.
-    #[inline(always)]
+    #[inline]
     pub fn wheel_loads(&self, inputs: &Inputs) -> [SurfaceLoad; 2] {
         match self.wheel_limit {
             Some(limit) => limit(inputs).map(|load| SurfaceLoad { thrust: 0.0, load }),

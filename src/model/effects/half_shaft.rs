@@ -138,7 +138,7 @@ impl HalfShafts {
     }
 
     /// Torque that the shaft of side `s` delivers to the wheel at `twist` [rad] changing at `rate` [rad/s] [N·m].
-    #[inline(always)]
+    #[inline]
     pub fn torque(&self, s: usize, twist: f64, rate: f64) -> f64 {
         self.stiffness[s] * twist + self.damping[s] * rate
     }

@@ -54,12 +54,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
         &self.friction_state
     }
 
-    #[inline(always)]
+    #[inline]
     fn is_due(&self, at: &Point<N>, time: f64) -> bool {
         WITH_EFFECTS && self.is_friction_due(at, time)
     }
 
-    #[inline(always)]
+    #[inline]
     fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         if WITH_EFFECTS {
             self.drag_anchors(at, power, anchors);
@@ -74,7 +74,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
         self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
     }
 
-    #[inline(always)]
+    #[inline]
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
         let (approach, g, side) = self.deepest(at);
         if approach > self.teeth.deflection_limit {
@@ -83,7 +83,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
         Ok(())
     }
 
-    #[inline(always)]
+    #[inline]
     fn record(&self, model: &Model, (step, pending): CompletedStep<N>, records: &mut Records) {
         add_to_ledger(step, records.work, records.heat, WITH_EFFECTS);
         if !self.teeth.mesh.engagement.corner_contact() {

@@ -90,14 +90,14 @@ struct Integration<'a, const N: usize, E> {
 impl<const N: usize, E: Recorded<N>> Task for Integration<'_, N, E> {
     type Output = Result<(), StepFailure>;
 
-    #[inline(always)]
+    #[inline]
     fn run(self) -> Self::Output {
         let Self { equations, model, state, stretch, budget } = self;
         integrate_stretch(equations, model, state, stretch, budget)
     }
 }
 
-#[inline(always)]
+#[inline]
 fn integrate_stretch<const N: usize, E: Recorded<N>>(
     equations: &mut E,
     model: &Model,

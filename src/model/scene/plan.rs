@@ -123,7 +123,7 @@ impl Plan {
     }
 
     /// Group `g` of planets.
-    #[inline(always)]
+    #[inline]
     pub fn group(&self, g: usize) -> &Group {
         &self.groups[g]
     }
