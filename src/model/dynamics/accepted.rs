@@ -24,7 +24,7 @@ pub struct Accepted {
 impl Accepted {
     /// `state` as it was there.
     pub fn of(&self, state: &State) -> State {
-        State { time: self.time, q: self.q, v: self.v, ..*state }
+        state.elsewhere(self.time, self.q, self.v)
     }
 
     /// Whether all numbers are finite.

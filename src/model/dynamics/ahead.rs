@@ -56,10 +56,10 @@ impl Ahead {
         }
     }
 
-    /// Whether the step contains the time `now` of its clock [s].
+    /// Time of its clock at which it ends [s].
     #[inline]
-    pub fn contains(&self, now: f64) -> bool {
-        now <= self.clock.time + self.attempt.h
+    pub fn end(&self) -> f64 {
+        self.clock.time + self.attempt.h
     }
 
     /// Writes the first `n` positions and velocities at the present to `q` and `v`.

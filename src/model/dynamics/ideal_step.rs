@@ -6,7 +6,7 @@ use crate::model::scene::Inputs;
 use crate::model::scene::layout::{CARRIER, PLANET};
 
 impl Ideal {
-    /// Exact step of size `h` under constant inputs.
+    /// Exact motion over `h` [s] under constant inputs.
     pub fn advance(&self, state: &mut State, inputs: &Inputs, h: f64) {
         let m = self.motion(inputs);
         let v = state.v;
@@ -26,6 +26,5 @@ impl Ideal {
         state.v[CARRIER] += h * m.carrier;
         state.v[PLANET] += h * m.spin;
         self.constrain(&mut state.v);
-        state.time += h;
     }
 }

@@ -18,8 +18,7 @@ const MOST_TURNS: u64 = 1 << 53;
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Time [s].
-    pub time: f64,
+    time: f64,
     /// Positions; angles of gears are wrapped by tooth pitches, the carrier's by turns [rad; seats m].
     pub q: [f64; MAX_DOF],
     /// Velocities [rad/s].
@@ -81,12 +80,33 @@ impl State {
         }
     }
 
+    /// Time [s].
+    #[inline]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Moves the time to `time` [s], to which the integrator's clock has moved the motion.
+    pub fn move_with_clock(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// Moves the time to `time` [s], where a host that integrates the motion itself is.
+    pub fn follow_host(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// The same at another time [s] with another motion.
+    pub fn elsewhere(&self, time: f64, q: [f64; MAX_DOF], v: [f64; MAX_DOF]) -> Self {
+        Self { time, q, v, ..*self }
+    }
+
     /// Moves to `until` [s] if the step ahead contains it, for `n` degrees of freedom. Returns whether it does.
     #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
         let Some(ahead) = &mut self.ahead else { return false };
         let now = ahead.clock.now + (until - self.time);
-        if !ahead.contains(now) {
+        if now > ahead.end() {
             return false;
         }
         ahead.clock.now = now;

@@ -1,6 +1,7 @@
 //! What changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
 
 use super::imposed;
+use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::sizes::{by_rigid_size, by_size, with_equations};
@@ -8,20 +9,6 @@ use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
-
-/// Time at which a tooth breaks, if it is still to come [s].
-pub fn onset(model: &Model, state: &State) -> f64 {
-    let p = &model.parameters;
-    let onset = p.specs.tooth_fault.onset;
-    if p.effects.tooth_fault && !state.fault && onset > state.time { onset } else { f64::INFINITY }
-}
-
-/// Whether a tooth breaks now, by its time or by the trigger.
-pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let p = &model.parameters;
-    let onset = p.specs.tooth_fault.onset;
-    p.effects.tooth_fault && !state.fault && (inputs.fault > 0.5 || onset > 0.0 && state.time >= onset)
-}
 
 /// Kinetic and stored energy [J].
 pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {

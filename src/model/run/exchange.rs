@@ -4,12 +4,13 @@
 //! states have no effect. Trial steps of the host's solver leave no trace: ledger, friction and teeth record completed
 //! steps, and change at events.
 
-use super::events::{are_brakes_new, break_tooth, breaks_tooth, energy, update_friction};
+use super::events::{are_brakes_new, break_tooth, energy, update_friction};
 use super::failure::StepFailure;
 use super::imposed;
 use super::ledger::{Recorded, Records};
 use super::progress::complete;
 use super::simulation::Simulation;
+use super::timeline::{breaks_tooth, next_change};
 use crate::integrate::{DynSystem, Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::accepted::Accepted;
@@ -101,8 +102,8 @@ impl Simulation {
 
     /// Records the present state as accepted; free speeds have followed the jumps of imposed ones up to `followed`.
     fn accept(&mut self, followed: Inputs) {
-        let State { time, q, v, .. } = self.state;
-        self.accepted = Some(Accepted { time, q, v, inputs: self.inputs, followed });
+        let State { q, v, .. } = self.state;
+        self.accepted = Some(Accepted { time: self.state.time(), q, v, inputs: self.inputs, followed });
         self.forces = None;
     }
 
@@ -153,7 +154,7 @@ impl Simulation {
 
     /// Sets the time [s].
     pub fn set_time(&mut self, time: f64) {
-        self.state.time = time;
+        self.state.follow_host(time);
     }
 
     /// Moves to `states`; imposed motions follow their commands. A step that goes beyond the present ends here.
@@ -182,7 +183,7 @@ impl Simulation {
         let model = &*self.model;
         let (inputs, state, watched) = (&self.inputs, &mut self.state, &mut self.watched);
         let mut is_due = false;
-        let h = state.time - from.time;
+        let h = state.time() - from.time;
         if h > 0.0 {
             let mut begin = from.of(state);
             let before = energy(model, inputs, &begin);
@@ -213,7 +214,7 @@ impl Simulation {
                 state.friction = *equations.friction_state();
                 outcome
             });
-            outcome.map_err(|tooth| StepFailure { time: state.time, message: tooth.message(model) })?;
+            outcome.map_err(|tooth| StepFailure { time: state.time(), message: tooth.message(model) })?;
             state.statistics.accepted += 1;
             state.statistics.evaluations += 2;
             state.control.last = h;
@@ -229,7 +230,7 @@ impl Simulation {
     /// An event: commands, friction and teeth change to what is due.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         // events whose time is known come without a step that is completed
-        if self.accepted.is_some_and(|from| from.time < self.state.time) {
+        if self.accepted.is_some_and(|from| from.time < self.state.time()) {
             self.complete_step()?;
         }
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
@@ -250,11 +251,10 @@ impl Simulation {
             }
         });
         break_tooth(model, inputs, state);
-        let onset = model.parameters.specs.tooth_fault.onset;
-        let waits = model.parameters.effects.tooth_fault && !state.fault && onset > state.time;
+        let next = next_change(model, state);
         let states_changed = before.q != state.q || before.v != state.v;
         self.accept(self.inputs);
-        Ok(Update { states_changed, next: waits.then_some(onset) })
+        Ok(Update { states_changed, next })
     }
 
     /// Event indicators: approach of flanks [m], positive where they press; distance of dry friction from its

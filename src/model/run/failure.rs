@@ -16,6 +16,13 @@ impl StepFailure {
     pub fn not_finite(time: f64) -> Self {
         Self { time, message: "the step gave values that are not finite; look at the inputs".into() }
     }
+
+    /// A step whose motion has come to `reached` [s] where it was to come to `until` [s].
+    pub fn not_reached(reached: f64, until: f64) -> Self {
+        let message =
+            format!("the motion did not reach t = {until} s; this is an error of the program, please report it");
+        Self { time: reached, message }
+    }
 }
 
 impl fmt::Display for StepFailure {

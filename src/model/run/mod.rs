@@ -19,6 +19,7 @@ mod sensitivity;
 mod simulation;
 mod start;
 mod stretch;
+mod timeline;
 mod watching;
 
 pub use cost_class::CostClass;

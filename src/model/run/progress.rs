@@ -4,10 +4,11 @@
 //! the present, and its continuous extension tells the motion. Where something changes, that step is completed up to the
 //! present, and the integration begins anew there.
 
-use super::events::{break_tooth, onset, update_friction};
+use super::events::{break_tooth, update_friction};
 use super::failure::StepFailure;
 use super::imposed;
-use super::stretch::{self, STRETCH, Stretch};
+use super::stretch::{self, Stretch};
+use super::timeline::{self, Stop};
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::equations::Equations;
@@ -16,16 +17,12 @@ use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::scene::{Inputs, Method};
 
-/// By how much longer than before inputs are expected to hold: hosts add up steps, with all the rounding that brings.
-const ROUNDING: f64 = 1e-6;
-
 /// Begins anew at the present: inputs have changed, or something else has.
 pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
     complete(model, (state, watched));
     imposed::jump(model, inputs, state);
     update_friction(model, inputs, state);
-    state.held = state.begun.map_or(f64::INFINITY, |begun| state.time - begun);
-    state.begun = Some(state.time);
+    timeline::begin_holding(state);
 }
 
 /// Completes the step ahead up to the present, under the inputs that acted in it. Switches of friction that are due at the
@@ -37,15 +34,16 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     let before = *state;
     state.input_derivatives = None;
     let mut budget = stretch::budget(model);
-    let begin = state.time - clock.now;
+    let begin = state.time() - clock.now;
     let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
     let outcome = with_equations!(model, state, &inputs, |equations| {
         let mut equations = equations;
         stretch::integrate::<N, _>(&mut equations, model, state, stretch, &mut budget)
     });
-    if outcome.is_err() {
+    if outcome.is_err() || clock.time != clock.now {
         // what was shown holds; the ledger tells what it lacks
-        *state = State { ahead: None, ..before };
+        *state = before;
+        state.ahead = None;
     }
     state.input_derivatives = before.input_derivatives;
     keep_together(model, state);
@@ -58,73 +56,72 @@ pub fn integrate(
     until: f64,
 ) -> Result<(), StepFailure> {
     let mut budget = stretch::budget(model);
-    while state.time < until {
-        let (begin, breaks) = (state.time, onset(model, state));
-        let mut end = if until - begin > 1.5 * STRETCH { begin + STRETCH } else { until };
-        end = end.min(breaks);
+    while state.time() < until {
+        let begin = state.time();
+        let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
-            to_end(model, inputs, (state, watched), end, &mut budget)
+            to_end(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            go_on(model, inputs, (state, watched), (end, breaks), &mut budget)
+            go_on(model, inputs, (state, watched), stop, &mut budget)
         };
-        advance_inputs(inputs, state, if outcome.is_ok() { end } else { state.time } - begin);
+        advance_inputs(inputs, state, state.time() - begin);
         outcome?;
-        // the rounding of the time axis may leave a rest too small to integrate
-        state.time = end;
         break_tooth(model, inputs, state);
     }
     Ok(())
 }
 
-/// Integrates in steps that end at `end` [s], which inputs that change by their derivatives ask for, and steps of fixed size.
+/// Integrates in steps that end at the stop, which inputs that change by their derivatives ask for, and steps of fixed size.
 fn to_end(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    end: f64,
+    stop: Stop,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let begin = state.time;
-    let mut clock = Clock { now: end - begin, ..Clock::new(end - begin, f64::INFINITY) };
+    let begin = state.time();
+    let length = stop.time - begin;
+    let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
         outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
     }
-    state.time = begin + clock.time;
     keep_together(model, state);
-    outcome
+    arrive(state, stop, begin + clock.time, outcome)
 }
 
-/// Integrates on, in steps that do not depend on `until` [s], to the step that contains it. A tooth breaks at `breaks` [s].
+/// Integrates on, in steps that do not depend on the stop, to the step that contains it.
 fn go_on(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    (until, breaks): (f64, f64),
+    stop: Stop,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let mut clock = match &state.ahead {
-        Some(ahead) => ahead.clock,
-        None => {
-            let held = state.held - state.begun.map_or(0.0, |begun| state.time - begun);
-            Clock::new(breaks - state.time, held * (1.0 + ROUNDING))
-        }
-    };
-    let mut begin = state.time - clock.now;
-    clock.now = if until == breaks { clock.end } else { clock.now + (until - state.time) };
+    let mut clock = timeline::clock(model, state);
+    let mut begin = state.time() - clock.now;
+    clock.now = if stop.is_change { clock.end } else { clock.now + (stop.time - state.time()) };
     loop {
         let outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
+        let mut reached = clock.time;
         if let Some(ahead) = &state.ahead {
             ahead.motion(model.layout.count(), [&mut state.q, &mut state.v]);
-        }
-        state.time = if state.ahead.is_some() { until } else { begin + clock.time };
-        if outcome.is_err() || state.ahead.is_some() || clock.time >= clock.end {
-            keep_together(model, state);
-            return outcome;
+            reached = clock.now.min(ahead.end());
         }
         keep_together(model, state);
+        if outcome.is_err() || state.ahead.is_some() || clock.time >= clock.end {
+            return arrive(state, stop, begin + reached, outcome);
+        }
         begin += clock.set_back();
     }
+}
+
+/// Moves the time to the stop if the motion has come there, and to what it has `reached` [s] otherwise.
+fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepFailure>) -> Result<(), StepFailure> {
+    if outcome.is_err() {
+        state.move_with_clock(reached);
+    }
+    outcome.and_then(|()| timeline::arrive(state, stop.time, reached))
 }
 
 fn one_stretch(

@@ -30,7 +30,7 @@ use crate::strength::LineContact;
 impl Simulation {
     /// Time [s].
     pub fn time(&self) -> f64 {
-        self.state.time
+        self.state.time()
     }
 
     /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their

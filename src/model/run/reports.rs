@@ -57,7 +57,8 @@ impl Simulation {
                 }
             }
         });
-        found
-            .map(|what| Problem::new("tooth_friction.law", format!("{what} at t = {:.6} s; reported once", state.time)))
+        found.map(|what| {
+            Problem::new("tooth_friction.law", format!("{what} at t = {:.6} s; reported once", state.time()))
+        })
     }
 }

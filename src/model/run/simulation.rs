@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::events::update_friction;
 use super::failure::StepFailure;
 use super::progress::{self, begin_anew};
-use super::{imposed, start};
+use super::{imposed, start, timeline};
 use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
@@ -124,7 +124,7 @@ impl Simulation {
         let model = &**model;
         let holds = state.ahead.as_ref().is_some_and(|ahead| ahead.inputs == *inputs);
         if holds && state.input_derivatives.is_none() {
-            if state.move_within(until, model.layout.count()) {
+            if timeline::move_within(model, state, until) {
                 progress::keep_together(model, state);
                 return Ok(());
             }
@@ -134,14 +134,14 @@ impl Simulation {
         if let Gears::Rigid(rigid) = &model.gears
             && !rigid.bodies.act_in(state)
         {
-            let h = until - state.time;
+            let h = until - state.time();
             let (q, v, work) = (state.q, state.v, state.work);
             model.ideal.advance(state, inputs, h);
             if !state.is_motion_finite() {
                 (state.q, state.v, state.work) = (q, v, work);
-                return Err(StepFailure::not_finite(state.time));
+                return Err(StepFailure::not_finite(state.time()));
             }
-            state.time = until;
+            timeline::arrive(state, until, state.time() + h)?;
             state.statistics.accepted += 1;
             state.control.last = h;
             state.wrap(&model.periods, &model.layout);
@@ -151,14 +151,14 @@ impl Simulation {
         // what nothing counts need not be kept
         let kept = model.watch.as_ref().map(|_| *watched);
         let mut outcome = progress::integrate(model, (inputs, state, watched), until);
-        if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time) {
+        if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
             go_back((inputs, state, watched), &before, &kept);
             begin_anew(model, inputs, (state, watched));
             outcome = progress::integrate(model, (inputs, state, watched), until);
         }
         if outcome.is_ok() && !state.is_sound() {
-            outcome = Err(StepFailure::not_finite(state.time));
+            outcome = Err(StepFailure::not_finite(state.time()));
             go_back((inputs, state, watched), &before, &kept);
         }
         outcome
