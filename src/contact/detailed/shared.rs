@@ -86,13 +86,7 @@ impl Detailed {
             sums.add::<S, true, true>(&part, (spring, &place, &Damping::NONE), &still, opening, None, |_| {});
         }
         let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
-        Carried {
-            load: sums.torque / self.moment,
-            by_arc,
-            by_opening,
-            by_place,
-            energy: sums.energy / self.moment,
-        }
+        Carried { load: sums.torque / self.moment, by_arc, by_opening, by_place, energy: sums.energy / self.moment }
     }
 
     /// The pairs of both meshes that are pressed, that others may pull together, or that are within `lookout` of the deepest
