@@ -42,6 +42,9 @@ pub enum Damping {
 }
 
 impl Damping {
+    /// No damping.
+    pub const NONE: Self = Self::HuntCrossley { lambda: 0.0 };
+
     /// The same law for arcs, torques and rates about the pole of the plane of action, per unit of `weight`, of a face
     /// whose force acts at the cone distance `cone` [m].
     pub fn in_arcs(&self, cone: f64, weight: f64) -> Self {

@@ -116,7 +116,7 @@ fn derivatives_equal_central_differences() {
 fn force_does_not_jump_while_gaps_close_before_the_teeth_would_meet() {
     let (waves, thick) = (Waves { size: 2e-5 }, Even(-5e-5));
     let (mut worst, mut switches) = (0.0f64, 0);
-    for kind in [Kind::Impact, Kind::Line] {
+    for kind in [Kind::Impact, Kind::Line, Kind::LineWeber] {
         for of in GEARS {
             let both = Both::sliced(of, kind, UNDAMPED, None);
             for (approach, w, gaps) in [

@@ -10,5 +10,6 @@ mod mesh_explicit;
 #[path = "../mesh_laws/mod.rs"]
 mod mesh_laws;
 mod parts;
+mod patches;
 mod plain;
 mod setup;

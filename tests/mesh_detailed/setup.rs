@@ -168,13 +168,16 @@ pub fn difference(state: &DetailedState, i: usize, h: f64, f: impl Fn(&DetailedS
 }
 
 /// A loaded slice as far as it must stay the same.
-pub type Loaded = (PairName, u64, Spot, bool, bool);
+pub type Loaded = (PairName, u64, Spot, bool, bool, [bool; 2]);
 
-/// Loaded slices with their kind of contact, whether flanks are about to part, and whether damping is full: where this
-/// changes, derivatives jump or bend. Nothing if a slice is less than `least` deep [rad].
+/// Loaded slices with their kind of contact, whether flanks are about to part, whether damping is full, and which ends of the
+/// face carry: where this changes, derivatives jump or bend. Nothing if a slice that stands still, or the deepest of those
+/// that move with a part of the face, is less than `least` deep [rad].
 pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, least: f64) -> Option<Vec<Loaded>> {
     let mut pattern = Vec::new();
     let mut shallow = false;
+    let mut deepest: Vec<(PairName, f64)> = Vec::new();
+    let ends = both.detailed.face.ends().unwrap_or([both.plain.cone; 2]);
     let fixed: Vec<u64> = match &both.detailed.face {
         Face::Whole(node) => vec![node.cone.to_bits()],
         Face::Cut(_, nodes) => nodes.iter().map(|node| node.cone.to_bits()).collect(),
@@ -188,12 +191,18 @@ pub fn pattern(both: &Both, gaps: Option<&dyn Gaps>, state: &DetailedState, leas
             Spot::SideTip if !past_side_tip => Spot::Path,
             spot => spot,
         };
-        shallow |= slice.arc < least;
         let full = slice.arc * slice.cone * PER_FULL_DEPTH >= 1.0;
         // points move over a part of the face that carries
         let place = Some(slice.cone.to_bits()).filter(|place| fixed.contains(place)).unwrap_or(0);
-        pattern.push((slice.name, place, spot, slice.normal <= 0.0, full));
+        match deepest.iter_mut().find(|(name, _)| *name == slice.name) {
+            _ if place != 0 => shallow |= slice.arc < least,
+            Some((_, arc)) => *arc = arc.max(slice.arc),
+            None => deepest.push((slice.name, slice.arc)),
+        }
+        let carry = ends.map(|end| slice.approach.arc - slice.opening.at(end) / end > 0.0);
+        pattern.push((slice.name, place, spot, slice.normal <= 0.0, full, carry));
     });
+    shallow |= deepest.iter().any(|(_, arc)| *arc < least);
     (!shallow).then_some(pattern)
 }
 

@@ -2,12 +2,18 @@
 //!
 //! A slice at cone distance R penetrates by the arc p = A − e(R, s)/R with the opening e = E + turn R + bend R² of the
 //! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so that the part of the face that
-//! carries is one interval, on each side of a broken tooth's edge. Its ends follow in closed form. Under a linear law the
-//! energy is a polynomial of fourth degree in R, for which four of Gauss's points on that interval are exact: the load grows
-//! and falls as smoothly as flanks come together, and force and energy belong to each other to the last digit.
+//! carries is one interval, on each side of a broken tooth's edge. Its ends follow in closed form.
 //!
-//! Under a law that is not linear they would belong to each other only as far as the points are exact. There the points
-//! stand still, eight over the whole face.
+//! Under a linear law the energy is a polynomial of fourth degree in R, for which four of Gauss's points on that interval are
+//! exact: the load grows and falls as smoothly as flanks come together, and force and energy belong to each other to the last
+//! digit.
+//!
+//! Under any other law the load is smooth where it is not near zero, and eight of Gauss's points have it to 5·10⁻¹⁰. Where it
+//! falls to zero at an end, or would within a quarter of the part's length past it, a law such as `line_weber` goes as
+//! x/ln(1/x) there. Twelve points that crowd at the ends have the load to 10⁻⁸, at every length of the part. With
+//! R = middle + half g(t), g = (15t − 10t³ + 3t⁵)/8, x goes as (1 ∓ t)³ at the ends and dR as (1 − t²)², and t runs over
+//! Gauss's points for that weight (Jacobi's polynomials P⁽²'²⁾). The ends of a part move with the load and take its points
+//! along; a sum's derivative contains how they do ([`Moves`]).
 
 use super::{Opening, Slice};
 use crate::numeric::sqrt;
@@ -19,11 +25,11 @@ const GAUSS: [(f64, f64); POINTS] = [
     (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
 ];
-/// Points over the part of a face that carries.
+/// Points over the part of a face that carries under a linear law.
 const POINTS: usize = 4;
 
 /// The same, eight of them.
-const GAUSS_EIGHT: [(f64, f64); FIXED] = [
+const GAUSS_EIGHT: [(f64, f64); EIGHT] = [
     (-0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
     (-0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
     (-0.525_532_409_916_329, 0.313_706_645_877_887_3),
@@ -33,8 +39,28 @@ const GAUSS_EIGHT: [(f64, f64); FIXED] = [
     (0.796_666_477_413_626_7, 0.222_381_034_453_374_47),
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
 ];
-/// Points over a whole face that stand still.
-const FIXED: usize = 8;
+/// Points over a whole face.
+const EIGHT: usize = 8;
+
+/// Twelve that crowd at the ends: g and its weights at the zeros t of P₁₂⁽²'²⁾.
+const CROWDED: [(f64, f64); MOST] = [
+    (-0.999_419_541_897_761_4, 0.002_228_893_991_661_38),
+    (-0.990_150_086_695_944_9, 0.021_049_674_820_056_04),
+    (-0.943_761_930_424_009_3, 0.080_007_531_037_234_99),
+    (-0.813_705_964_245_024_4, 0.186_861_689_141_318_19),
+    (-0.563_589_241_954_168_3, 0.311_993_103_696_438_58),
+    (-0.202_934_027_166_751_85, 0.397_859_107_313_271_01),
+    (0.202_934_027_166_751_85, 0.397_859_107_313_271_01),
+    (0.563_589_241_954_168_3, 0.311_993_103_696_438_58),
+    (0.813_705_964_245_024_4, 0.186_861_689_141_318_19),
+    (0.943_761_930_424_009_3, 0.080_007_531_037_234_99),
+    (0.990_150_086_695_944_9, 0.021_049_674_820_056_04),
+    (0.999_419_541_897_761_4, 0.002_228_893_991_661_38),
+];
+/// Points near whose ends loads vanish.
+const MOST: usize = 12;
+/// How far past the ends of a face its load is still not zero where eight points serve, by the face's length.
+const CLEAR: f64 = 0.25;
 
 /// A point of the sum over the face.
 #[derive(Clone, Copy, Debug, Default)]
@@ -62,8 +88,8 @@ pub enum Face {
     Whole(Node),
     /// A linear law that holds at every cone distance between two ends [m]; its points where all of it carries.
     Cut([f64; 2], [Node; POINTS]),
-    /// Any law that holds at every cone distance between two ends [m]; its points.
-    Sliced([f64; 2], [Node; FIXED]),
+    /// Any law that holds at every cone distance between two ends [m]; its points where all of it carries by far.
+    Sliced([f64; 2], [Node; EIGHT]),
 }
 
 /// The points of a rule over a part of the face.
@@ -84,11 +110,11 @@ impl Face {
 
     /// A face between cone distances `inner` and `outer` [m] under any law.
     pub fn sliced(inner: f64, outer: f64) -> Self {
-        Self::Sliced([inner, outer], Self::fixed_points([inner, outer]))
+        Self::Sliced([inner, outer], Self::gauss_points([inner, outer]))
     }
 
-    /// The points over the part between two cone distances [m] that serve any law.
-    pub fn fixed_points(ends: [f64; 2]) -> [Node; FIXED] {
+    /// Eight of Gauss's points over a whole face between two cone distances [m].
+    pub fn gauss_points(ends: [f64; 2]) -> [Node; EIGHT] {
         nodes(&GAUSS_EIGHT, ends)
     }
 
@@ -115,7 +141,7 @@ impl Face {
         match self {
             Self::Whole(_) => 1,
             Self::Cut(..) => POINTS,
-            Self::Sliced(..) => FIXED,
+            Self::Sliced(..) => EIGHT,
         }
     }
 
@@ -161,35 +187,95 @@ impl Face {
                     _ => even,
                 };
                 let all: &[Node] = if carries(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
-                [Part { nodes: all, even }, Part::NONE]
+                [Part { nodes: all, even, moves: None }, Part::NONE]
             }
-            Self::Cut(ends, all) => {
-                let [first, second] = &mut cut.0;
-                let Some((edge, depth)) = opening.edge else {
-                    return [Part::new(all, *ends, even, carrying(a, even, bend, *ends), first), Part::NONE];
-                };
-                let ([inner, outer], edge) = (*ends, edge.clamp(ends[0], ends[1]));
-                let sound = if inner < edge { carrying(a, even, bend, [inner, edge]) } else { None };
-                let even_beyond = even + depth;
-                let broken = if edge < outer { carrying(a, even_beyond, bend, [edge, outer]) } else { None };
-                [Part::new(all, *ends, even, sound, first), Part::new(all, *ends, even_beyond, broken, second)]
-            }
-            Self::Sliced(ends, all) => {
-                let part = |even: f64, nodes| {
-                    let nodes: &[Node] = if carrying(a, even, bend, *ends).is_some() { nodes } else { &[] };
-                    Part { nodes, even }
-                };
-                let Some((edge, depth)) = opening.edge else { return [part(even, all), Part::NONE] };
-                let (sound, broken) = all.split_at(all.iter().take_while(|node| node.cone <= edge).count());
-                [part(even, sound), part(even + depth, broken)]
-            }
+            Self::Cut(ends, all) => parts(*ends, opening, a, &mut cut.exact, |even, span, room| match span {
+                Some(span) if span.ends == *ends => Part { nodes: all, even, moves: None },
+                // the sums are exact wherever their points are
+                Some(span) => Part { nodes: room.insert(nodes(&GAUSS, span.ends)), even, moves: None },
+                None => Part::NONE,
+            }),
+            Self::Sliced(ends, all) => parts(*ends, opening, a, &mut cut.crowded, |even, span, room| {
+                let Some(span) = span else { return Part::NONE };
+                let past = CLEAR * (ends[1] - ends[0]);
+                let is_clear = |r: f64| carries(a, even, bend, r);
+                if span.ends == *ends && is_clear(ends[0] - past) && is_clear(ends[1] + past) {
+                    return Part { nodes: all, even, moves: None };
+                }
+                let moves = (span.by_arc != [0.0; 2]).then(|| Moves::new(&span));
+                Part { nodes: room.insert(nodes(&CROWDED, span.ends)), even, moves }
+            }),
         }
     }
 }
 
+/// The sound and the broken part of a face between `ends` at the approach `a` less the turn, each as `part` makes it of E,
+/// what carries, and its room.
+#[inline(always)]
+fn parts<'a, R>(
+    ends: [f64; 2],
+    opening: &Opening,
+    a: f64,
+    [first, second]: &'a mut [R; 2],
+    part: impl Fn(f64, Option<Span>, &'a mut R) -> Part<'a>,
+) -> [Part<'a>; 2] {
+    let [even, bend] = [opening.even.v, opening.bend];
+    let Some((edge, depth)) = opening.edge else {
+        return [part(even, carrying(a, even, bend, ends), first), Part::NONE];
+    };
+    let ([inner, outer], edge) = (ends, edge.clamp(ends[0], ends[1]));
+    let sound = if inner < edge { carrying(a, even, bend, [inner, edge]) } else { None };
+    let beyond = even + depth;
+    let broken = if edge < outer { carrying(a, beyond, bend, [edge, outer]) } else { None };
+    [part(even, sound, first), part(beyond, broken, second)]
+}
+
 /// Room for points of parts that are cut.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Cut([Option<[Node; POINTS]>; 2]);
+pub struct Cut {
+    exact: [Option<[Node; POINTS]>; 2],
+    crowded: [Option<[Node; MOST]>; 2],
+}
+
+/// What carries of a face.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    /// Its ends [m].
+    ends: [f64; 2],
+    /// By how much they move with the approach, ∂R/∂A [m/rad]; 0 at an edge.
+    by_arc: [f64; 2],
+}
+
+/// How the points of a part move with its ends, by the approach A and the opening E of the pair.
+///
+/// At an end that the load moves p(R; A, E) = 0, so that it moves by dR = −(dA − dE/R)/p′.
+#[derive(Clone, Copy, Debug)]
+pub struct Moves {
+    from: f64,
+    per_length: f64,
+    /// ∂R/∂A and ∂R/∂E of both ends.
+    ends: [[f64; 2]; 2],
+    /// By how much the part stretches, by its length.
+    stretch: [f64; 2],
+}
+
+impl Moves {
+    fn new(span: &Span) -> Self {
+        let [from, to] = span.ends;
+        let per_length = 1.0 / (to - from);
+        let [low, high] = [0, 1].map(|i| [span.by_arc[i], -span.by_arc[i] / span.ends[i]]);
+        let stretch = [0, 1].map(|by| (high[by] - low[by]) * per_length);
+        Self { from, per_length, ends: [low, high], stretch }
+    }
+
+    /// By A and by E: how far the point at `cone` moves, and by how much the width that it stands for grows.
+    #[inline(always)]
+    pub fn at(&self, cone: f64) -> [[f64; 2]; 2] {
+        let along = (cone - self.from) * self.per_length;
+        let [low, high] = self.ends;
+        [0, 1].map(|by| [low[by] + along * (high[by] - low[by]), self.stretch[by]])
+    }
+}
 
 /// A part of the face that carries.
 #[derive(Clone, Copy, Debug)]
@@ -198,32 +284,18 @@ pub struct Part<'a> {
     pub nodes: &'a [Node],
     /// E there [m].
     pub even: f64,
+    /// How they move, where sums over them are not exact.
+    pub moves: Option<Moves>,
 }
 
 impl<'a> Part<'a> {
     /// Nothing.
-    pub const NONE: Self = Self { nodes: &[], even: 0.0 };
+    pub const NONE: Self = Self { nodes: &[], even: 0.0, moves: None };
 
     /// All of it in one point.
     #[inline(always)]
     pub fn of(node: &'a Node) -> Self {
-        Self { nodes: std::slice::from_ref(node), even: 0.0 }
-    }
-
-    #[inline(always)]
-    fn new(
-        all: &'a [Node],
-        ends: [f64; 2],
-        even: f64,
-        part: Option<[f64; 2]>,
-        cut: &'a mut Option<[Node; POINTS]>,
-    ) -> Self {
-        let nodes = match part {
-            None => &[],
-            Some(part) if part == ends => all,
-            Some(part) => cut.insert(nodes(&GAUSS, part)),
-        };
-        Self { nodes, even }
+        Self { nodes: std::slice::from_ref(node), even: 0.0, moves: None }
     }
 
     /// Whether nothing carries.
@@ -241,27 +313,34 @@ fn carries(a: f64, even: f64, bend: f64, r: f64) -> bool {
 
 /// The part of [from, to] on which a R − E − bend R² is positive, bend ≥ 0.
 #[inline(always)]
-fn carrying(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+fn carrying(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<Span> {
     match (carries(a, even, bend, from), carries(a, even, bend, to)) {
-        (true, true) => Some([from, to]),
+        (true, true) => Some(Span { ends: [from, to], by_arc: [0.0; 2] }),
         (lower, upper) => part(a, even, bend, [from, to], [lower, upper]),
     }
 }
 
 /// The same where not all of it carries.
 #[inline(never)]
-fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) -> Option<[f64; 2]> {
+fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) -> Option<Span> {
     let square = a * a - 4.0 * bend * even;
     // between the ends it carries where the parabola's top is
     if carries == [false; 2] && !(square > 0.0 && a > 2.0 * bend * from && a < 2.0 * bend * to) {
         return None;
     }
     // roots without cancellation; where there is but one, the other is not asked for
-    let larger = 0.5 * (a.abs() + sqrt(square.max(0.0)));
+    let root = sqrt(square.max(0.0));
+    let larger = 0.5 * (a.abs() + root);
     let [low, high] = if a > 0.0 { [even / larger, larger / bend] } else { [f64::NEG_INFINITY, -even / larger] };
-    let within = |r: f64| r.clamp(from, to);
-    let ends = [if carries[0] { from } else { within(low) }, if carries[1] { to } else { within(high) }];
-    (ends[0] < ends[1]).then_some(ends)
+    let end = |at_edge: bool, edge: f64, way: f64, r: f64| {
+        if at_edge || !(r > from && r < to) {
+            return [if at_edge { edge } else { r.clamp(from, to) }, 0.0];
+        }
+        // R p has the slope ±√square at its roots
+        [r, if root > 0.0 { way * r / root } else { 0.0 }]
+    };
+    let [low, high] = [end(carries[0], from, -1.0, low), end(carries[1], to, 1.0, high)];
+    (low[0] < high[0]).then_some(Span { ends: [low[0], high[0]], by_arc: [low[1], high[1]] })
 }
 
 #[cfg(test)]

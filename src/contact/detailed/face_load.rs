@@ -9,7 +9,7 @@
 //! e/R = E/R + turn + bend R is least at an end of the face, at the edge of a broken tooth, or at R² = E/bend.
 
 use super::face::Cut;
-use super::{Detailed, Opening};
+use super::{Detailed, Opening, SliceLoad};
 use crate::contact::any_spring::with_spring;
 use crate::contact::spring::Spring;
 use crate::numeric::sqrt;
@@ -29,6 +29,17 @@ impl Detailed {
     /// Moment ∫R² dR of the face, by which ω is the torque of a pair [m³].
     pub fn moment_of_face(&self) -> f64 {
         self.moment
+    }
+
+    /// Load per width [N/m] of the pair of `slice` at the cone distance `cone` [m], on a slice or between them.
+    pub fn line_load(&self, slice: &SliceLoad, cone: f64) -> f64 {
+        let arc = slice.approach.arc - slice.opening.at(cone) / cone;
+        if arc <= 0.0 {
+            return 0.0;
+        }
+        let rate = slice.approach.rate - slice.approach.opening_rate / cone;
+        let elastic = self.spring.at(arc, slice.s);
+        cone * self.damping.apply(elastic.torque, elastic.stiffness, arc, rate).total
     }
 
     /// K_Hβ of the pair of which `known` is a loaded slice, by the elastic part of its load: damping is spread with it.

@@ -2,6 +2,7 @@
 
 use super::super::pairs::{Flank, Spot, ToothPair};
 use super::super::tooth_friction::Sliding;
+use super::sums::Approach;
 use crate::numeric::{Jet, Scalar};
 
 /// Position and motion of a mesh with the axial displacement w of its side gear.
@@ -97,6 +98,10 @@ pub struct SliceLoad<'a> {
     pub sliding: Option<Sliding<f64>>,
     /// Direction parts of the normal: along the planet's axis, along the side gear's axis, along the rotation.
     pub parts: [f64; 3],
+    /// How near the flanks of its pair are and how they move,
+    pub approach: Approach,
+    /// and by how much they do not fit.
+    pub opening: &'a Opening,
 }
 
 /// A slice of the face.

@@ -5,6 +5,7 @@
 
 use super::super::any_spring::AnySpring;
 use super::super::bodies::{SharedBodies, Standing};
+use super::super::damping::Damping;
 use super::super::pairs::{Flank, ToothPair};
 use super::super::shared::{Bends, Change, Couplings, Gradients, MOST, Moved, Own};
 use super::super::spring::Spring;
@@ -12,6 +13,7 @@ use super::directions::Arcs;
 use super::face::{Cut, Part};
 use super::mesh::{Detailed, Teeth};
 use super::pair::PairMotion;
+use super::sums::{Approach, Sums};
 use super::totals::Totals;
 use super::touching::Touching;
 use super::{DetailedLoad, DetailedState, Opening, PairName, SliceLoad, WITH_OTHER};
@@ -78,21 +80,13 @@ impl Detailed {
     #[inline(always)]
     fn carried<S: Spring>(&self, spring: &S, near: &Near, arc: f64) -> Carried {
         let place = spring.place(near.pair.s);
-        let (opening, mut sum) = (&near.opening, Carried::default());
+        let (opening, mut sums) = (&near.opening, Sums::default());
+        let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
         for part in self.face.loaded(arc, opening, &mut Cut::default()) {
-            for node in part.nodes {
-                let here = arc - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
-                if here > 0.0 {
-                    let (elastic, weight) = (spring.respond(&place, here), node.weight / self.moment);
-                    sum.load += weight * elastic.torque;
-                    sum.by_arc += weight * elastic.stiffness;
-                    sum.by_opening -= weight * elastic.stiffness * node.per_cone;
-                    sum.by_place += weight * elastic.torque_by_place;
-                    sum.energy += weight * elastic.energy;
-                }
-            }
+            sums.add::<S, true, true>(&part, (spring, &place, &Damping::NONE), &still, opening, None, |_| {});
         }
-        sum
+        let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
+        Carried { load: sums.torque / self.moment, by_arc, by_opening, by_place, energy: sums.energy / self.moment }
     }
 
     /// The pairs of both meshes that are pressed, that others may pull together, or that are within `lookout` of the deepest

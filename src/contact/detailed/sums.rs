@@ -6,11 +6,15 @@
 //!   Q_A = −ΣT,   Q_E = ΣT/R,   Q_s = −ΣU_s
 //!
 //! and so are their derivatives. T/R is the normal force of a slice.
+//!
+//! Where the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part) and
+//! by f′(R) dR·(motion of the point). Both together are the error of the quadrature alone, as loads vanish at ends that move;
+//! with them derivatives are those of the sums to the last digit.
 
 use super::super::damping::Damping;
 use super::super::spring::{Elastic, Spring};
 use super::super::tooth_friction::{Sliding, ToothFriction};
-use super::face::{Node, Part};
+use super::face::{Moves, Node, Part};
 use super::{Arms, Opening};
 use crate::numeric::Dual;
 
@@ -116,6 +120,18 @@ impl Sums {
                 add::<OPEN>(&mut self.by[1], weight * per_cone, per_cone, by);
                 add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
             }
+            // where points move: what comes to theirs along the face
+            let moving = if SLOPES && !S::LINEAR { part.moves.as_ref() } else { None };
+            let along = moving.map(|moves| {
+                let closing = (part.even * per_cone) * per_cone - opening.bend;
+                let along = by[0] * closing + by[2] * at.opening_rate * per_cone * per_cone;
+                let place = elastic.torque_by_place * closing + 2.0 * elastic.by_place * per_cone;
+                let along = [along + 2.0 * damped.total * per_cone, along + damped.total * per_cone];
+                move_with(&mut self.by[0], moves, node, weight * damped.total, weight * along[0]);
+                move_with(&mut self.by[1], moves, node, torque * per_cone, weight * per_cone * along[1]);
+                move_with(&mut self.by[2], moves, node, weight * elastic.by_place, weight * place);
+                (moves, along)
+            });
             let friction = rubbing.map(|rubbing| {
                 let sliding = rubbing.at(node, damped.total);
                 if !SLOPES {
@@ -132,6 +148,12 @@ impl Sums {
                 self.rubbed_by[0] += lever * by_sliding;
                 self.rubbed_by[1] += lever * by_rolling;
                 self.rubbed_by[2] += lever * by_radius;
+                if let Some((moves, [along, load])) = along {
+                    // sliding, rolling and radius grow with R, the load per width as R T
+                    let turning = by_sliding * rubbing.speeds[0] + by_rolling * rubbing.speeds[1];
+                    let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
+                    move_with(&mut self.by[3], moves, node, torque * h.v, weight * along * h.v + torque * h_along);
+                }
                 (h.v, sliding)
             });
             look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
@@ -150,6 +172,15 @@ fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_pl
     }
     to[2] += weight * by_place;
     to[3] += rate;
+}
+
+/// Adds what the motion of `node` adds to derivatives by A and E of a sum to which it adds `value`, which changes by `along`
+/// along the face.
+#[inline(always)]
+fn move_with(to: &mut By, moves: &Moves, node: &Node, value: f64, along: f64) {
+    let [by_arc, by_even] = moves.at(node.cone);
+    to[0] += along * by_arc[0] + value * by_arc[1];
+    to[1] += along * by_even[0] + value * by_even[1];
 }
 
 impl Rubbing<'_> {

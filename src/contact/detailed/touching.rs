@@ -69,6 +69,8 @@ impl Detailed {
                 friction: node.friction.map_or(0.0, |(h, _)| -h * force),
                 sliding: node.friction.map(|(_, sliding)| sliding),
                 parts: [planet, side, -motion.sign * forward],
+                approach: motion.approach,
+                opening,
             });
         };
         let place = spring.place(pair.s);

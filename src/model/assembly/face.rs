@@ -12,7 +12,7 @@ pub fn centroid(pair: &Pair) -> f64 {
 /// Slices of the face by Gauss's rule, weights times R².
 pub fn gauss_slices(inner: f64, outer: f64) -> Vec<Slice> {
     let slice = |node: &Node| Slice { cone: node.cone, weight: node.weight, width: node.width };
-    Face::fixed_points([inner, outer]).iter().map(slice).collect()
+    Face::gauss_points([inner, outer]).iter().map(slice).collect()
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 //! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
 //! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
 
+use crate::contact::detailed::SliceLoad;
 use crate::contact::mesh::{Law, Mesh};
 use crate::contact::pairs::{Flank, Spot, ToothPair};
 use crate::contact::tooth_load::{ToothLoad, Touch};
@@ -37,25 +38,49 @@ pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
-    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, visit: impl FnMut(&ToothLoad)) {
-        self.visit_loads(at, g, s, |contact| parts(pair, &self.teeth.mesh, contact), visit);
+    pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
+        self.visit_loads(at, g, s, |contact| parts(pair, &self.teeth.mesh, contact), |load, _| visit(load));
     }
 
-    /// The same with the parts of the normal on the path of contact as `parts` gives them: not all who visit read them.
+    /// The same without directions, with the load per width [N/m] of the pair at any cone distance [m] where it differs over
+    /// the face.
+    pub fn loads_over_the_face(
+        &self,
+        at: &Point<N>,
+        g: usize,
+        s: usize,
+        mut visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>),
+    ) {
+        let detailed = &self.teeth.additions.detailed;
+        let is_sliced = self.is_sliced();
+        self.visit_loads(
+            at,
+            g,
+            s,
+            |_| [0.0; 3],
+            |load, slice| match slice {
+                Some(slice) if is_sliced => visit(load, Some(&|cone| detailed.line_load(slice, cone))),
+                _ => visit(load, None),
+            },
+        );
+    }
+
+    /// The same with the parts of the normal on the path of contact as `parts` gives them, which not all who visit read, and
+    /// with the slice of a mesh in detail.
     pub(super) fn visit_loads(
         &self,
         at: &Point<N>,
         g: usize,
         s: usize,
         parts: impl Fn(&ToothPair) -> [f64; 3],
-        mut visit: impl FnMut(&ToothLoad),
+        mut visit: impl FnMut(&ToothLoad, Option<&SliceLoad>),
     ) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
         let teeth = |flank: Flank, number: i64| self.teeth.additions.perfect.teeth(self.pair_name(g, s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
             self.detail(at, g, s, |slice| {
-                visit(&ToothLoad {
+                let load = ToothLoad {
                     planet,
                     side: s,
                     flank: slice.pair.flank,
@@ -71,14 +96,15 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     friction: slice.friction,
                     parts: slice.parts,
                     touch: None,
-                });
+                };
+                visit(&load, Some(slice));
             });
             return;
         }
         if let Law::Solid(solid) = &mesh.law {
             solid.loaded(&self.mesh_state(at, g, s), |load| {
                 let (spot, place) = mesh.engagement.rigid_spot(load.s);
-                visit(&ToothLoad {
+                let tooth = ToothLoad {
                     planet,
                     side: s,
                     flank: load.flank,
@@ -94,12 +120,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     friction: 0.0,
                     parts: load.parts(),
                     touch: Some(Touch { point: load.point, polar: load.polar }),
-                });
+                };
+                visit(&tooth, None);
             });
             return;
         }
         self.loaded_pairs(at, g, s, |contact, force| {
-            visit(&ToothLoad {
+            let load = ToothLoad {
                 planet,
                 side: s,
                 flank: contact.flank,
@@ -115,7 +142,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 friction: 0.0,
                 parts: parts(contact),
                 touch: None,
-            });
+            };
+            visit(&load, None);
         });
     }
 }

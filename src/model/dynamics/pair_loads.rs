@@ -29,10 +29,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             g,
             s,
             |_| [0.0; 3],
-            |slice| match &mut open {
+            |slice, _| match &mut open {
                 Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
                 _ => {
-                    let next = PairLoad::new(slice, self.face_load_factor(pair, at, g, slice));
+                    let next = PairLoad::new(slice, self.teeth.mesh.cone, self.face_load_factor(pair, at, g, slice));
                     if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
                         close(&mut load);
                     }
@@ -45,7 +45,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Whether meshes are summed slice by slice over the face.
-    fn is_sliced(&self) -> bool {
+    pub(super) fn is_sliced(&self) -> bool {
         let additions = &self.teeth.additions;
         WITH_EFFECTS && self.in_detail() && additions.detailed.face.is_cut()
     }

@@ -6,7 +6,8 @@
 //!
 //! The pressure is Hertz's for two cylinders, of the line load w(R) and the relative radius R τ(s). Where loads do not differ
 //! over the face, w is even with one resultant at R_m, as of IMPACT, and w = 2FR/(R_e² − R_i²) under a line law. Where they do,
-//! w is a straight line between the sections that carry, prolonged to toe and heel as far as it is not negative.
+//! w is that of the law at the depth of the flanks there. Of solid teeth w is a straight line between the sections that carry,
+//! prolonged to toe and heel as far as it is not negative.
 
 use crate::contact::mesh::{Law, Mesh};
 use crate::contact::pairs::{Flank, Spot};
@@ -20,8 +21,8 @@ use crate::strength::LineContact;
 const PAIRS: usize = 3;
 /// Pairs that can touch at once: those of both flanks.
 const MOST: usize = 2 * PAIRS;
-/// Sections of a pair whose loads differ: most are eight on either side of a broken tooth's edge.
-const SECTIONS: usize = 16;
+/// Sections of a pair of solid teeth.
+const SECTIONS: usize = 8;
 /// Share of the face from which on a load stands for all of it.
 const WHOLE: f64 = 1.0 - 1e-9;
 /// Number of a tooth where there is no pair.
@@ -62,10 +63,12 @@ struct Gathered {
     sections: [[f64; 2]; SECTIONS],
     count: usize,
     is_whole: bool,
+    /// Line load at toe, mean cone distance and heel where the law has it [N/m].
+    known: Option<[f64; 3]>,
 }
 
 impl Gathered {
-    fn new(load: &ToothLoad) -> Self {
+    fn new(load: &ToothLoad, known: Option<[f64; 3]>) -> Self {
         Self {
             flank: load.flank,
             teeth: load.teeth,
@@ -75,6 +78,7 @@ impl Gathered {
             sections: [[0.0; 2]; SECTIONS],
             count: 0,
             is_whole: load.share > WHOLE,
+            known,
         }
     }
 
@@ -98,12 +102,9 @@ impl Gathered {
     }
 
     fn line(&self, contact: &LineContact, grows: bool) -> PairLine {
-        let [inner, outer] = contact.cone_range;
-        let place = self.by_place / self.force;
-        let pressure = [inner, contact.mean_cone, outer].map(|cone| {
-            let line_load = self.line_load(contact, cone, grows);
-            contact.pressure_at(line_load, cone, place).unwrap_or(0.0)
-        });
+        let (cones, place) = (cones(contact), self.by_place / self.force);
+        let line_load = self.known.unwrap_or_else(|| cones.map(|cone| self.line_load(contact, cone, grows)));
+        let pressure = std::array::from_fn(|i| contact.pressure_at(line_load[i], cones[i], place).unwrap_or(0.0));
         PairLine {
             tooth: self.teeth[0] as f64,
             force: if self.flank == Flank::Drive { self.force } else { -self.force },
@@ -111,6 +112,12 @@ impl Gathered {
             pressure,
         }
     }
+}
+
+/// Toe, mean cone distance and heel [m].
+fn cones(contact: &LineContact) -> [f64; 3] {
+    let [inner, outer] = contact.cone_range;
+    [inner, contact.mean_cone, outer]
 }
 
 /// Value at `x` of straight lines through `points` in the order of x, the outermost prolonged; not negative.
@@ -150,14 +157,15 @@ pub fn pair_lines<const N: usize, const G: usize, const P: usize, const WITH_EFF
         return lines;
     }
     let mut gathered: [Option<Gathered>; MOST] = [None; MOST];
-    equations.tooth_loads(pair, at, g, s, |load| {
+    equations.loads_over_the_face(at, g, s, |load, line_load| {
         if load.normal.is_nan() || load.normal <= 0.0 {
             return;
         }
         let is_it = |own: &Gathered| (own.flank, own.teeth) == (load.flank, load.teeth);
         let place = gathered.iter_mut().find(|place| place.as_ref().is_none_or(is_it));
         if let Some(place) = place {
-            place.get_or_insert_with(|| Gathered::new(load)).add(load, height(pair, mesh, load));
+            let known = || line_load.map(|line_load| cones(contact).map(line_load));
+            place.get_or_insert_with(|| Gathered::new(load, known())).add(load, height(pair, mesh, load));
         }
     });
     // the most loaded ones, then by height

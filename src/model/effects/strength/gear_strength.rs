@@ -57,12 +57,13 @@ impl GearStrength {
 
     /// Adds the load of a pair to that of its mesh.
     pub fn add_load(&self, mesh: &mut MeshLoad, load: &PairLoad) {
-        // referred to the mean cone distance, as in the formulas of strength
-        let force = self.application * load.moment / self.mean_cone;
+        let moment = self.application * load.moment;
         let flank = mesh.flank(load.flank);
+        let force = moment / load.cone;
         flank.normal += force;
         flank.pressing += force * load.face_factor;
-        flank.bending += force * root_factor(load.face_factor, self.rating.face_exponent);
+        // the formula of the root takes the force at the mean cone distance
+        flank.bending += moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
     }
 
     /// Adds the pressure of a pair to that of its mesh, which no rating asks for.

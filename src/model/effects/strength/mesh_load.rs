@@ -2,14 +2,14 @@
 
 use crate::contact::pairs::Flank;
 
-/// Load of one flank of a mesh: sums over its pairs, forces referred to the mean cone distance.
+/// Load of one flank of a mesh: sums over its pairs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FlankLoad {
-    /// Normal force [N].
+    /// Normal force at the cone distance of the law's resultant [N].
     pub normal: f64,
     /// The same, each pair's times its face load factor K_Hβ: what the pressure follows [N].
     pub pressing: f64,
-    /// The same, each pair's times K_Fβ: what bends the roots [N].
+    /// Normal force at the mean cone distance, each pair's times K_Fβ: what bends the roots [N].
     pub bending: f64,
     /// Largest pressure of a pair [Pa].
     pub pressure: f64,
