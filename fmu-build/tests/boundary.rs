@@ -2,6 +2,9 @@
 
 use std::ffi::OsString;
 use std::process::Command;
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
 
 use fmu_build::check::fuzz::{self, Function, Tally};
 use fmu_build::check::memcheck;
@@ -29,6 +32,14 @@ fn calls_at_random_keep_every_promise() {
     }
 }
 
+/// A round at speeds with more mesh cycles in a step than can be run through.
+#[test]
+fn a_round_at_absurd_speeds_ends() {
+    let (send, outcome) = mpsc::channel();
+    thread::spawn(move || send.send(fuzz::run(215, fuzz::CALLS, &mut Tally::default())));
+    outcome.recv_timeout(Duration::from_secs(120)).expect("the round hangs").unwrap();
+}
+
 #[test]
 fn the_same_seed_makes_the_same_calls() {
     let counts = |seed| {
@@ -47,6 +58,7 @@ fn a_tally_survives_being_written() {
     let read = Tally::read(&tally.lines()).unwrap();
     assert_eq!(read.lines(), tally.lines());
     assert!(Tally::read("1 2\n").is_none());
+    assert!(read.table().contains("longest call: fmi2"));
 }
 
 #[test]

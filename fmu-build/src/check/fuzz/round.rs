@@ -55,7 +55,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
     let mut held = HeldStates::default();
     let outcome = (0..calls).try_for_each(|at| {
         let unit = r.below(UNITS);
-        one(at, &mut r, &mut units[unit], &mut held, tally)
+        one((seed, at), &mut r, &mut units[unit], &mut held, tally)
     });
     for (mut state, _) in held.states.drain(..) {
         // SAFETY: a live component and a live state
@@ -77,7 +77,7 @@ pub fn run(seed: u64, calls: usize, tally: &mut Tally) -> Result<(), BrokenPromi
 
 /// One call, and all that is promised about it.
 fn one(
-    at: usize,
+    (seed, at): (u64, usize),
     r: &mut Random,
     unit: &mut Unit,
     held: &mut HeldStates,
@@ -97,7 +97,7 @@ fn one(
     let before = if r.chance(COMPARED) { unit.bytes() } else { None };
     let start = Instant::now();
     let outcome = call(function, component, r, unit, held);
-    tally.count(function, outcome.status, start.elapsed());
+    tally.count(function, outcome.status, start.elapsed(), (seed, at));
     let refused = !matches!(outcome.status, Status::Ok | Status::Warning);
     unit.refused = if refused { unit.refused + 1 } else { 0 };
     let broken = |what: String| BrokenPromise { at, function: function.name(), what };

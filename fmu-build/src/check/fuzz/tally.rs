@@ -19,6 +19,17 @@ pub struct Tally {
     pub scenes: u64,
     /// Calls before and after which states were compared.
     pub compared: u64,
+    /// The call that took longest.
+    longest: LongestCall,
+}
+
+/// A call by its place: seed of its round, and its number there.
+#[derive(Clone, Copy, Debug, Default)]
+struct LongestCall {
+    took: Duration,
+    function: usize,
+    seed: u64,
+    at: u64,
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -30,17 +41,24 @@ struct FunctionTally {
 
 impl Default for Tally {
     fn default() -> Self {
-        Self { rows: vec![FunctionTally::default(); Function::ALL.len()], scenes: 0, compared: 0 }
+        Self { rows: vec![FunctionTally::default(); Function::ALL.len()], scenes: 0, compared: 0, longest: LongestCall::default() }
     }
 }
 
 impl Tally {
-    /// A call of `function`.
-    pub fn count(&mut self, function: Function, status: Status, took: Duration) {
+    /// A call of `function`, at its place: the seed of its round and its number there.
+    pub fn count(&mut self, function: Function, status: Status, took: Duration, (seed, at): (u64, usize)) {
+        self.keep_longest(LongestCall { took, function: function as usize, seed, at: at as u64 });
         let row = &mut self.rows[function as usize];
         row.statuses[(status as usize).min(HEADS.len() - 1)] += 1;
         row.total += took;
         row.longest = row.longest.max(took);
+    }
+
+    fn keep_longest(&mut self, call: LongestCall) {
+        if call.took > self.longest.took {
+            self.longest = call;
+        }
     }
 
     /// Calls so far.
@@ -55,7 +73,8 @@ impl Tally {
 
     /// As lines of numbers, for another process.
     pub fn lines(&self) -> String {
-        let mut out = format!("{} {}\n", self.scenes, self.compared);
+        let LongestCall { took, function, seed, at } = self.longest;
+        let mut out = format!("{} {} {} {function} {seed} {at}\n", self.scenes, self.compared, took.as_nanos());
         for row in &self.rows {
             let [a, b, c, d] = row.statuses;
             let _ = writeln!(out, "{a} {b} {c} {d} {} {}", row.total.as_nanos(), row.longest.as_nanos());
@@ -68,8 +87,9 @@ impl Tally {
         let mut tally = Self::default();
         let mut lines =
             text.lines().map(|line| line.split(' ').map(|n| n.parse::<u64>().ok()).collect::<Option<Vec<_>>>());
-        let [scenes, compared] = lines.next()??[..] else { return None };
+        let [scenes, compared, took, function, seed, at] = lines.next()??[..] else { return None };
         (tally.scenes, tally.compared) = (scenes, compared);
+        tally.longest = LongestCall { took: Duration::from_nanos(took), function: function as usize, seed, at };
         for row in &mut tally.rows {
             let [a, b, c, d, total, longest] = lines.next()??[..] else { return None };
             let [total, longest] = [total, longest].map(Duration::from_nanos);
@@ -82,6 +102,7 @@ impl Tally {
     pub fn add(&mut self, other: &Self) {
         self.scenes += other.scenes;
         self.compared += other.compared;
+        self.keep_longest(other.longest);
         for (row, more) in self.rows.iter_mut().zip(&other.rows) {
             row.add(more);
         }
@@ -103,12 +124,15 @@ impl Tally {
         let mut all = FunctionTally::default();
         self.rows.iter().for_each(|row| all.add(row));
         table.push(cells("all", &all));
+        let LongestCall { took, function, seed, at } = self.longest;
         format!(
             "{}\n{}",
             table.terminal(),
             wrapped(&format!(
-                "simulations started: {}; communication steps done: {}; steps completed in model exchange: {}; states \
+                "longest call: {}, {:.3} s (call {at} of the round with seed {seed}); simulations started: {}; communication steps done: {}; steps completed in model exchange: {}; states \
                  compared before and after a call: {}",
+                Function::ALL.get(function).map_or("none", |f| f.name()),
+                took.as_secs_f64(),
                 self.scenes,
                 self.done(Function::fmi2DoStep),
                 self.done(Function::fmi2CompletedIntegratorStep),

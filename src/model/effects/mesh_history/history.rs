@@ -29,27 +29,31 @@ pub struct MeshHistory {
 
 impl MeshHistory {
     /// Adds the part of a step up to its fraction `part`: its rolling in cycles, and the quantities in their order.
+    ///
+    /// Whole cycles are counted, not run through: a step may have any number of them, and only the last leaves a value.
     pub fn add(&mut self, rolling: &Curve, quantities: &[Curve], part: f64) {
         let (mut from, mut begin) = (0.0, rolling.at(0.0) - self.rolled);
-        loop {
-            let rolled = rolling.at(part) - begin;
-            let goal = match rolled {
-                _ if rolled * self.rolled < 0.0 => 0.0,
-                _ if rolled.abs() >= 1.0 => rolled.signum(),
-                _ => {
-                    self.extend(quantities, [from, part]);
-                    self.rolled = rolled;
-                    return;
-                }
-            };
-            let to = rolling.crossing(begin + goal, [from, part]);
-            self.extend(quantities, [from, to]);
-            let extremes = self.extremes.take().unwrap_or_default();
-            if goal != 0.0 {
-                self.last = extremes.map(|[least, largest]| largest - least);
-            }
-            (self.rolled, from, begin) = (0.0, to, begin + goal);
+        let rolled = rolling.at(part) - begin;
+        if rolled * self.rolled < 0.0 {
+            from = rolling.crossing(begin, [from, part]);
+            self.extremes = None;
         }
+        let whole = rolled.trunc();
+        if whole != 0.0 {
+            if whole.abs() > 1.0 {
+                from = rolling.crossing(begin + (whole - whole.signum()), [from, part]);
+                self.extremes = None;
+            }
+            begin += whole;
+            let to = rolling.crossing(begin, [from, part]);
+            self.extend(quantities, [from, to]);
+            self.last = self.extremes.take().unwrap_or_default().map(|[least, largest]| largest - least);
+            from = to;
+        }
+        self.extend(quantities, [from, part]);
+        // angles so large that rounding takes whole cycles from them have no place within one
+        let rest = rolling.at(part) - begin;
+        self.rolled = if rest.abs() < 1.0 { rest } else { 0.0 };
     }
 
     /// Extends the extremes over a span of a step.
@@ -120,6 +124,24 @@ mod tests {
         assert!((history.last[0] - 2.0).abs() < 1e-14 && (history.rolled - 0.5).abs() < 1e-14);
         let [least, largest] = history.extremes.unwrap()[0];
         assert!((least - 6.0).abs() < 1e-14 && (largest - 7.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn cycles_without_number_are_counted_at_once() {
+        // more cycles than could be run through, up to those that no number resolves, either way
+        for cycles in [1e6 + 0.5, 1e12 + 0.25, 1e17, 1e40, 1e300] {
+            for sign in [1.0, -1.0] {
+                for start in [0.0, 0.375, 3e16] {
+                    let mut history = MeshHistory { rolled: 0.125 * sign, ..MeshHistory::default() };
+                    history.add(&line(start, start + sign * cycles), &[line(0.0, 1.0)], 1.0);
+                    assert!(history.is_valid(), "{cycles} {sign} {start}: {history:?}");
+                    // the share of a step that one cycle takes, to what the place's own digits leave of it
+                    let left = (history.last[0] - 1.0 / cycles).abs();
+                    let digits = (start + cycles) / cycles * 4.0 * f64::EPSILON;
+                    assert!(left <= digits, "{cycles} {sign} {start}: {}", history.last[0]);
+                }
+            }
+        }
     }
 
     #[test]
