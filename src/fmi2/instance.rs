@@ -110,6 +110,7 @@ impl Instance {
 
     /// fmi2Terminate.
     pub fn terminate(&mut self) -> CallResult {
+        self.warn_at_end();
         self.now.phase = Phase::Terminated;
         if let Some(simulation) = &self.now.simulation {
             self.log.event(&simulation.account());
@@ -172,6 +173,9 @@ impl Instance {
         self.now.derivatives_set = 0;
         let Err(failure) = outcome else {
             self.warn_while_running();
+            if stop.is_some_and(|stop| until + time_tolerance(stop, h) >= stop) {
+                self.warn_at_end();
+            }
             return Ok(());
         };
         self.now.phase = Phase::StepFailed;
@@ -187,6 +191,15 @@ impl Instance {
             for warning in simulation.unreported(&mut self.reported) {
                 self.log.warning(&warning.to_string());
             }
+        }
+    }
+
+    /// Logs what is known of a run at its end, once.
+    fn warn_at_end(&mut self) {
+        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning))
+            && let Some(warning) = simulation.unreported_at_end(&mut self.reported)
+        {
+            self.log.warning(&warning.to_string());
         }
     }
 

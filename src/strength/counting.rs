@@ -28,6 +28,12 @@ impl Rolling {
         self.place = wanted.max(-pitch / 2.0).min(pitch / 2.0);
         (wanted - self.place).abs() / TAU
     }
+
+    /// The part of `step` [rad] that would count: 0 while the gear stays in its window, 1 while it pushes it all the way.
+    pub fn counting(&self, step: f64, pitch: f64) -> f64 {
+        let beyond = (self.place + step).abs() - pitch / 2.0;
+        if beyond > 0.0 { (beyond / step.abs()).min(1.0) } else { 0.0 }
+    }
 }
 
 /// Flank (0 or 1) of a gear's teeth that a mesh loads.

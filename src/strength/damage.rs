@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use super::counting::Rolling;
-use super::material::SnCurve;
 use super::miner::Damage;
 
 /// Damage by load on one flank.
@@ -15,15 +14,15 @@ pub struct FlankDamage {
     pub pitting: Damage,
 }
 
-/// Load of one mesh on a gear.
+/// What one mesh does to a gear in a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
+pub struct Cycle {
     /// Flank that carries, 0 or 1: [`super::loaded_flank`].
     pub flank: usize,
-    /// Root stress [Pa].
+    /// Damage to the root.
     pub root: f64,
-    /// Contact pressure [Pa].
-    pub pressure: f64,
+    /// Damage to the flank.
+    pub pitting: f64,
 }
 
 /// Damage of the teeth of a gear, all teeth taken as alike: `Copy`, no allocation.
@@ -36,21 +35,15 @@ pub struct ToothDamage {
 }
 
 impl ToothDamage {
-    /// Counts an accepted step in which the gear turned by `angle` [rad] relative to the carrier under the `loads` of
-    /// its meshes: each passes every tooth once per revolution.
-    pub fn add(
-        &mut self,
-        (bending, pitting): (&SnCurve, &SnCurve),
-        angle: f64,
-        pitch: f64,
-        loads: impl IntoIterator<Item = Load>,
-    ) {
-        let cycles = self.rolling.advance(angle, pitch);
-        if cycles > 0.0 {
-            for load in loads {
-                let flank = &mut self.flanks[load.flank & 1];
-                flank.root.add(bending, load.root, cycles);
-                flank.pitting.add(pitting, load.pressure, cycles);
+    /// Counts an interval in which the gear turned by `angle` [rad] relative to the carrier, while each of its meshes did as
+    /// much as `cycles` say on the mean: each passes every tooth once per revolution.
+    pub fn add(&mut self, angle: f64, pitch: f64, cycles: impl IntoIterator<Item = Cycle>) {
+        let turns = self.rolling.advance(angle, pitch);
+        if turns > 0.0 {
+            for cycle in cycles {
+                let flank = &mut self.flanks[cycle.flank & 1];
+                flank.root.grow(cycle.root, turns);
+                flank.pitting.grow(cycle.pitting, turns);
             }
         }
     }

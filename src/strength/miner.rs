@@ -11,17 +11,26 @@ pub struct Damage {
     pub sum: f64,
     /// Cycles counted, loaded ones only.
     pub cycles: f64,
-    /// Largest stress that did any [Pa].
-    pub peak: f64,
 }
 
 impl Damage {
     /// Counts `cycles` (parts of a cycle too) at `stress` [Pa]; nothing without stress or cycles.
     pub fn add(&mut self, curve: &SnCurve, stress: f64, cycles: f64) {
-        if stress > 0.0 && stress.is_finite() && cycles > 0.0 && cycles.is_finite() {
-            self.sum += cycles * curve.damage_per_cycle(stress);
-            self.cycles += cycles;
-            self.peak = self.peak.max(stress);
+        if stress.is_finite() {
+            self.grow(curve.damage_per_cycle(stress), cycles);
         }
+    }
+
+    /// Counts `cycles` that do the damage `per_cycle` each; nothing without damage or cycles.
+    pub fn grow(&mut self, per_cycle: f64, cycles: f64) {
+        if per_cycle > 0.0 && per_cycle.is_finite() && cycles > 0.0 && cycles.is_finite() {
+            self.sum += cycles * per_cycle;
+            self.cycles += cycles;
+        }
+    }
+
+    /// Damage of a cycle on the mean; 0 before any.
+    pub fn per_cycle(&self) -> f64 {
+        if self.cycles > 0.0 { self.sum / self.cycles } else { 0.0 }
     }
 }

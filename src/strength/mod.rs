@@ -1,6 +1,6 @@
 //! Strength of the teeth: contact pressure, root stress, and the damage that both do as the gears turn.
 //!
-//! Formulas of forces and angles without model state: a simulation passes the values of each accepted step. [`Rating`] holds
+//! Formulas of forces and angles without model state: a simulation passes the values along each accepted step. [`Rating`] holds
 //! the constants of a pair of gears, [`ToothDamage`] the damage of teeth that roll, [`StandingTeeth`] that of teeth that stand
 //! still in mesh, whose load cycles [`Rainflow`] counts.
 
@@ -18,7 +18,7 @@ mod standing;
 pub mod tooth_form;
 
 pub use counting::{Rolling, loaded_flank};
-pub use damage::{FlankDamage, Load, ToothDamage};
+pub use damage::{Cycle, FlankDamage, ToothDamage};
 pub use hertz::LineContact;
 pub use material::{Material, SnCurve};
 pub use mean_stress::pulsating_range;

@@ -28,6 +28,11 @@ pub struct StandingTeeth {
 }
 
 impl StandingTeeth {
+    /// Whether nothing has bent them yet.
+    pub fn are_new(&self) -> bool {
+        self.history.is_empty()
+    }
+
     /// Adds a force on the teeth, positive on the drive flank [N].
     pub fn bend(&mut self, rating: &Rating, force: f64) {
         let Self { history, roots } = self;

@@ -50,6 +50,8 @@ const ADDED: &[&str] = &[
     "planet[1].left_pair[3].toe_pressure",
     "planet[1].left_pair[3].middle_pressure",
     "planet[1].left_pair[3].heel_pressure",
+    "strength.rate_from",
+    "stress.contact_rated",
 ];
 
 /// Takes the later additions out of `rows`, and returns them in their order.

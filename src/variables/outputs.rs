@@ -232,7 +232,7 @@ pub fn rows() -> Vec<Output> {
             "torque_bias_ratio",
             units::ONE,
             |f| f.torque_bias_ratio,
-            "Torque of the slow over the fast half-shaft, in the sense of the torques, over the last whole mesh cycle where shafts twist; 1 at zero torque",
+            "Torque of the slow over the fast half-shaft, in the sense of the torques, over the last whole mesh cycle where shafts twist; 1 at zero torque, 1e6 where the fast one carries none, as with one wheel that stands and one that spins freely; with imposed spin and imposed loads it is the ratio of the loads, whatever rubs",
         ),
         forces(
             "locking_value",

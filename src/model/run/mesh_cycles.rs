@@ -1,11 +1,10 @@
 //! Side speeds and transmission errors through a completed step, as the history of mesh cycles takes them: curves of the
 //! integrator's continuous extension, so that extremes between the ends of steps count.
 
-use super::completed_step::CompletedStep;
-use crate::integrate::{Curve, Extension, Point, SecondOrder, Step};
+use super::completed_step::{CompletedStep, extension};
+use crate::integrate::{Curve, Extension, Point};
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::equations::Equations;
-use crate::model::dynamics::power::Power;
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::scene::layout::LEFT;
 
@@ -13,17 +12,11 @@ use crate::model::scene::layout::LEFT;
 pub fn add_to_history<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     model: &Model,
-    (step, pending): CompletedStep<N>,
+    step: CompletedStep<N>,
     history: &mut MeshHistory,
 ) {
-    let own;
-    let (extension, part) = match pending {
-        Some(pending) => (&pending.extension, pending.part),
-        None => {
-            own = cubic(equations, step);
-            (&own, 1.0)
-        }
-    };
+    let (extension, part) = extension(equations, step);
+    let extension = &extension;
     let pitch = model.periods[LEFT];
     let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
     let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));
@@ -46,17 +39,4 @@ fn curve<const N: usize>(extension: &Extension<N>, of: impl Fn(&Point<N>) -> f64
     let Extension { start, end, bends } = extension;
     let nothing = of(&Point::ZERO);
     Curve { start: of(start), end: of(end), bends: bends.each_ref().map(|bend| of(bend) - nothing) }
-}
-
-/// A continuous extension of a step without one: positions by the cubic through both ends, velocities in proportion.
-fn cubic<const N: usize, S: SecondOrder<N>>(equations: &S, step: &Step<N, Power>) -> Extension<N> {
-    let Step { h, start, end, .. } = *step;
-    let [before, after] = [start, end].map(|at| equations.rates(&at.v));
-    let mut bends = [Point::ZERO; 3];
-    for i in 0..N {
-        let change = end.q[i] - start.q[i];
-        let [first, last] = [h * before[i] - change, change - h * after[i]];
-        (bends[0].q[i], bends[1].q[i]) = (first, last - first);
-    }
-    Extension { start: *start, end: *end, bends }
 }

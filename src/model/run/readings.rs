@@ -141,7 +141,7 @@ impl Simulation {
     }
 
     /// State and what is watched with the step ahead completed up to the present.
-    fn completed(&self) -> (State, Watched) {
+    pub(super) fn completed(&self) -> (State, Watched) {
         let (mut state, mut watched) = (self.state, self.watched);
         complete(&self.model, (&mut state, &mut watched));
         (state, watched)

@@ -4,7 +4,7 @@ use super::simulation::Simulation;
 use crate::friction::FrictionLaw;
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::by_size;
-use crate::model::effects::strength::Stressed;
+use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::problem::Problem;
 
 /// What has been reported in a run.
@@ -12,6 +12,7 @@ use crate::problem::Problem;
 pub struct Reported {
     friction_law: bool,
     stress: [bool; Stressed::ALL.len()],
+    start: bool,
 }
 
 impl Simulation {
@@ -33,6 +34,29 @@ impl Simulation {
             }
         }
         found
+    }
+
+    /// Where safety and damage include a start that was not in equilibrium: when they were the worst. The same once in a run, at
+    /// its end.
+    pub fn unreported_at_end(&self, reported: &mut Reported) -> Option<Problem> {
+        if reported.start || self.model.strength().is_none() {
+            return None;
+        }
+        let Fatigue { utilisation, has_blow, .. } = self.completed().1.fatigue;
+        if !has_blow || utilisation.root.share == 0.0 {
+            return None;
+        }
+        reported.start = true;
+        let [root, flank] = [utilisation.root, utilisation.flank].map(|of| (of.safety(), of.time));
+        Some(Problem::new(
+            "strength.rate_from",
+            format!(
+                "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
+                 t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; let them count from after the run-in, or take scene.start = \
+                 equilibrium",
+                root.0, root.1, flank.0, flank.1
+            ),
+        ))
     }
 
     /// What lies outside the range of the friction law at this instant; Coulomb's law has none.

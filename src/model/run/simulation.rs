@@ -11,6 +11,7 @@ use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
+use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
 use crate::model::setup::Parameters;
@@ -65,12 +66,15 @@ impl Simulation {
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
+        let in_equilibrium = parameters.scene.start == Start::Equilibrium;
+        simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
         Ok(simulation)
     }
 
     /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet and no history.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        Self::resume_with(parameters, inputs, (state, Watched::default()), &Given::default())
+        let fatigue = Fatigue::new(state.time, parameters.specs.strength.rate_from, true);
+        Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
     }
 
     /// A simulation of `parameters` that continues from a state and what was watched, with what is `given` besides.

@@ -16,13 +16,13 @@ use crate::model::dynamics::watched::Watched;
 pub fn watch_step<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     (model, watch): (&Model, &Watch),
-    (step, pending): CompletedStep<N>,
+    step: CompletedStep<N>,
     (begin, watched): (f64, &mut Watched),
 ) {
     if let Some(strength) = &watch.strength {
         count_fatigue(equations, (model, strength), step, (begin, &mut watched.fatigue));
     }
     if watch.mesh_history {
-        add_to_history(equations, model, (step, pending), &mut watched.mesh_history);
+        add_to_history(equations, model, step, &mut watched.mesh_history);
     }
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::overload::Overloads;
 use super::utilisation::Utilisation;
 use crate::model::scene::layout::MAX_GROUPS;
-use crate::strength::{Rating, StandingTeeth, ToothDamage};
+use crate::strength::{Damage, FlankDamage, Rating, StandingTeeth, ToothDamage};
 
 /// Damage of the teeth so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -20,9 +20,31 @@ pub struct Fatigue {
     pub overloads: Overloads,
     /// Largest stresses by their strengths.
     pub utilisation: Utilisation,
+    /// Time from which all of it counts [s].
+    pub from: f64,
+    /// Whether it counts a start that was not in equilibrium.
+    pub has_blow: bool,
 }
 
 impl Fatigue {
+    /// Damage of a run that begins at `start` [s] and is rated `later` [s] than that; `in_equilibrium`: whether it begins so.
+    pub fn new(start: f64, later: f64, in_equilibrium: bool) -> Self {
+        Self { from: start + later, has_blow: later == 0.0 && !in_equilibrium, ..Self::default() }
+    }
+
+    /// Damage of a cycle on the mean so far, of the worst planet's root, the worse side gear's, and the worst flank.
+    pub fn worst_per_cycle(&self) -> [f64; 3] {
+        let worst = |gears: &[ToothDamage], of: fn(&FlankDamage) -> &Damage| {
+            gears.iter().flat_map(|gear| &gear.flanks).map(|flank| of(flank).per_cycle()).fold(0.0, f64::max)
+        };
+        let pitting = |gears| worst(gears, |flank| &flank.pitting);
+        [
+            worst(&self.planets, |flank| &flank.root),
+            worst(&self.sides, |flank| &flank.root),
+            pitting(&self.planets).max(pitting(&self.sides)),
+        ]
+    }
+
     /// Damage sums: roots of the worst planet and side gear, then their flanks.
     pub fn sums(&self, rating: &Rating) -> [f64; 4] {
         let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);

@@ -21,7 +21,7 @@ impl Stressed {
     pub const ALL: [Self; 3] = [Self::PlanetRoot, Self::SideRoot, Self::Flanks];
 }
 
-/// A stress that exceeds its strength.
+/// A stress and its strength, which it may exceed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Overload {
     /// Time [s].

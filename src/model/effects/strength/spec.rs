@@ -29,6 +29,8 @@ pub struct StrengthSpec {
     pub contact_cycles: f64,
     /// Life factor of pitting at 10⁵ cycles Z_NT.
     pub contact_life_factor: f64,
+    /// Time after the start of the run from which safety and damage count [s].
+    pub rate_from: f64,
 }
 
 impl Default for StrengthSpec {
@@ -43,6 +45,7 @@ impl Default for StrengthSpec {
             contact_strength: 1.5e9,
             contact_cycles: 5e7,
             contact_life_factor: 1.6,
+            rate_from: 0.0,
         }
     }
 }
@@ -72,17 +75,21 @@ impl Declare for StrengthSpec {
         ),
         stress("stress.root_planet_max", "Largest root stress of the planets by ISO 10300 method B1"),
         stress("stress.root_side_max", "Largest root stress of the side gears by ISO 10300 method B1"),
+        stress(
+            "stress.contact_rated",
+            "Largest contact pressure by which flanks are rated, for safety.flank_min and damage: one pair carries the mesh at the worse inner point of single contact, under the load factor of its face",
+        ),
         damage("damage.planet", "Miner sum of the roots of the worst planet"),
         damage("damage.side", "Miner sum of the roots of the worse side gear"),
         damage("damage.planet_flank", "Miner sum of pitting of the worst planet"),
         damage("damage.side_flank", "Miner sum of pitting of the worse side gear"),
         safety(
             "safety.root_min",
-            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that roll times the idler factor, over root stress; 1000 at most, and before the first step",
+            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that roll times the idler factor, over root stress; 1000 at most, and before the first step that is rated",
         ),
         safety(
             "safety.flank_min",
-            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over rated contact pressure; 1000 at most, and before the first step",
+            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over stress.contact_rated; 1000 at most, and before the first step that is rated",
         ),
     ];
 
@@ -159,6 +166,14 @@ impl Declare for StrengthSpec {
                 (0.1, 10.0),
                 |p| &mut p.application_factor,
                 "Application factor: load on the teeth over the simulated one, for what the scene does not contain",
+            ),
+            real(
+                "strength.rate_from",
+                units::SECOND,
+                None,
+                (0.0, 1e9),
+                |p| &mut p.rate_from,
+                "Time after the start of the run from which safety and damage count: what a start that is not in equilibrium takes to settle",
             ),
         ]
     }

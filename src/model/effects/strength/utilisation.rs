@@ -2,21 +2,48 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::overload::{Overload, Stressed};
+
 /// Largest safety factor that is given: that of teeth without load.
 pub const MOST: f64 = 1e3;
 
-/// Largest stress over strength so far; 0 before any.
+/// Largest stress over strength so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Largest {
+    /// Stress over strength; 0 before any.
+    pub share: f64,
+    /// When that was [s].
+    pub time: f64,
+}
+
+/// The same of roots and flanks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Utilisation {
     /// Of all roots.
-    pub root: f64,
+    pub root: Largest,
     /// Of all flanks.
-    pub flank: f64,
+    pub flank: Largest,
+}
+
+impl Largest {
+    /// Safety factor: strength over stress.
+    pub fn safety(&self) -> f64 {
+        1.0 / self.share.max(1.0 / MOST)
+    }
 }
 
 impl Utilisation {
+    /// Takes a stress into account.
+    pub fn watch(&mut self, what: Stressed, load: &Overload) {
+        let largest = if what == Stressed::Flanks { &mut self.flank } else { &mut self.root };
+        let share = load.stress / load.strength;
+        if share > largest.share {
+            *largest = Largest { share, time: load.time };
+        }
+    }
+
     /// Safety factors of roots and flanks: strength over the largest stress so far.
     pub fn safety(&self) -> [f64; 2] {
-        [self.root, self.flank].map(|largest| 1.0 / largest.max(1.0 / MOST))
+        [self.root.safety(), self.flank.safety()]
     }
 }

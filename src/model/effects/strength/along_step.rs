@@ -1,0 +1,262 @@
+//! Damage and largest stresses along a step, by a quadrature over its continuous extension.
+//!
+//! Steps end where the motion lets them, and damage goes with the ninth or thirteenth power of the load. So loads are looked at
+//! in the middle and at both ends of a step, and Simpson's rule is halved where it differs from the straight line by more than
+//! [`ROUGH`] of the damage: then its own error is some 1e-5. Peaks are those of the parabolas through these loads.
+
+use super::fatigue::Fatigue;
+use super::gear_strength::GearStrength;
+use super::interval::{Three, bend, crest, mean, turn};
+use super::mesh_load::{FlankLoad, MeshLoad};
+use super::overload::{Overload, Stressed};
+use crate::model::scene::layout::MAX_GROUPS;
+use crate::strength::{Cycle, loaded_flank};
+
+/// Largest difference of Simpson's rule from the straight line, as a part of the damage of the step or of the run on the mean.
+const ROUGH: f64 = 0.02;
+/// Largest bend of a load at a turn, as a part of the largest load: the parabola then turns within a hundredth of this.
+const BLUNT: f64 = 0.005;
+/// How often a step may be halved.
+const HALVINGS: u32 = 6;
+
+/// Angles of the gears relative to the carrier [rad], or their rates [rad/s]: planets by group, side gears.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Rolled {
+    /// Planets.
+    pub spin: [f64; MAX_GROUPS],
+    /// Side gears.
+    pub roll: [f64; 2],
+}
+
+/// Loads and motion at an instant.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sample {
+    /// Angles.
+    pub angle: Rolled,
+    /// Their rates.
+    pub rate: Rolled,
+    /// Loads of the meshes, by group and side.
+    pub mesh: [[MeshLoad; 2]; MAX_GROUPS],
+}
+
+/// A completed step that is to be rated.
+pub struct RatedStep<'a> {
+    /// Time at its begin [s].
+    pub begin: f64,
+    /// Its size [s].
+    pub h: f64,
+    /// The part of it before which nothing is rated.
+    pub from: f64,
+    /// Planets of each group.
+    pub members: &'a [f64],
+    /// What it is after a part of the step.
+    pub sample: &'a mut dyn FnMut(f64) -> Sample,
+}
+
+/// Damage of a cycle to the root of the planet, to that of the side gear, and to the flanks.
+type PerCycle = [f64; 3];
+const PLANET_ROOT: usize = 0;
+const SIDE_ROOT: usize = 1;
+const PITTING: usize = 2;
+
+/// A sample, and what a cycle under its loads does, by group, side and flank.
+struct Rated {
+    part: f64,
+    sample: Sample,
+    damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
+}
+
+/// What damage and loads are to be compared with: those of the worst tooth.
+struct Scale {
+    damage: PerCycle,
+    bending: f64,
+}
+
+impl GearStrength {
+    /// Lets the gears roll through a step that is not rated.
+    pub fn roll(&self, fatigue: &mut Fatigue, from: &Rolled, to: &Rolled) {
+        let Fatigue { planets, sides, .. } = fatigue;
+        let pitch = self.rating.pitch;
+        for (g, planet) in planets.iter_mut().enumerate() {
+            planet.rolling.advance(to.spin[g] - from.spin[g], pitch[0]);
+        }
+        for (s, side) in sides.iter_mut().enumerate() {
+            side.rolling.advance(to.roll[s] - from.roll[s], pitch[1]);
+        }
+    }
+
+    /// Counts a step.
+    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep) {
+        let ends = [step.from, 0.5 * (step.from + 1.0), 1.0].map(|part| self.rate(step, part));
+        let [begin, middle, end] = &ends;
+        let parts = [begin, middle, end];
+        let mut scale =
+            Scale { damage: fatigue.worst_per_cycle(), bending: self.force_of(fatigue.utilisation.root.share) };
+        for_each_flank(step.members.len(), |g, s, flank| {
+            let damage = |kind: usize| mean(parts.map(|at| at.damage[g][s][flank][kind]), [1.0; 3]);
+            scale.damage.iter_mut().enumerate().for_each(|(kind, worst)| *worst = worst.max(damage(kind)));
+            let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
+            scale.bending = bending.into_iter().fold(scale.bending, f64::max);
+        });
+        self.count_part(fatigue, step, parts, &scale, HALVINGS);
+    }
+
+    fn rate(&self, step: &mut RatedStep, part: f64) -> Rated {
+        let sample = (step.sample)(part);
+        let mut damage = [[[[0.0; 3]; 2]; 2]; MAX_GROUPS];
+        let rating = &self.rating;
+        for_each_flank(step.members.len(), |g, s, flank| {
+            let load = &sample.mesh[g][s].flanks()[flank];
+            let root = |i: usize| rating.bending[i].damage_per_cycle(rating.root[i].stress(load.bending));
+            if load.bending > 0.0 {
+                let pitting = rating.pitting.damage_per_cycle(self.rated_pressure(load));
+                damage[g][s][flank] = [root(0), root(1), pitting];
+            }
+        });
+        Rated { part, sample, damage }
+    }
+
+    /// Counts an interval as a whole or by halves.
+    fn count_part(
+        &self,
+        fatigue: &mut Fatigue,
+        step: &mut RatedStep,
+        [begin, middle, end]: [&Rated; 3],
+        scale: &Scale,
+        halvings: u32,
+    ) {
+        let parts = [begin, middle, end];
+        if halvings == 0 || self.is_smooth(fatigue, step.members.len(), parts, scale) {
+            return self.add(fatigue, step, parts);
+        }
+        for [begin, end] in [[begin, middle], [middle, end]] {
+            let middle = self.rate(step, 0.5 * (begin.part + end.part));
+            self.count_part(fatigue, step, [begin, &middle, end], scale, halvings - 1);
+        }
+    }
+
+    /// Whether parabolas describe what an interval does.
+    fn is_smooth(&self, fatigue: &Fatigue, groups: usize, parts: [&Rated; 3], scale: &Scale) -> bool {
+        let pitch = self.rating.pitch;
+        // the part of the interval in which the teeth of a gear count, and the rates at which it turns
+        let planet = |g: usize| {
+            let step = parts[2].sample.angle.spin[g] - parts[0].sample.angle.spin[g];
+            (fatigue.planets[g].rolling.counting(step, pitch[0]), parts.map(|at| at.sample.rate.spin[g]))
+        };
+        let side = |s: usize| {
+            let step = parts[2].sample.angle.roll[s] - parts[0].sample.angle.roll[s];
+            (fatigue.sides[s].rolling.counting(step, pitch[1]), parts.map(|at| at.sample.rate.roll[s]))
+        };
+        let mut smooth = true;
+        for_each_flank(groups, |g, s, flank| {
+            let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
+            smooth &= turn(bending).is_none() || bend(bending).abs() <= BLUNT * scale.bending;
+            for (kind, (counting, rates)) in [(PLANET_ROOT, planet(g)), (PITTING, planet(g)), (SIDE_ROOT, side(s))] {
+                let damage = parts.map(|at| at.damage[g][s][flank][kind]);
+                smooth &= counting == 0.0 || is_smooth(damage, rates, counting, ROUGH * scale.damage[kind]);
+            }
+        });
+        smooth
+    }
+
+    /// Adds an interval.
+    fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
+        self.watch(fatigue, step, parts);
+        let rating = &self.rating;
+        let [begin, _, end] = parts.map(|at| &at.sample);
+        let cycle = |(g, s, flank): (usize, usize, usize), far: bool, root: usize, rates: Three| {
+            let damage = |kind: usize| mean(parts.map(|at| at.damage[g][s][flank][kind]), rates);
+            Cycle { flank: loaded_flank(far, flank == 0), root: damage(root), pitting: damage(PITTING) }
+        };
+        for g in 0..step.members.len() {
+            let rates = parts.map(|at| at.sample.rate.spin[g]);
+            let of = |s: usize, flank: usize| cycle((g, s, flank), s == 1, PLANET_ROOT, rates);
+            let cycles = [of(0, 0), of(0, 1), of(1, 0), of(1, 1)];
+            fatigue.planets[g].add(end.angle.spin[g] - begin.angle.spin[g], rating.pitch[0], cycles);
+        }
+        for s in 0..2 {
+            let rates = parts.map(|at| at.sample.rate.roll[s]);
+            let angle = end.angle.roll[s] - begin.angle.roll[s];
+            let rolled = fatigue.sides[s].rolling.counting(angle, rating.pitch[1]) > 0.0;
+            let cycles = step.members.iter().enumerate().flat_map(|(g, &members)| {
+                let both = [0, 1].map(|flank| cycle((g, s, flank), false, SIDE_ROOT, rates));
+                std::iter::repeat_n(both, members as usize).flatten()
+            });
+            fatigue.sides[s].add(angle, rating.pitch[1], cycles);
+            let forces = parts.map(|at| {
+                let forces = at.sample.mesh[..step.members.len()].iter().map(|both| both[s].bending());
+                forces.reduce(|a, b| if b.abs() > a.abs() { b } else { a }).unwrap_or_default()
+            });
+            let teeth = &mut fatigue.standing[s];
+            if rolled {
+                teeth.change(rating);
+            } else {
+                if teeth.are_new() {
+                    teeth.bend(rating, forces[0]);
+                }
+                if let Some((force, _)) = turn(forces) {
+                    teeth.bend(rating, force);
+                }
+            }
+            teeth.bend(rating, forces[2]);
+        }
+    }
+
+    /// Records the largest stresses by their strengths, and the first that exceed them. A planet has its idler strength while it
+    /// rolls.
+    fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
+        let rating = &self.rating;
+        let span = parts[2].part - parts[0].part;
+        for_each_flank(step.members.len(), |group, side, flank| {
+            let load =
+                |of: fn(&FlankLoad) -> f64| crest(parts.map(|at| of(&at.sample.mesh[group][side].flanks()[flank])));
+            let (bending, pressing) = (load(|flank| flank.bending), load(|flank| flank.pressing));
+            if bending.0 <= 0.0 {
+                return;
+            }
+            let angle = parts[2].sample.angle.spin[group] - parts[0].sample.angle.spin[group];
+            let rolls = fatigue.planets[group].rolling.counting(angle, rating.pitch[0]) > 0.0;
+            let at = |place: f64, stress: f64, strength: f64| {
+                let time = step.begin + (parts[0].part + place * span) * step.h;
+                Overload { time, stress, strength, group, side }
+            };
+            let root = |i: usize, strength: f64| at(bending.1, rating.root[i].stress(bending.0), strength);
+            let pressure = rating.contact.rated_pressure(pressing.0).unwrap_or(0.0);
+            let loads = [
+                (Stressed::PlanetRoot, root(0, rating.bending[usize::from(!rolls)].strength)),
+                (Stressed::SideRoot, root(1, rating.bending[1].strength)),
+                (Stressed::Flanks, at(pressing.1, pressure, rating.pitting.strength)),
+            ];
+            for (what, load) in loads {
+                fatigue.overloads.watch(what, load);
+                fatigue.utilisation.watch(what, &load);
+            }
+        });
+    }
+
+    /// Force on the teeth that uses `share` of the strength of the weaker root [N].
+    fn force_of(&self, share: f64) -> f64 {
+        let of = |i: usize| self.rating.bending[i].strength / self.rating.root[i].per_force;
+        share * of(0).min(of(1))
+    }
+}
+
+/// Whether a parabola describes damage that is done at these rates, in the part `counting` of an interval, to within `least`.
+fn is_smooth(damage: Three, rates: Three, counting: f64, least: f64) -> bool {
+    let rates = rates.map(f64::abs);
+    let fastest = rates.into_iter().fold(0.0, f64::max);
+    let done = [0, 1, 2].map(|k| damage[k] * rates[k]);
+    // of a load that changes only that counts under which the teeth roll on
+    let spread = damage.into_iter().fold(0.0, f64::max) - damage.into_iter().fold(f64::INFINITY, f64::min);
+    bend(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
+}
+
+/// Visits all flanks: group, side, and 0 for drive or 1 for coast.
+fn for_each_flank(groups: usize, mut visit: impl FnMut(usize, usize, usize)) {
+    for g in 0..groups {
+        for s in 0..2 {
+            visit(g, s, 0);
+            visit(g, s, 1);
+        }
+    }
+}
