@@ -14,6 +14,10 @@ pub trait Landscape {
     fn value(&self, x: &DVector<f64>) -> f64;
     /// Gradient and Hessian at `x`.
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>);
+    /// Whether a minimum at `x` would be wanted; beyond the search ends.
+    fn is_near(&self, _x: &DVector<f64>) -> bool {
+        true
+    }
 }
 
 /// How to search.
@@ -27,12 +31,17 @@ pub struct Search {
     pub rough: f64,
     /// From a saddle point the search leaves in the direction of this vector rather than against it.
     pub lean: DVector<f64>,
+    /// A direction of which it is known that a valley follows it: the damping hardly hinders steps along it, and takes along
+    /// what nothing else holds.
+    pub valley: Option<DVector<f64>>,
 }
 
 /// Iterations; a handful is enough.
 const MAX_ITERATIONS: usize = 200;
 /// Trials of one step, with growing damping or shrinking length.
 const TRIALS: usize = 60;
+/// Part of the damping that acts along a valley.
+const EASE: f64 = 1e-4;
 /// Curvature relative to the Hessian's diagonal that counts as none: a flat valley is no saddle.
 const FLAT: f64 = 1e-9;
 /// Inverse iterations for the direction of least curvature, each of which gains a digit at least.
@@ -40,10 +49,13 @@ const INVERSE_ITERATIONS: usize = 16;
 
 impl Search {
     /// The minimum that descent from `start` reaches, if it reaches one.
-    pub fn minimum(&self, landscape: &impl Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
+    pub fn minimum(&self, landscape: &dyn Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
         let (mut x, mut damping) = (start, 0.0);
         let mut value = landscape.value(&x);
         for _ in 0..MAX_ITERATIONS {
+            if !landscape.is_near(&x) {
+                return None;
+            }
             let (gradient, hessian) = landscape.slopes(&x);
             let descended = if gradient.amax() <= self.balance {
                 let Some(way) = downward(&hessian, &self.lean) else {
@@ -65,7 +77,7 @@ impl Search {
     /// A step from a saddle point along `way`, as long as it leads down: where it ends, and the value there.
     fn leave(
         &self,
-        landscape: &impl Landscape,
+        landscape: &dyn Landscape,
         (x, value): (&DVector<f64>, f64),
         way: &DVector<f64>,
     ) -> Option<(DVector<f64>, f64)> {
@@ -81,15 +93,20 @@ impl Search {
     /// A damped Newton step that leads down: where it ends, and the value there.
     fn step(
         &self,
-        landscape: &impl Landscape,
+        landscape: &dyn Landscape,
         (x, value): (&DVector<f64>, f64),
         (gradient, hessian): (&DVector<f64>, &DMatrix<f64>),
         damping: &mut f64,
     ) -> Option<(DVector<f64>, f64)> {
-        let size = hessian.diagonal().amax().max(f64::MIN_POSITIVE);
+        let curvature = hessian.diagonal().amax();
+        // on a slope without curvature the damping limits the step
+        let size = if curvature > 0.0 { curvature } else { gradient.amax() / self.longest };
         for _ in 0..TRIALS {
             let mut damped = hessian.clone();
             (0..x.len()).for_each(|i| damped[(i, i)] += *damping * size);
+            if let Some(valley) = &self.valley {
+                damped.ger((EASE - 1.0) * *damping * size / valley.norm_squared(), valley, valley, 1.0);
+            }
             let step = damped.cholesky().map(|c| c.solve(gradient));
             if let Some(step) = step.filter(|step| step.amax() < self.longest) {
                 let trial = x - step;
@@ -110,7 +127,7 @@ impl Search {
 /// Newton's method from `x`, near a minimum, as long as each step halves the gradient at least. Where the curvature is that
 /// of a contact just touching, the gradient falls only linearly.
 fn polished(
-    landscape: &impl Landscape,
+    landscape: &dyn Landscape,
     mut x: DVector<f64>,
     mut gradient: DVector<f64>,
     mut hessian: DMatrix<f64>,
@@ -178,7 +195,7 @@ mod tests {
     }
 
     fn search(lean: f64) -> Search {
-        Search { longest: 0.1, balance: 1e-11, rough: 1e-8, lean: DVector::from_vec(vec![lean, 0.0]) }
+        Search { longest: 0.1, balance: 1e-11, rough: 1e-8, lean: DVector::from_vec(vec![lean, 0.0]), valley: None }
     }
 
     #[test]

@@ -145,6 +145,20 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         }
     }
 
+    /// Torques of the teeth of one planet of group `g` on both side gears, while nothing turns against anything else [N·m].
+    pub(in crate::model) fn planet_torques(&self, at: &Point<N>, g: usize) -> [f64; 2] {
+        let still = &Point { q: at.q, v: [0.0; N] };
+        let side = self.teeth.sin_base[1];
+        if WITH_EFFECTS && self.in_detail() {
+            return self.planet_loads::<f64>(still, g).map(|load| side * load.force[0]);
+        }
+        let force = match self.bodies_of_gears() {
+            Some(bodies) => self.forces_on_bodies(bodies, still, g),
+            None => [0, 1].map(|s| self.teeth.mesh.force(&self.mesh_state(still, g, s))),
+        };
+        force.map(|force| side * force.force[0])
+    }
+
     /// Adds ∂(F_α, F_ψ, F_w of side s)/∂(α, ψ, w of the other side) of all planets.
     #[inline]
     pub(super) fn add_cross_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {

@@ -2,11 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::carried::Carried;
 use super::excessive_deflection::limit_name;
 use super::hints;
 use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::Teeth;
+use crate::model::assembly::teeth::SIGMA;
 use crate::model::dynamics::equations::Equations;
 use crate::numeric::{Landscape, Search, rising_root, sqrt};
 use crate::problem::Problem;
@@ -29,8 +30,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         (self.tooth_torques(&still).0, self.tooth_stiffness(at))
     }
 
-    /// Torque that the teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
-    fn carried(&self, s: usize, at: &Point<N>) -> [f64; 2] {
+    /// Torque that plain teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
+    fn plain(&self, s: usize, at: &Point<N>) -> [f64; 2] {
         let mut mesh = [[0.0; 2]; G];
         for g in 0..G {
             let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
@@ -46,14 +47,36 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 }
 
-/// Turns each side gear with planets held at their spin until the teeth carry `torque`; unloaded sides stay in mid-gap.
+/// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
 pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     model: &Model,
-    teeth: &Teeth,
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     torque: [f64; 2],
     point: &mut Point<N>,
 ) -> Result<(), Problem> {
+    press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
+        let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
+        Problem::new(
+            name,
+            format!(
+                "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+                torque[s],
+                limit_name(model),
+                hints::stiffer_teeth(&model.parameters)
+            ),
+        )
+    })
+}
+
+/// The same with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On failure the side
+/// that cannot be pressed.
+fn press<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    torque: [f64; 2],
+    point: &mut Point<N>,
+    carry: impl Fn(usize, &Point<N>) -> [f64; 2],
+) -> Result<(), usize> {
+    let teeth = equations.teeth;
     let largest = (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
     for s in 0..2 {
         point.q[s] = 0.0;
@@ -64,38 +87,68 @@ pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EF
         let carry = |angle: f64| {
             let mut turned = *point;
             turned.q[s] = against * angle;
-            let [carried, by_angle] = equations.carried(s, &turned);
+            let [carried, by_angle] = carry(s, &turned);
             [-against * carried - load, -by_angle]
         };
-        let Some(angle) = rising_root(carry, largest, BALANCE * load) else {
-            let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
-            return Err(Problem::new(
-                name,
-                format!(
-                    "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
-                    torque[s],
-                    limit_name(model),
-                    hints::stiffer_teeth(&model.parameters)
-                ),
-            ));
-        };
-        point.q[s] = against * angle;
+        point.q[s] = against * rising_root(carry, largest, BALANCE * load).ok_or(s)?;
     }
     Ok(())
 }
 
+/// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
+///
+/// Errors may keep these apart, where nothing leads on: then, and where the search finds none, it begins from teeth that are
+/// pressed as they are.
+pub fn settle<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    loads: &Carried,
+    pressed: &Point<N>,
+) -> Option<Point<N>> {
+    let is_open = WITH_EFFECTS && equations.gaps().is_some();
+    let touches = || {
+        let sum = equations.statics(pressed).0;
+        (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
+    };
+    let found = if !is_open || touches() { minimum(equations, loads, pressed, false) } else { None };
+    if found.is_some() || !is_open { found } else { settle_as_they_are(equations, loads) }
+}
+
+/// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
+/// the others.
+pub fn settle_as_they_are<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    loads: &Carried,
+) -> Option<Point<N>> {
+    let mut pressed = Point::ZERO;
+    let carry = |s: usize, at: &Point<N>| {
+        let (sum, by_position) = equations.statics(at);
+        [sum[s], by_position[s][s]]
+    };
+    press(equations, loads.teeth, &mut pressed, carry).ok()?;
+    minimum(equations, loads, &pressed, true)
+}
+
 /// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
-/// tooth pitch.
+/// tooth pitch. What accelerates adds its inertial torque to the loads.
 ///
 /// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
 /// under loads that drive forward, at negative ones under the mirrored loads.
-pub fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
-    torque: [f64; 2],
+    loads: &Carried,
     point: &Point<N>,
+    along_valley: bool,
 ) -> Option<Point<N>> {
-    let well = Well { equations, torque, point, unknowns: unknowns(equations) };
-    let teeth = equations.teeth;
+    let (teeth, torque) = (equations.teeth, loads.teeth);
+    let mut against = [0.0; N];
+    against[..2].copy_from_slice(&torque);
+    for g in 0..G {
+        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin;
+        if P > 0 {
+            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier;
+        }
+    }
+    let well = Well { equations, against, point, unknowns: unknowns(equations) };
     let load = torque[0].abs() + torque[1].abs();
     let forward = torque[0] + torque[1];
     let forward = if forward == 0.0 { torque[0] } else { forward };
@@ -107,10 +160,12 @@ pub fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
         balance,
         rough: balance.max(sqrt(f64::EPSILON) * load),
         lean: well.unknowns_from(|i| if is_planet(i) { lean } else { 0.0 }),
+        valley: along_valley.then(|| {
+            let ratio = teeth.sin_base[0] / teeth.sin_base[1];
+            well.unknowns_from(|i| if i < 2 { SIGMA[i] * ratio } else { f64::from(is_planet(i)) })
+        }),
     };
-    let found = well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?);
-    let pitch = teeth.base_pitch / teeth.sin_base[0];
-    (0..teeth.layout.groups).all(|g| found.q[teeth.layout.planet(g)].abs() < pitch).then_some(found)
+    Some(well.at(&search.minimum(&well, well.unknowns_from(|i| point.q[i]))?))
 }
 
 /// Places of the unknown positions, and how many bodies each stands for; a group without members has nothing to find.
@@ -134,10 +189,11 @@ fn unknowns<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: 
     unknowns
 }
 
-/// The potential V + Σ T_s α_s around `point` as a function of the unknown positions.
+/// The potential V + Σ T_i q_i around `point` as a function of the unknown positions.
 struct Well<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> {
     equations: &'a Equations<'a, N, G, P, WITH_EFFECTS>,
-    torque: [f64; 2],
+    /// T, on each body.
+    against: [f64; N],
     point: &'a Point<N>,
     unknowns: Vec<(usize, f64)>,
 }
@@ -158,14 +214,20 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> L
     for Well<'_, N, G, P, WITH_EFFECTS>
 {
     fn value(&self, x: &DVector<f64>) -> f64 {
-        let at = self.at(x);
-        self.equations.static_energy(&at) + self.torque[0] * at.q[0] + self.torque[1] * at.q[1]
+        let energy = self.equations.static_energy(&self.at(x));
+        self.unknowns.iter().zip(x.iter()).fold(energy, |sum, (&(i, members), q)| sum + members * self.against[i] * q)
+    }
+
+    fn is_near(&self, x: &DVector<f64>) -> bool {
+        let (at, teeth) = (self.at(x), self.equations.teeth);
+        let pitch = teeth.base_pitch / teeth.sin_base[0];
+        (0..teeth.layout.groups).all(|g| at.q[teeth.layout.planet(g)].abs() < pitch)
     }
 
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {
         let (sum, stiffness) = self.equations.statics(&self.at(x));
         // forces on unknowns, counted by the bodies they stand for, point down the potential
-        let force = |&(i, members): &(usize, f64)| if i < 2 { sum[i] - self.torque[i] } else { members * sum[i] };
+        let force = |&(i, members): &(usize, f64)| members * (sum[i] - self.against[i]);
         let n = self.unknowns.len();
         let gradient = DVector::from_iterator(n, self.unknowns.iter().map(|unknown| -force(unknown)));
         let hessian = DMatrix::from_fn(n, n, |a, b| {

@@ -1,5 +1,6 @@
 //! A running simulation: its start, its steps, events, the ledger, and model exchange.
 
+mod carried;
 mod completed_step;
 mod cost_class;
 mod equilibrium;
@@ -18,6 +19,7 @@ mod reports;
 mod sensitivity;
 mod simulation;
 mod start;
+mod start_report;
 mod stretch;
 mod timeline;
 mod watching;

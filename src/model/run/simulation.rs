@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::events::update_friction;
+use super::events::{break_tooth, update_friction};
 use super::failure::StepFailure;
 use super::progress::{self, begin_anew};
-use super::{imposed, start, timeline};
+use super::{imposed, start, start_report, timeline};
 use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
 use crate::model::dynamics::sizes::by_size;
@@ -51,18 +51,26 @@ impl Simulation {
             Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         start::speeds(model, inputs, state);
+        // a tooth that is broken from the start on
+        break_tooth(model, inputs, state);
+        let mut preload = None;
         if parameters.scene.start == Start::Equilibrium {
             match &model.gears {
                 Gears::Rigid(rigid) => start::wind(model, &rigid.bodies.half_shafts, inputs, state),
                 Gears::Teeth(teeth) => {
                     let full = teeth.additions.bodies.act_in(state);
-                    by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state))
-                        .map_err(|problem| vec![problem])?;
+                    let pressed =
+                        by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state));
+                    preload = Some(pressed.map_err(|problem| vec![problem])?);
                 }
             }
         }
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
         update_friction(&simulation.model, inputs, &mut simulation.state);
+        if let Some(preload) = &preload {
+            let found = start_report::warnings(&simulation.model, inputs, &simulation.state, preload);
+            Arc::make_mut(&mut simulation.model).warnings.extend(found);
+        }
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);

@@ -1,6 +1,7 @@
 //! The state at the start time.
 
-use super::equilibrium::{minimum, press_sides};
+use super::carried::Carried;
+use super::equilibrium::{press_sides, settle, settle_as_they_are};
 use super::imposed::body_effects;
 use crate::integrate::Point;
 use crate::model::assembly::ideal::Ideal;
@@ -10,7 +11,7 @@ use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::state::State;
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{GearContact, InputDerivatives, Inputs, Start};
+use crate::model::scene::{GearContact, Inputs, Start};
 use crate::problem::Problem;
 
 /// Speeds at the start: imposed ones, and Willis' equation unless everything starts at rest.
@@ -18,7 +19,8 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
     let rest = model.parameters.scene.start == Start::Rest;
-    let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { inputs.carrier_speed };
+    let command = body_effects(model).carrier_speed(&state.q, inputs.carrier_speed);
+    let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { command };
     let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
     let [left, right] = inputs.side_speed;
     match plan.side_imposed {
@@ -57,73 +59,54 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     }
 }
 
-/// `inputs` with the brakes of wheels that turn among the loads.
-fn with_sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> Inputs {
-    let friction = body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
-    let brakes = friction.wheel_loads(inputs);
-    let (plan, layout) = (&model.ideal.plan, &model.layout);
-    let load_torque = [0, 1].map(|s| {
-        let speed = state.v[if plan.shafts[s] { layout.end(s) } else { s }];
-        let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
-        inputs.load_torque[s] + direction * brakes[s].load
-    });
-    Inputs { load_torque, ..*inputs }
-}
-
-/// Torques that the side gears carry at the start, from accelerations where they are free to accelerate.
-fn loads(model: &Model, ideal: &Ideal, inputs: &Inputs) -> [f64; 2] {
-    let load = inputs.load_torque;
-    match ideal.plan.side_imposed {
-        // a differential shares the torque of its carrier equally
-        [true, true] => [0.5 * inputs.carrier_torque; 2],
-        [true, false] => [load[1]; 2],
-        [false, true] => [load[0]; 2],
-        [false, false] => {
-            // what shafts carry is quasi-static: wheels at their ends accelerate with their side gears
-            let mut together = *ideal;
-            together.plan.shafts = [false; 2];
-            let a = together.side_accelerations(&together.motion(inputs));
-            [0, 1].map(|s| load[s] + model.ideal.inertia.side[s] * a[s])
-        }
-    }
-}
-
 /// Winds the half-shafts of an ideal differential up.
 pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut State) {
-    let carried = loads(model, &model.ideal, &with_sliding_brakes(model, inputs, state));
+    let carried = Carried::new(model, &model.ideal, inputs, state);
     let plan = &model.ideal.plan;
     for s in (0..2).filter(|&s| plan.shafts[s]) {
-        state.q[plan.layout().end(s)] = shafts.static_twist(s, carried[s]);
+        state.q[plan.layout().end(s)] = shafts.static_twist(s, carried.shaft[s]);
     }
+}
+
+/// What a start is like.
+#[derive(Clone, Copy, Debug)]
+pub struct Preload {
+    /// What is carried, and the accelerations with which it is.
+    pub carried: Carried,
+    /// Whether the planets do not stay where they are, but roll.
+    pub rolls: bool,
 }
 
 /// Presses the meshes together until tooth torques balance the loads, and winds the half-shafts up.
 ///
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
 /// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
-/// differential and ψ = 0.
+/// differential, plain teeth at ψ = 0 and others at the minimum under the loads of these accelerations.
 pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     model: &Model,
     inputs: &Inputs,
     state: &mut State,
-) -> Result<(), Problem> {
+) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;
-    let inputs = &with_sliding_brakes(model, inputs, state);
     let held = Ideal { plan: plan.with_spin_held(), ..*ideal };
-    let still = loads(model, &held, inputs);
+    let mut carried = Carried::new(model, &held, inputs, state);
     let mut point = Point::ZERO;
-    press_sides(model, teeth, equations, still, &mut point)?;
-    let mut carried = still;
+    press_sides(model, equations, carried.teeth, &mut point)?;
     // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
     let otherwise = WITH_EFFECTS && (equations.in_detail() || P > 0 || equations.bodies_of_gears().is_some());
+    let mut rolls = false;
     if !plan.spin_imposed || otherwise {
-        if let Some(settled) = minimum(equations, still, &point) {
+        if let Some(settled) = settle(equations, &carried, &point) {
             point = settled;
         } else if !plan.spin_imposed {
-            carried = loads(model, ideal, inputs);
-            press_sides(model, teeth, equations, carried, &mut point)?;
+            rolls = true;
+            carried = Carried::new(model, ideal, inputs, state);
+            press_sides(model, equations, carried.teeth, &mut point)?;
+            if otherwise {
+                point = settle_as_they_are(equations, &carried).unwrap_or(point);
+            }
         }
     }
     let (_, stiffness) = equations.statics(&point);
@@ -147,9 +130,9 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
             point.v[s] = speeds[CARRIER] - by_spin / own;
         }
         if plan.shafts[s] {
-            point.q[teeth.layout.end(s)] = teeth.additions.bodies.half_shafts.static_twist(s, carried[s]);
+            point.q[teeth.layout.end(s)] = teeth.additions.bodies.half_shafts.static_twist(s, carried.shaft[s]);
         }
     }
     state.set_point(&point);
-    Ok(())
+    Ok(Preload { carried, rolls })
 }

@@ -1,0 +1,100 @@
+//! What teeth and half-shafts carry at the start, while the gears move as an ideal differential.
+
+use super::imposed::body_effects;
+use crate::model::assembly::ideal::{Ideal, IdealMotion};
+use crate::model::assembly::model::Model;
+use crate::model::assembly::teeth::SIGMA;
+use crate::model::dynamics::state::State;
+use crate::model::effect_kinds::body_effect::{Action, Bodies};
+use crate::model::scene::layout::{CARRIER, MAX_DOF};
+use crate::model::scene::{InputDerivatives, Inputs};
+use crate::model::setup::effect_outputs::HEATS;
+
+/// Torques at the start, and the accelerations that go with them.
+#[derive(Clone, Copy, Debug)]
+pub struct Carried {
+    /// Torque of the teeth on each side gear [N·m].
+    pub teeth: [f64; 2],
+    /// Torque that each half-shaft delivers to its wheel [N·m].
+    pub shaft: [f64; 2],
+    /// Acceleration of each side gear [rad/s²].
+    pub side: [f64; 2],
+    /// Acceleration of the carrier [rad/s²].
+    pub carrier: f64,
+    /// Acceleration of the planets' spin [rad/s²].
+    pub spin: f64,
+}
+
+impl Carried {
+    /// What is carried under `inputs` at the speeds of `state` by gears that move as `ideal`: the ideal differential of the
+    /// scene, or the one whose planets do not spin.
+    pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
+        let on_bodies = on_bodies(model, inputs, state);
+        let brakes = sliding_brakes(model, inputs, state);
+        let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - on_bodies[s]);
+        let drive = inputs.carrier_torque + on_bodies[CARRIER];
+        // what shafts carry is quasi-static: wheels at their ends accelerate with their side gears
+        let mut together = *ideal;
+        together.plan.shafts = [false; 2];
+        let j = &model.ideal.inertia;
+        let mut motion = IdealMotion::default();
+        let teeth = match ideal.plan.side_imposed {
+            // a differential shares the torque of its carrier equally
+            [true, true] => [0.5 * drive; 2],
+            [false, false] => {
+                motion = together.motion(&Inputs { load_torque: load, carrier_torque: drive, ..*inputs });
+                let a = together.side_accelerations(&motion);
+                [0, 1].map(|s| load[s] + j.side[s] * a[s])
+            }
+            [imposed_left, _] => {
+                let s = usize::from(!imposed_left);
+                let (other, mut teeth) = (load[1 - s], [load[1 - s]; 2]);
+                if !ideal.plan.carrier_imposed {
+                    if ideal.plan.spin_imposed {
+                        teeth[s] = drive - other;
+                    } else {
+                        // side s keeps its speed, the other accelerates twice as fast as the carrier
+                        let planets = j.planets * j.planet / (ideal.ratio * ideal.ratio);
+                        motion.carrier = (drive - 2.0 * other) / (j.carrier + 4.0 * j.side[1 - s] + planets);
+                        motion.spin = -SIGMA[s] * motion.carrier / ideal.ratio;
+                        teeth[1 - s] += 2.0 * j.side[1 - s] * motion.carrier;
+                        teeth[s] = teeth[1 - s] + planets * motion.carrier;
+                    }
+                }
+                teeth
+            }
+        };
+        let side = together.side_accelerations(&motion);
+        let shaft = [0, 1].map(|s| teeth[s] + on_bodies[s] - (j.side[s] - j.end[s]) * side[s]);
+        Self { teeth, shaft, side, carrier: motion.carrier, spin: motion.spin }
+    }
+}
+
+/// Torques of brakes of wheels that turn [N·m].
+fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
+    let friction = body_effects(model).friction(state.lock, inputs, &InputDerivatives::ZERO);
+    let brakes = friction.wheel_loads(inputs);
+    let (plan, layout) = (&model.ideal.plan, &model.layout);
+    [0, 1].map(|s| {
+        let speed = state.v[if plan.shafts[s] { layout.end(s) } else { s }];
+        let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
+        direction * brakes[s].load
+    })
+}
+
+/// Torques of effects, such as drag, on side gears and carrier at the speeds of `state`, before anything is wound up [N·m].
+fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
+    let (q, mut v) = ([0.0; MAX_DOF], state.v);
+    if model.layout.ends {
+        for s in 0..2 {
+            v[model.layout.end(s)] = v[s];
+        }
+    }
+    let bodies = Bodies { q: &q, v: &v, layout: &model.layout, inputs, input_rates: &Inputs::ZERO };
+    let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);
+    let mut out = Action { force: &mut force, imposed: &mut imposed, drive: &mut drive, heat: &mut heat };
+    for effect in body_effects(model).forces.iter() {
+        effect.act(&bodies, &mut out);
+    }
+    [force[0], force[1], force[CARRIER] + drive]
+}

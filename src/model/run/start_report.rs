@@ -1,0 +1,105 @@
+//! What the log says of a start: that it is no equilibrium, or that few planets carry.
+
+use super::start::Preload;
+use crate::integrate::SecondOrder;
+use crate::model::assembly::model::{Gears, Model};
+use crate::model::dynamics::sizes::by_size;
+use crate::model::dynamics::state::State;
+use crate::model::scene::layout::{CARRIER, MAX_DOF, MAX_GROUPS};
+use crate::model::scene::{Inputs, Plan};
+use crate::problem::Problem;
+
+/// Part of the loads that an equilibrium may leave unbalanced.
+const BALANCED: f64 = 1e-6;
+/// Part of its equal share below which a planet carries so little that the log says so.
+const LITTLE: f64 = 0.5;
+/// Loads below this are none [N·m].
+const LEAST_LOAD: f64 = 1e-6;
+
+/// Accelerations at the start, and the torques of the teeth of one planet of each group on the side gears.
+struct Found {
+    acceleration: [f64; MAX_DOF],
+    torque: [[f64; 2]; MAX_GROUPS],
+}
+
+/// What is worth a warning in the start `preload` of `state`.
+pub fn warnings(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Vec<Problem> {
+    let Gears::Teeth(teeth) = &model.gears else { return Vec::new() };
+    let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
+    by_size!(teeth, teeth.additions.bodies.act_in(state), {
+        let (equations, point) = (E::new(teeth, inputs, state), state.point::<N>());
+        found.acceleration[..N].copy_from_slice(&equations.evaluate(&point).0);
+        for g in 0..teeth.plan.groups().len() {
+            found.torque[g] = equations.planet_torques(&point, g);
+        }
+    });
+    let balance = if preload.rolls { Some(rolling(preload)) } else { unbalanced(model, state, preload, &found) };
+    balance
+        .into_iter()
+        .chain(unequal(&teeth.plan, &found))
+        .map(|message| Problem::new("scene.start", message))
+        .collect()
+}
+
+/// Planets that roll as soon as the time does.
+fn rolling(preload: &Preload) -> String {
+    let [left, right] = preload.carried.teeth;
+    format!(
+        "there is no equilibrium: the teeth do not hold the planets against what the sides differ by, and they roll; at the start \
+         the gears accelerate as without teeth, while those carry {left:.3} N.m left and {right:.3} N.m right"
+    )
+}
+
+/// Torque that is left over where nothing turns against anything else, if it is more than an equilibrium leaves.
+fn unbalanced(model: &Model, state: &State, preload: &Preload, found: &Found) -> Option<String> {
+    let Gears::Teeth(teeth) = &model.gears else { return None };
+    let (layout, carried) = (&teeth.layout, &preload.carried);
+    let load = carried.teeth[0].abs() + carried.teeth[1].abs();
+    // a group without members has nothing to carry
+    let planets = (0..teeth.plan.groups().len()).map(|g| layout.planet(g));
+    if load < LEAST_LOAD || planets.clone().any(|i| state.v[i] != 0.0) {
+        return None;
+    }
+    let sides = (0..2).map(|s| (s, carried.side[s]));
+    // imposed motions have no inverse
+    let left_over = sides
+        .chain(planets.map(|i| (i, carried.spin)))
+        .chain([(CARRIER, carried.carrier)])
+        .filter(|&(i, _)| teeth.inverse_inertia[i] > 0.0)
+        .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
+        .fold(0.0, f64::max);
+    (left_over > BALANCED * load).then(|| {
+        format!(
+            "no equilibrium was found: the teeth carry {:.3} N.m left and {:.3} N.m right of {:.3} and {:.3} N.m, and the gears \
+             begin to accelerate at once; peaks and ratings of the run contain this",
+            found.torque_on(&teeth.plan, 0),
+            found.torque_on(&teeth.plan, 1),
+            carried.teeth[0],
+            carried.teeth[1]
+        )
+    })
+}
+
+impl Found {
+    fn torque_on(&self, plan: &Plan, s: usize) -> f64 {
+        plan.groups().iter().zip(&self.torque).map(|(group, torque)| group.members * torque[s]).sum()
+    }
+}
+
+/// Planets that carry very unequal parts of the loads.
+fn unequal(plan: &Plan, found: &Found) -> Option<String> {
+    let part = |planet: usize| {
+        let [left, right] = found.torque[plan.group_of[planet]];
+        left.abs() + right.abs()
+    };
+    let parts: Vec<f64> = (0..plan.planets).map(part).collect();
+    let sum: f64 = parts.iter().sum();
+    let equal = sum / plan.planets as f64;
+    (sum > 2.0 * LEAST_LOAD && parts.iter().any(|&part| part < LITTLE * equal)).then(|| {
+        let each = parts.iter().enumerate().map(|(i, part)| format!("planet[{}] {:.3}", i + 1, part / sum));
+        format!(
+            "the planets carry unequal parts of the load at the start: {} of it",
+            each.collect::<Vec<_>>().join(", ")
+        )
+    })
+}
