@@ -50,6 +50,10 @@ const ADDED: &[&str] = &[
     "planet[1].left_pair[3].toe_pressure",
     "planet[1].left_pair[3].middle_pressure",
     "planet[1].left_pair[3].heel_pressure",
+    "left.wheel_angle",
+    "left.wheel_speed",
+    "right.wheel_angle",
+    "right.wheel_speed",
 ];
 
 /// Takes the later additions out of `rows`, and returns them in their order.

@@ -36,6 +36,10 @@ class DifferentialError(ValueError):
         self.status = status
 
 
+class DifferentialWarning(UserWarning):
+    """What the FMU warned of in a run."""
+
+
 class Variable:
     """A variable of the FMU, with its units and literals.
 
