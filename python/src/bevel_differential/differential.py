@@ -89,6 +89,11 @@ class Differential:
         """What the FMU warned of in the last run of this thread."""
         return list(self._instance().messages)
 
+    @property
+    def unfelt(self) -> dict[str, str]:
+        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's words why."""
+        return self._instance().unfelt
+
     def close(self) -> None:
         """Frees all instances."""
         while self._all:

@@ -90,16 +90,13 @@ impl Declare for ToothErrorSpec {
                     "Length of both reliefs in base pitches",
                 ),
             ),
-            when(
-                "contact.law != impact or scene.gear_contact = solid",
-                real(
-                    "tooth_errors.crowning",
-                    units::METRE,
-                    Some(UM),
-                    (0.0, 1e-3),
-                    |p| &mut p.crowning,
-                    "Lengthwise crowning of a pair: gap at both ends of the face relative to its middle",
-                ),
+            real(
+                "tooth_errors.crowning",
+                units::METRE,
+                Some(UM),
+                (0.0, 1e-3),
+                |p| &mut p.crowning,
+                "Lengthwise crowning of a pair: gap at both ends of the face relative to its middle",
             ),
             real(
                 "tooth_errors.shaft_angle_error",

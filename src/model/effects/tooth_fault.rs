@@ -42,7 +42,7 @@ impl Declare for ToothFaultSpec {
                 integer("tooth_fault.tooth", (0, 199), |p| &mut p.tooth, "Number of the broken tooth from 0"),
             ),
             when(
-                "tooth_fault.gear != none",
+                "tooth_fault.gear != none and contact.law = line|line_weber",
                 real(
                     "tooth_fault.missing_fraction",
                     units::ONE,

@@ -102,16 +102,13 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
                 "Circumferential backlash at the outer pitch circle",
             ),
         ),
-        when(
-            "scene.gear_contact = tooth and contact.law = line|line_weber or scene.gear_contact = lumped and contact.mesh_stiffness_from_geometry = true",
-            real(
-                "geometry.root_fillet",
-                units::ONE,
-                None,
-                (0.0, 1.0),
-                |p| &mut p.geometry.root_fillet,
-                "Fillet radius at the root of the teeth per module, for their stiffness",
-            ),
+        real(
+            "geometry.root_fillet",
+            units::ONE,
+            None,
+            (0.0, 1.0),
+            |p| &mut p.geometry.root_fillet,
+            "Fillet radius at the root of the teeth per module, for their stiffness",
         ),
         real(
             "geometry.planet_bore",

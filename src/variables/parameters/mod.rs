@@ -37,7 +37,7 @@ fn teeth() -> [Row<Parameter<Parameters>>; 2] {
             "Backlash geometry.backlash; false: teeth without play",
         ),
         when(
-            "scene.gear_contact = tooth|solid",
+            "scene.gear_contact != ideal",
             switch(
                 "effects.corner_contact",
                 |p| &mut p.effects.corner_contact,
