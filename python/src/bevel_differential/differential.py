@@ -62,7 +62,8 @@ class Differential:
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
         the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message; what the FMU warns of is a Python warning, `DifferentialWarning`."""
+        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has
+        all that the FMU warned of."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
@@ -115,9 +116,9 @@ class Differential:
         return _structured(steps.points, variables, batches, record)
 
     def _warn(self):
-        """Passes on what the FMU warned of in the last run, as warnings about the line that called `run`."""
-        for message in self.warnings:
-            warnings.warn(message, DifferentialWarning, stacklevel=3)
+        """Passes on what changed nothing in the last run, as warnings about the line that called `run`."""
+        for name, why in self.unfelt.items():
+            warnings.warn(f"{name}: {why}", DifferentialWarning, stacklevel=3)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):

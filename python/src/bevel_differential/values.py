@@ -37,7 +37,7 @@ class DifferentialError(ValueError):
 
 
 class DifferentialWarning(UserWarning):
-    """What the FMU warned of in a run."""
+    """A value changes nothing in the scene in which it is set."""
 
 
 class Variable:

@@ -62,7 +62,7 @@ def _run(name, arguments):
         except SystemExit as end:
             return end.code
         with warnings.catch_warnings():
-            # commands print what the FMU warns of
+            # commands print what the FMU warns of themselves
             warnings.simplefilter("ignore", DifferentialWarning)
             return module.run(parsed)
     except ModuleNotFoundError as missing:

@@ -32,7 +32,7 @@ QUANTITIES = {quantity.name: quantity for quantity in [
     Quantity("track", LENGTH),
 ]}
 SPIN = "scene.planet_spin"
-# how the FMU drives each shaft, and whether a speed of the left side adds to that of the carrier in a turn to the right
+# how the FMU drives each shaft; the sense in which half the difference of speeds adds to each side
 DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
 SIDES = {"left": 1.0, "right": -1.0}
 
@@ -41,17 +41,13 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
               drives: Mapping[str, str]) -> dict[str, float | str | np.ndarray]:
     """Inputs and parameters of the FMU, SI, that follow from the quantities of `vehicle` ({name: number or array of shape
     (points,)}, SI) with the numbers of `teeth` (planet, side gear) and the literals of `DRIVES` by name. Raises
-    `DifferentialError` for what is missing, and for what no command takes."""
+    `DifferentialError` for what is missing."""
     found: dict[str, float | str | np.ndarray] = {}
     by_speed = [side for side in SIDES if drives[f"scene.{side}_drive"] == "speed"]
-    carrier_by_torque = drives["scene.carrier_drive"] == "torque"
     if "torque" in vehicle:
-        if carrier_by_torque:
-            found["carrier.torque_command"] = vehicle["torque"]
         found.update({f"{side}.load_torque": vehicle["torque"] / 2.0 for side in SIDES if side not in by_speed})
-        if not found:
-            raise DifferentialError("torque: carrier and sides are all driven by speed, so that nothing takes a torque; leave it "
-                                    "empty, or set scene.carrier_drive = torque")
+        if drives["scene.carrier_drive"] == "torque":
+            found["carrier.torque_command"] = vehicle["torque"]
     speed = vehicle["speed"] / wheel_radius(vehicle, "speed") if "speed" in vehicle else None
     # both sides together give the carrier its speed
     if speed is not None and len(by_speed) < len(SIDES):
