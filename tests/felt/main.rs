@@ -298,19 +298,22 @@ fn a_value_that_scenes_feel_changes_some_output_on_every_level_of_teeth_and_in_e
     let mut wrong = Vec::new();
     let chosen = std::env::var("FELT_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
-        // what every scene feels need be shown on one level
-        let levels = if row.switch.is_some() || row.when.is_some() { &LEVELS[..] } else { &LEVELS[2..3] };
-        let mut shown = false;
-        for &level in levels {
+        // what every scene feels need be shown once; a value of which every other one is refused is not taken in silence
+        let always = row.switch.is_none() && row.when.is_none();
+        let mut found = Vec::new();
+        for level in LEVELS {
+            if always && found.contains(&Some(true)) {
+                break;
+            }
             for (k, tests) in ways(row).iter().enumerate() {
-                match has_witness(i, level, tests) {
-                    Some(true) => shown = true,
-                    Some(false) => wrong.push(format!("{} by way {k} on {level:?}", row.name)),
-                    None => {}
+                found.push(has_witness(i, level, tests));
+                if !always && found.ends_with(&[Some(false)]) {
+                    wrong.push(format!("{} by way {k} on {level:?}", row.name));
                 }
             }
         }
-        if !shown {
+        let refused = always && found.iter().all(Option::is_none);
+        if !refused && !found.contains(&Some(true)) {
             wrong.push(format!("{} in no scene", row.name));
         }
     }
