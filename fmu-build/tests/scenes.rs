@@ -60,7 +60,7 @@ fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
 #[test]
 fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
     let outcome = run(&find("one_wheel_on_ice")?, None, None)?;
-    let difference = named(&outcome, "left.speed").end - named(&outcome, "right.speed").end;
+    let difference = named(&outcome, "left.wheel_speed").end - named(&outcome, "right.wheel_speed").end;
     assert!((difference / (835.0 * 0.2) - 1.0).abs() < 2e-3, "{difference}");
     Ok(())
 }

@@ -35,4 +35,4 @@ pub mod units;
 pub use access::{Field, GetChoice, Parameter, SetChoice};
 pub use choice;
 pub use row::{Causality, Choice, EnumType, Range, Row, Variability};
-pub use rows::{calculated, command, enumeration, input, integer, output, real, switch, tunable};
+pub use rows::{calculated, command, enumeration, input, integer, output, real, switch, tunable, when};

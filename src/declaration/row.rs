@@ -72,6 +72,10 @@ pub struct Row<A> {
     pub nominal: Option<f64>,
     /// Index of the variable of which this one is the time derivative.
     pub derivative_of: Option<usize>,
+    /// Switch of the effect that the variable belongs to, where nothing else can make it felt.
+    pub switch: Option<&'static str>,
+    /// Condition on other variables under which a scene can feel the value, as `variables::felt` reads it; none: always.
+    pub when: Option<&'static str>,
     /// The way to its value.
     pub access: A,
 }
@@ -79,9 +83,19 @@ pub struct Row<A> {
 impl<A> Row<A> {
     /// The same row with another way to its value.
     pub fn map<B>(self, to: impl FnOnce(A) -> B) -> Row<B> {
-        let Self { name, description, causality, variability, unit, display, range, nominal, derivative_of, access } =
-            self;
-        let access = to(access);
-        Row { name, description, causality, variability, unit, display, range, nominal, derivative_of, access }
+        Row {
+            name: self.name,
+            description: self.description,
+            causality: self.causality,
+            variability: self.variability,
+            unit: self.unit,
+            display: self.display,
+            range: self.range,
+            nominal: self.nominal,
+            derivative_of: self.derivative_of,
+            switch: self.switch,
+            when: self.when,
+            access: to(self.access),
+        }
     }
 }

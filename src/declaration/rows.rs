@@ -16,6 +16,8 @@ fn row<A>(name: &'static str, causality: Causality, access: A, description: &'st
         range: None,
         nominal: None,
         derivative_of: None,
+        switch: None,
+        when: None,
         access,
     }
 }
@@ -68,6 +70,11 @@ pub fn enumeration<P: 'static>(
 /// The same parameter, to be changed while a simulation runs as well.
 pub fn tunable<P>(row: Row<Parameter<P>>) -> Row<Parameter<P>> {
     Row { variability: Variability::Tunable, ..row }
+}
+
+/// The same variable, whose value a scene feels under `condition` alone (`variables::felt`).
+pub fn when<A>(condition: &'static str, row: Row<A>) -> Row<A> {
+    Row { when: Some(condition), ..row }
 }
 
 /// An input between −`limit` and `limit`.

@@ -7,7 +7,8 @@ use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
-use crate::problem;
+use crate::problem::{self, Problem};
+use crate::variables::felt::{self, Situation};
 use crate::variables::{self, Access, Variable};
 
 /// Tolerance of communication points, relative to the larger of time and step size: far above the rounding errors of hosts
@@ -32,6 +33,8 @@ pub struct Instance {
     pub kept: Share,
     /// Warnings that are logged once in a run, so far.
     reported: Reported,
+    /// Variables of which the log says that their values change nothing.
+    unfelt: Vec<&'static str>,
 }
 
 /// Tolerance and time interval of fmi2SetupExperiment.
@@ -48,7 +51,7 @@ pub struct Experiment {
 impl Instance {
     /// A new instance with start values.
     pub fn new(kind: Kind, log: Log) -> Self {
-        Self { now: Snapshot::new(kind), log, kept: Share::new(), reported: Reported::default() }
+        Self { now: Snapshot::new(kind), log, kept: Share::new(), reported: Reported::default(), unfelt: Vec::new() }
     }
 
     /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
@@ -104,8 +107,35 @@ impl Instance {
             for warning in simulation.warnings() {
                 self.log.warning(&warning.to_string());
             }
+            self.warn_of_unfelt(felt::unfelt(&self.now.parameters, &self.now.inputs, self.situation(true)));
         }
         Ok(())
+    }
+
+    fn situation(&self, from_start: bool) -> Situation {
+        Situation { own_steps: self.now.kind == Kind::CoSimulation, from_start }
+    }
+
+    /// Logs that a value that was set while the simulation runs changes nothing, if so.
+    pub fn warn_of_set_value(&mut self, reference: u32, value: f64) {
+        if self.now.phase.is_running() && self.log.is_on(Category::Warning) {
+            let (index, situation) = (reference as usize, self.situation(false));
+            let found = felt::unfelt_value(index, value, &mut self.now.parameters, situation);
+            self.warn_of_unfelt(found);
+        }
+    }
+
+    /// Logs that values change nothing, once for each variable.
+    fn warn_of_unfelt(&mut self, found: impl IntoIterator<Item = Problem>) {
+        for problem in found {
+            // a tolerance of fmi2SetupExperiment is none that the user set
+            let is_hosts =
+                tolerance_row().is_some_and(|(row, _)| row.name == problem.variable) && !self.now.tolerance_chosen;
+            if !is_hosts && !self.unfelt.contains(&problem.variable) {
+                self.log.warning(&problem.to_string());
+                self.unfelt.push(problem.variable);
+            }
+        }
     }
 
     /// fmi2Terminate.
@@ -122,6 +152,7 @@ impl Instance {
     pub fn reset(&mut self) -> CallResult {
         self.now = Snapshot::new(self.now.kind);
         self.reported = Reported::default();
+        self.unfelt.clear();
         Ok(())
     }
 

@@ -142,6 +142,9 @@ impl Instance {
         }
         self.end_derivatives_of(references);
         self.changed(tuned);
+        for (reference, value) in references.iter().zip(values.iter()) {
+            self.warn_of_set_value(reference, value);
+        }
         Ok(())
     }
 

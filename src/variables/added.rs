@@ -52,6 +52,10 @@ const ADDED: &[&str] = &[
     "planet[1].left_pair[3].heel_pressure",
     "strength.rate_from",
     "stress.contact_rated",
+    "left.wheel_angle",
+    "left.wheel_speed",
+    "right.wheel_angle",
+    "right.wheel_speed",
 ];
 
 /// Takes the later additions out of `rows`, and returns them in their order.

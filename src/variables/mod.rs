@@ -4,6 +4,7 @@
 mod access;
 mod added;
 mod calculated;
+pub mod felt;
 mod inputs;
 mod outputs;
 mod parameters;

@@ -34,14 +34,37 @@ macro_rules! side {
                 units::RADIAN,
                 Some(DEG),
                 |m| m.side_angle[$s],
-                "Side gear angle; 0 as assembled with teeth in mid-gap, lash and deflection included",
+                concat!(
+                    "Side gear angle, not that of a wheel behind a half-shaft (", $name,
+                    ".wheel_angle); 0 as assembled with teeth in mid-gap, lash and deflection included"
+                ),
             ),
             motion(
                 concat!($name, ".speed"),
                 units::RAD_PER_S,
                 Some(DEG_PER_S),
                 |m| m.side_speed[$s],
-                "Side gear speed",
+                concat!("Side gear speed, not that of a wheel behind a half-shaft (", $name, ".wheel_speed)"),
+            ),
+            motion(
+                concat!($name, ".wheel_angle"),
+                units::RADIAN,
+                Some(DEG),
+                |m| m.wheel_angle[$s],
+                concat!(
+                    "Wheel angle, for brakes and tyres: of the end of the half-shaft, ", $name, ".angle - ", $name,
+                    ".twist, where the end moves by itself; of the side gear otherwise"
+                ),
+            ),
+            motion(
+                concat!($name, ".wheel_speed"),
+                units::RAD_PER_S,
+                Some(DEG_PER_S),
+                |m| m.wheel_speed[$s],
+                concat!(
+                    "Wheel speed, for brakes and tyres: of the end of the half-shaft where that moves by itself (scene.", $name,
+                    "_drive = speed, or effects.half_shaft with inertia.", $name, "_end above 0), of the side gear otherwise"
+                ),
             ),
             forces(
                 concat!($name, ".acceleration"),

@@ -92,9 +92,9 @@ bodies! {
         "planet[3].pin_angle" DEFLECTION, "planet[3].pin_speed" SPEED;
     Body::Pin(3), TURNS, "Pin, its angle counted from the carrier",
         "planet[4].pin_angle" DEFLECTION, "planet[4].pin_speed" SPEED;
-    Body::End(0), TURNS, "Wheel side of the left half-shaft; its position is the twist, side gear ahead",
+    Body::End(0), TURNS, "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. Its position is the twist, side gear ahead",
         "left.shaft_twist" TWIST, "left.end_speed" SPEED;
-    Body::End(1), TURNS, "Wheel side of the right half-shaft; its position is the twist, side gear ahead",
+    Body::End(1), TURNS, "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. Its position is the twist, side gear ahead",
         "right.shaft_twist" TWIST, "right.end_speed" SPEED;
 }
 

@@ -23,5 +23,4 @@ def drive_torque(torque):
 
 
 def wheel_angles(driven):
-    """Of the wheels: of the side gears where half-shafts are rigid."""
-    return np.array([driven[f"{side}.angle"] - driven[f"{side}.twist"] for side in SIDES])
+    return np.array(driven.read([f"{side}.wheel_angle" for side in SIDES]))

@@ -338,7 +338,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("runs = 8", "seed = -1", ["seed = -1"]),
     ("runs = 8", "capability = 0", ["capability = 0"]),
     ("runs = 8", "rums = 8", ["rums", "did you mean runs"]),
-    ("runs = 8", "set.effects.tooth_errors = false", ["effects.tooth_errors is off"]),
+    ("runs = 8", "set.effects.tooth_errors = false", ["tooth_errors.", "has a tolerance, but", "effects.tooth_errors = true"]),
     ("runs = 8", "set.tooth_errors.runout_by_grade = true", ["tooth_errors.side_runout", "runout_by_grade"]),
     ("[factors]", "[factors.more]", ["more.tooth_errors", "no such variable"]),
 ])

@@ -16,14 +16,14 @@ export const STEPS = [
   },
   {
     title: "One wheel on ice",
-    fragment: "scene=one_wheel_on_ice&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
+    fragment: "scene=one_wheel_on_ice&show=left.wheel_speed+right.wheel_speed+left.shaft_torque+right.shaft_torque",
     text: "The left wheel has no load but its inertia. The teeth give both wheels the same torque, so the right one gets no "
       + "more than the left one can take. The left wheel spins up, and the right one falls back until its own load turns it the other way. "
       + "The arrows stay equal. This is the weakness of an open differential.",
   },
   {
     title: "Limited slip",
-    fragment: "scene=limited_slip&show=left.speed+right.speed+left.shaft_torque+right.shaft_torque",
+    fragment: "scene=limited_slip&show=left.wheel_speed+right.wheel_speed+left.shaft_torque+right.shaft_torque",
     text: "Clutch packs press the side gears to the carrier. At 0.1 s the left load falls a little, and the packs hold: "
       + "nothing slips. At 0.25 s it fails. Now the packs slip, but they pass torque to the wheel that still has grip: see the "
       + "shaft torques part.",

@@ -11,9 +11,17 @@ const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
 const FOLLOWERS: [(&str, &[&str]); 2] = [
-    ("carrier.speed_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
-    ("planet.spin_command", &["carrier.speed", "left.speed", "right.speed", "spin_speed", "mesh.frequency"]),
+    (
+        "carrier.speed_command",
+        &["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"],
+    ),
+    (
+        "planet.spin_command",
+        &["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"],
+    ),
 ];
+/// Ends of half-shafts whose speed is commanded: the command's ending and that of the output, both of one side.
+const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 
 /// Whether speeds follow the input at once.
 fn is_followed(input: &Variable) -> bool {
@@ -52,7 +60,11 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
     match row.access {
         Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
-            FOLLOWERS.iter().any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
+            let own_side = input.name.strip_suffix(OF_END.0).zip(row.name.strip_suffix(OF_END.1));
+            own_side.is_some_and(|(of, side)| of == side)
+                || FOLLOWERS
+                    .iter()
+                    .any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
         }),
         Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
         Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {

@@ -15,6 +15,6 @@ from .differential import Differential
 from .fmu import Fmu
 from .scene import Scene
 from .scene_file import shipped_scenes
-from .values import DifferentialError
+from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Differential", "DifferentialError", "Fmu", "Scene", "shipped_scenes"]
+__all__ = ["Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "shipped_scenes"]

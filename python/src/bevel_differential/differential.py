@@ -1,6 +1,7 @@
 """The differential, as a user has it."""
 
 import threading
+import warnings
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
@@ -13,7 +14,7 @@ from .inputs import Inputs, Signals
 from .instance import DISCARD, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
-from .values import DifferentialError, FileName, Number, Value, Variable
+from .values import DifferentialError, DifferentialWarning, FileName, Number, Value, Variable
 
 if TYPE_CHECKING:
     import pandas
@@ -61,10 +62,12 @@ class Differential:
         `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
         Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
         the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message."""
+        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has
+        all that the FMU warned of."""
         stop, step = span("stop", stop), None if step is None else span("step", step)
         signals = Signals.of(self.fmu, inputs)
         record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        self._warn()
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
@@ -87,6 +90,11 @@ class Differential:
         """What the FMU warned of in the last run of this thread."""
         return list(self._instance().messages)
 
+    @property
+    def unfelt(self) -> dict[str, str]:
+        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's words why."""
+        return self._instance().unfelt
+
     def close(self) -> None:
         """Frees all instances."""
         while self._all:
@@ -106,6 +114,11 @@ class Differential:
         record = batches.record(len(steps.points))
         _advance(instance, batches, record, steps, signals)
         return _structured(steps.points, variables, batches, record)
+
+    def _warn(self):
+        """Passes on what changed nothing in the last run, as warnings about the line that called `run`."""
+        for name, why in self.unfelt.items():
+            warnings.warn(f"{name}: {why}", DifferentialWarning, stacklevel=3)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):

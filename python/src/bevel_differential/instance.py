@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 # what the log is to have
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
+# what warnings about values say that the scene cannot feel
+UNFELT = " changes nothing in this scene: "
 # statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 # fmpy's class and the element of the model description for each kind of instance
@@ -78,6 +80,12 @@ class Instance:
         (self.messages if status >= 1 else self.events).append(message.decode(errors="replace"))
         if status >= DISCARD:
             self._failure = self.messages[-1]
+
+    @property
+    def unfelt(self) -> dict[str, str]:
+        """Variables whose values change nothing in this scene, as the FMU has found so far; by name, with the FMU's words."""
+        found = (message.partition(": ") for message in self.messages if UNFELT in message)
+        return {name: why for name, _, why in found}
 
     def check(self, status: int, doing: str) -> None:
         """Raises the FMU's message if `status` is an error."""

@@ -82,29 +82,28 @@ class Scene:
 
         Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
         DataFrame, by time."""
-        self.check_settable(values or ())
-        stop = self.stop if stop is None else span("stop", stop)
-        steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
-        record = self._differential._simulate(steps, self._signals, self._named(outputs), values)
+        record = self._record(outputs, values, stop)
+        self._differential._warn()
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
-        self.check_settable(values or ())
-        names = self._named(outputs)
-        step = self.step if self._signals.tables else None
-        steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
-        last = self._differential._simulate(steps, self._signals, names, values)[-1]
-        return {name: last[name].item() for name in names}
+        found = self._final(outputs, values)
+        self._differential._warn()
+        return found
 
     def says(self, values: Mapping[str, Value] | None = None) -> str:
         """What the FMU says that it simulates at the start of the scene."""
-        self.check_settable(values or ())
-        start = {**self.values, **(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
         with self.fmu.open() as instance:
             instance.log(["logEvents"])
-            instance.initialise(start, self.stop)
+            self._initialise(instance, values)
             return " ".join(instance.events)
+
+    def unfelt(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
+        """Variables whose values at the start change nothing in the scene, by name, with the FMU's words why."""
+        with self.fmu.open() as instance:
+            self._initialise(instance, values)
+            return instance.unfelt
 
     @property
     def warnings(self) -> list[str]:
@@ -162,6 +161,27 @@ class Scene:
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         Scene.__init__(self, **state)
+
+    def _record(self, outputs=None, values=None, stop=None):
+        """`run` without Python warnings."""
+        self.check_settable(values or ())
+        stop = self.stop if stop is None else span("stop", stop)
+        steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
+        return self._differential._simulate(steps, self._signals, self._named(outputs), values)
+
+    def _final(self, outputs=None, values=None):
+        """`final` without Python warnings."""
+        self.check_settable(values or ())
+        names = self._named(outputs)
+        step = self.step if self._signals.tables else None
+        steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
+        last = self._differential._simulate(steps, self._signals, names, values)[-1]
+        return {name: last[name].item() for name in names}
+
+    def _initialise(self, instance, values):
+        self.check_settable(values or ())
+        start = {**self.values, **(values or {}), **{variable.name: value for variable, value in self._signals.start()}}
+        instance.initialise(start, self.stop)
 
     def _named(self, outputs):
         names = self.outputs if outputs is None else list(outputs)

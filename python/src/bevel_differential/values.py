@@ -36,6 +36,10 @@ class DifferentialError(ValueError):
         self.status = status
 
 
+class DifferentialWarning(UserWarning):
+    """A value changes nothing in the scene in which it is set."""
+
+
 class Variable:
     """A variable of the FMU, with its units and literals.
 

@@ -113,6 +113,8 @@ pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeO
     const NEEDS: Option<Needs> = None;
     /// Whether it may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
+    /// Condition under which a scene can feel its switch, as of a row; none: always.
+    const WHEN: Option<&'static str> = None;
     /// Values that make it visible in an example: names of variables, values in SI.
     const EXAMPLE: &'static [(&'static str, f64)] = &[];
 

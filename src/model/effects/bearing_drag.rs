@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG_PER_S};
-use crate::declaration::{Parameter, Row, real};
+use crate::declaration::{Parameter, Row, real, when};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::scene::Plan;
@@ -88,13 +88,16 @@ impl Declare for BearingDragSpec {
                 |p| &mut p.side_viscous,
                 "Viscous drag on each side gear",
             ),
-            real(
-                "bearing_drag.breakaway_speed",
-                units::RAD_PER_S,
-                Some(DEG_PER_S),
-                (1e-6, 1e3),
-                |p| &mut p.breakaway_speed,
-                "Speed at which the bearing torque has built up",
+            when(
+                "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0",
+                real(
+                    "bearing_drag.breakaway_speed",
+                    units::RAD_PER_S,
+                    Some(DEG_PER_S),
+                    (1e-6, 1e3),
+                    |p| &mut p.breakaway_speed,
+                    "Speed at which the bearing torque has built up",
+                ),
             ),
         ]
     }

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, integer, real};
+use crate::declaration::{Parameter, Row, integer, real, when};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
 use crate::model::scene::Plan;
@@ -31,7 +31,10 @@ impl Declare for FinalDriveSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            integer("final_drive.ring_teeth", (1, 1000), |p| &mut p.ring_teeth, "Teeth of the ring gear"),
+            when(
+                "final_drive.amplitude > 0",
+                integer("final_drive.ring_teeth", (1, 1000), |p| &mut p.ring_teeth, "Teeth of the ring gear"),
+            ),
             real(
                 "final_drive.amplitude",
                 units::ONE,

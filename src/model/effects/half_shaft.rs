@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG};
-use crate::declaration::{Parameter, Row, real};
+use crate::declaration::{Parameter, Row, real, when};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
 use crate::model::scene::{Plan, Requests, SideDrive};
@@ -36,41 +36,54 @@ impl Declare for HalfShaftSpec {
     const READINGS: &'static [Reading] = &[twist("left.twist"), twist("right.twist")];
     /// A speed-driven side acts through its half-shaft.
     const MAY_ACT_UNSWITCHED: bool = true;
+    const WHEN: Option<&'static str> = Some("scene.left_drive = torque or scene.right_drive = torque");
     const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "half_shaft.left_stiffness",
-                units::NM_PER_RAD,
-                None,
-                (0.0, 1e9),
-                |p| &mut p.stiffness[0],
-                "Torsional stiffness of the left half-shaft",
+            when(
+                "effects.half_shaft = true or scene.left_drive = speed",
+                real(
+                    "half_shaft.left_stiffness",
+                    units::NM_PER_RAD,
+                    None,
+                    (0.0, 1e9),
+                    |p| &mut p.stiffness[0],
+                    "Torsional stiffness of the left half-shaft",
+                ),
             ),
-            real(
-                "half_shaft.left_damping",
-                units::NMS_PER_RAD,
-                None,
-                (0.0, 1e6),
-                |p| &mut p.damping[0],
-                "Torsional damping of the left half-shaft",
+            when(
+                "scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0",
+                real(
+                    "half_shaft.left_damping",
+                    units::NMS_PER_RAD,
+                    None,
+                    (0.0, 1e6),
+                    |p| &mut p.damping[0],
+                    "Torsional damping of the left half-shaft",
+                ),
             ),
-            real(
-                "half_shaft.right_stiffness",
-                units::NM_PER_RAD,
-                None,
-                (0.0, 1e9),
-                |p| &mut p.stiffness[1],
-                "Torsional stiffness of the right half-shaft",
+            when(
+                "effects.half_shaft = true or scene.right_drive = speed",
+                real(
+                    "half_shaft.right_stiffness",
+                    units::NM_PER_RAD,
+                    None,
+                    (0.0, 1e9),
+                    |p| &mut p.stiffness[1],
+                    "Torsional stiffness of the right half-shaft",
+                ),
             ),
-            real(
-                "half_shaft.right_damping",
-                units::NMS_PER_RAD,
-                None,
-                (0.0, 1e6),
-                |p| &mut p.damping[1],
-                "Torsional damping of the right half-shaft",
+            when(
+                "scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0",
+                real(
+                    "half_shaft.right_damping",
+                    units::NMS_PER_RAD,
+                    None,
+                    (0.0, 1e6),
+                    |p| &mut p.damping[1],
+                    "Torsional damping of the right half-shaft",
+                ),
             ),
         ]
     }

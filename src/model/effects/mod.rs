@@ -60,12 +60,13 @@ impl Declared {
     }
 }
 
-/// Adds to each row of an effect the way from all parameters to those of the effect.
-fn within<E: 'static>(
-    rows: Vec<Row<Parameter<E>>>,
+/// Adds to each row of an effect the way from all parameters to those of the effect, and the switch without which it does nothing.
+fn within<E: Declare + 'static>(
+    switch: Option<&'static str>,
     group: fn(&mut EffectParameters) -> &mut E,
 ) -> impl Iterator<Item = Row<Parameter<EffectParameters>>> {
-    rows.into_iter().map(move |row| row.map(|at| at.within(group)))
+    let switch = switch.filter(|_| !E::MAY_ACT_UNSWITCHED);
+    E::parameters().into_iter().map(move |row| Row { switch, ..row.map(|at| at.within(group)) })
 }
 
 macro_rules! effects {
@@ -129,14 +130,17 @@ macro_rules! effects {
 
         /// Rows of the switches.
         pub fn switches() -> Vec<Row<Parameter<Effects>>> {
-            vec![$(switch(concat!("effects.", stringify!($name)), |e| &mut e.$name, <$effect>::DESCRIPTION)),+]
+            vec![$(Row {
+                when: <$effect>::WHEN,
+                ..switch(concat!("effects.", stringify!($name)), |e| &mut e.$name, <$effect>::DESCRIPTION)
+            }),+]
         }
 
         /// Rows of the parameters.
         pub fn parameters() -> Vec<Row<Parameter<EffectParameters>>> {
             let mut rows = Vec::new();
-            $(rows.extend(within(<$effect>::parameters(), |p| &mut p.$name));)+
-            $(rows.extend(within(<$commanded>::parameters(), |p| &mut p.$command));)+
+            $(rows.extend(within(Some(concat!("effects.", stringify!($name))), |p| &mut p.$name));)+
+            $(rows.extend(within(None, |p| &mut p.$command));)+
             rows
         }
 
@@ -151,7 +155,11 @@ macro_rules! effects {
 
         /// Rows of the inputs of all effects.
         pub fn inputs() -> Vec<Row<InputField>> {
-            EFFECTS.iter().flat_map(|effect| inputs_of(effect.name)).collect()
+            let of = |effect: &Declared| {
+                let switch = effect.switch;
+                inputs_of(effect.name).into_iter().map(move |row| Row { switch, ..row })
+            };
+            EFFECTS.iter().flat_map(of).collect()
         }
     };
 }

@@ -14,7 +14,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, real, switch, tunable};
+use crate::declaration::{Parameter, Row, real, switch, tunable, when};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
@@ -101,29 +101,38 @@ impl Declare for ThrustFrictionSpec {
                 "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
                  heel; false: as given",
             ),
-            real(
-                "thrust_friction.pin_radius",
-                units::METRE,
-                Some(MM),
-                (0.0, 1.0),
-                |p| &mut p.pin_radius,
-                "Radius of the pins, if not from geometry",
+            when(
+                "thrust_friction.radii_from_geometry = false",
+                real(
+                    "thrust_friction.pin_radius",
+                    units::METRE,
+                    Some(MM),
+                    (0.0, 1.0),
+                    |p| &mut p.pin_radius,
+                    "Radius of the pins, if not from geometry",
+                ),
             ),
-            real(
-                "thrust_friction.planet_washer_radius",
-                units::METRE,
-                Some(MM),
-                (0.0, 1.0),
-                |p| &mut p.planet_washer_radius,
-                "Mean radius of the planets' thrust washers, if not from geometry",
+            when(
+                "thrust_friction.radii_from_geometry = false",
+                real(
+                    "thrust_friction.planet_washer_radius",
+                    units::METRE,
+                    Some(MM),
+                    (0.0, 1.0),
+                    |p| &mut p.planet_washer_radius,
+                    "Mean radius of the planets' thrust washers, if not from geometry",
+                ),
             ),
-            real(
-                "thrust_friction.side_washer_radius",
-                units::METRE,
-                Some(MM),
-                (0.0, 1.0),
-                |p| &mut p.side_washer_radius,
-                "Mean radius of the side gears' thrust washers, if not from geometry",
+            when(
+                "thrust_friction.radii_from_geometry = false",
+                real(
+                    "thrust_friction.side_washer_radius",
+                    units::METRE,
+                    Some(MM),
+                    (0.0, 1.0),
+                    |p| &mut p.side_washer_radius,
+                    "Mean radius of the side gears' thrust washers, if not from geometry",
+                ),
             ),
             real(
                 "thrust_friction.stiffness",

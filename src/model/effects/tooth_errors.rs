@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::contact::errors::{ToothErrorSpec, ToothErrors, pitch};
 use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, DEG, UM};
-use crate::declaration::{Parameter, Row, integer, real, switch};
+use crate::declaration::{Parameter, Row, integer, real, switch, when};
 use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
@@ -27,27 +27,36 @@ impl Declare for ToothErrorSpec {
                 |p| &mut p.accuracy_grade,
                 "Accuracy grade of the pitch by ISO 17485, 2 to 11; 0 = no pitch deviations",
             ),
-            integer(
-                "tooth_errors.seed",
-                (-2147483648, 2147483647),
-                |p| &mut p.seed,
-                "Seed of individual pitch deviations and of the phases of runout",
+            when(
+                "tooth_errors.accuracy_grade > 0 or tooth_errors.planet_runout > 0 or tooth_errors.side_runout > 0",
+                integer(
+                    "tooth_errors.seed",
+                    (-2147483648, 2147483647),
+                    |p| &mut p.seed,
+                    "Seed of individual pitch deviations and of the phases of runout",
+                ),
             ),
-            real(
-                "tooth_errors.planet_runout",
-                units::METRE,
-                Some(UM),
-                (0.0, 1e-3),
-                |p| &mut p.planet_runout,
-                "Radial runout of each planet, peak to peak",
+            when(
+                "tooth_errors.runout_by_grade = false",
+                real(
+                    "tooth_errors.planet_runout",
+                    units::METRE,
+                    Some(UM),
+                    (0.0, 1e-3),
+                    |p| &mut p.planet_runout,
+                    "Radial runout of each planet, peak to peak",
+                ),
             ),
-            real(
-                "tooth_errors.side_runout",
-                units::METRE,
-                Some(UM),
-                (0.0, 1e-3),
-                |p| &mut p.side_runout,
-                "Radial runout of each side gear, peak to peak",
+            when(
+                "tooth_errors.runout_by_grade = false",
+                real(
+                    "tooth_errors.side_runout",
+                    units::METRE,
+                    Some(UM),
+                    (0.0, 1e-3),
+                    |p| &mut p.side_runout,
+                    "Radial runout of each side gear, peak to peak",
+                ),
             ),
             switch(
                 "tooth_errors.runout_by_grade",
@@ -70,13 +79,16 @@ impl Declare for ToothErrorSpec {
                 |p| &mut p.side_tip_relief,
                 "Tip relief of the side gears along the line of action",
             ),
-            real(
-                "tooth_errors.relief_length",
-                units::ONE,
-                None,
-                (0.01, 2.0),
-                |p| &mut p.relief_length,
-                "Length of both reliefs in base pitches",
+            when(
+                "tooth_errors.planet_tip_relief > 0 or tooth_errors.side_tip_relief > 0",
+                real(
+                    "tooth_errors.relief_length",
+                    units::ONE,
+                    None,
+                    (0.01, 2.0),
+                    |p| &mut p.relief_length,
+                    "Length of both reliefs in base pitches",
+                ),
             ),
             real(
                 "tooth_errors.crowning",

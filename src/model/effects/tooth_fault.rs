@@ -6,7 +6,7 @@ use crate::contact::ContactLaw;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
 use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, choice, command, integer, real};
+use crate::declaration::{Parameter, Row, choice, command, integer, real, when};
 use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
@@ -28,43 +28,61 @@ impl Declare for ToothFaultSpec {
             FaultyGear::None => "none" "no tooth is broken",
             FaultyGear::Planet => "planet" "a tooth of a planet",
             FaultyGear::Side => "side" "a tooth of a side gear"),
-            integer(
-                "tooth_fault.index",
-                (0, 3),
-                |p| &mut p.index,
-                "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)",
+            when(
+                "tooth_fault.gear != none",
+                integer(
+                    "tooth_fault.index",
+                    (0, 3),
+                    |p| &mut p.index,
+                    "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)",
+                ),
             ),
-            integer("tooth_fault.tooth", (0, 199), |p| &mut p.tooth, "Number of the broken tooth from 0"),
-            real(
-                "tooth_fault.missing_fraction",
-                units::ONE,
-                None,
-                (0.0, 1.0),
-                |p| &mut p.missing_fraction,
-                "Missing part of the face width from the heel inward",
+            when(
+                "tooth_fault.gear != none",
+                integer("tooth_fault.tooth", (0, 199), |p| &mut p.tooth, "Number of the broken tooth from 0"),
             ),
-            real(
-                "tooth_fault.depth",
-                units::METRE,
-                Some(MM),
-                (0.0, 1e-2),
-                |p| &mut p.depth,
-                "Depth removed along the line of action",
+            when(
+                "tooth_fault.gear != none and contact.law = line|line_weber",
+                real(
+                    "tooth_fault.missing_fraction",
+                    units::ONE,
+                    None,
+                    (0.0, 1.0),
+                    |p| &mut p.missing_fraction,
+                    "Missing part of the face width from the heel inward",
+                ),
             ),
-            real(
-                "tooth_fault.onset",
-                units::SECOND,
-                None,
-                (0.0, 1e9),
-                |p| &mut p.onset,
-                "Time at which the piece breaks off; 0 = by fault.trigger alone",
+            when(
+                "tooth_fault.gear != none",
+                real(
+                    "tooth_fault.depth",
+                    units::METRE,
+                    Some(MM),
+                    (0.0, 1e-2),
+                    |p| &mut p.depth,
+                    "Depth removed along the line of action",
+                ),
+            ),
+            when(
+                "tooth_fault.gear != none",
+                real(
+                    "tooth_fault.onset",
+                    units::SECOND,
+                    None,
+                    (0.0, 1e9),
+                    |p| &mut p.onset,
+                    "Time at which the piece breaks off; 0 = by fault.trigger alone",
+                ),
             ),
         ]
     }
 
     fn inputs() -> Vec<Row<InputField>> {
         let at: InputField = |i| &mut i.fault;
-        vec![command("fault.trigger", at, "Breaks the tooth of effects.tooth_fault when it rises above 0.5")]
+        vec![when(
+            "tooth_fault.gear != none",
+            command("fault.trigger", at, "Breaks the tooth of effects.tooth_fault when it rises above 0.5"),
+        )]
     }
 }
 

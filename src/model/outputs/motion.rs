@@ -13,6 +13,10 @@ pub struct Motion {
     pub side_angle: [f64; 2],
     /// Side gear speeds, left and right [rad/s].
     pub side_speed: [f64; 2],
+    /// Angles of the wheels, left and right [rad]: of the end of a half-shaft that is a body of its own, of the side gear otherwise.
+    pub wheel_angle: [f64; 2],
+    /// Their speeds [rad/s].
+    pub wheel_speed: [f64; 2],
     /// Spin angles of the planets relative to the carrier since the start [rad].
     pub spin_angle: [f64; MAX_PLANETS],
     /// Spin speeds of the planets relative to the carrier [rad/s].

@@ -64,11 +64,16 @@ impl Simulation {
         let layout = plan.layout();
         let position = |i: usize| state.position(i, &model.periods);
         let v = &state.v;
+        let side_angle = [position(CARRIER) + position(0), position(CARRIER) + position(1)];
+        // an end counts its angle back from the side gear: by its twist
+        let by_end = |s: usize| plan.shafts[s].then(|| layout.end(s));
         let mut motion = Motion {
             carrier_angle: position(CARRIER),
             carrier_speed: v[CARRIER],
-            side_angle: [position(CARRIER) + position(0), position(CARRIER) + position(1)],
+            side_angle,
             side_speed: [v[0], v[1]],
+            wheel_angle: [0, 1].map(|s| side_angle[s] - by_end(s).map_or(0.0, position)),
+            wheel_speed: [0, 1].map(|s| v[by_end(s).unwrap_or(s)]),
             spin_angle: [0.0; MAX_PLANETS],
             spin_speed: [0.0; MAX_PLANETS],
             mesh_frequency: f64::from(model.parameters.geometry.planet_teeth) * v[layout.planet(0)].abs() / TAU,

@@ -1,27 +1,33 @@
 //! Rows of material and moments of inertia.
 
 use crate::declaration::units::{self, MPA};
-use crate::declaration::{Parameter, Row, real, switch};
+use crate::declaration::{Parameter, Row, real, switch, when};
 use crate::model::Parameters;
 
 /// Rows of `material.…` and `inertia.…`.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     vec![
-        real(
-            "material.young_modulus",
-            units::PASCAL,
-            Some(MPA),
-            (1e8, 1e13),
-            |p| &mut p.material.young_modulus,
-            "Young's modulus of both gears",
+        when(
+            "scene.gear_contact != ideal",
+            real(
+                "material.young_modulus",
+                units::PASCAL,
+                Some(MPA),
+                (1e8, 1e13),
+                |p| &mut p.material.young_modulus,
+                "Young's modulus of both gears",
+            ),
         ),
-        real(
-            "material.poisson_ratio",
-            units::ONE,
-            None,
-            (0.0, 0.499),
-            |p| &mut p.material.poisson_ratio,
-            "Poisson's ratio of both gears",
+        when(
+            "scene.gear_contact != ideal",
+            real(
+                "material.poisson_ratio",
+                units::ONE,
+                None,
+                (0.0, 0.499),
+                |p| &mut p.material.poisson_ratio,
+                "Poisson's ratio of both gears",
+            ),
         ),
         real(
             "material.density",
@@ -44,21 +50,27 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             |p| &mut p.inertia.carrier,
             "Carrier with ring gear and cross-shaft about its axis, without planets",
         ),
-        real(
-            "inertia.side_gear",
-            units::KG_M2,
-            None,
-            (1e-12, 1e6),
-            |p| &mut p.inertia.side_gear,
-            "Side gear about its axis, if not from geometry",
+        when(
+            "inertia.from_geometry = false",
+            real(
+                "inertia.side_gear",
+                units::KG_M2,
+                None,
+                (1e-12, 1e6),
+                |p| &mut p.inertia.side_gear,
+                "Side gear about its axis, if not from geometry",
+            ),
         ),
-        real(
-            "inertia.planet",
-            units::KG_M2,
-            None,
-            (1e-12, 1e6),
-            |p| &mut p.inertia.planet,
-            "Planet about its own axis, if not from geometry",
+        when(
+            "inertia.from_geometry = false",
+            real(
+                "inertia.planet",
+                units::KG_M2,
+                None,
+                (1e-12, 1e6),
+                |p| &mut p.inertia.planet,
+                "Planet about its own axis, if not from geometry",
+            ),
         ),
         real(
             "inertia.left_end",

@@ -1,7 +1,7 @@
 //! Rows of the gears' geometry.
 
 use crate::declaration::units::{self, DEG, MM};
-use crate::declaration::{Parameter, Row, choice, integer, real};
+use crate::declaration::{Parameter, Row, choice, integer, real, when};
 use crate::geometry::AddendumSystem;
 use crate::model::Parameters;
 
@@ -47,45 +47,60 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             AddendumSystem::Gleason => "gleason" "Gleason long-and-short addenda",
             AddendumSystem::Iso23509 => "iso23509" "ISO 23509 mean addendum factor, clearance 0.25 m",
             AddendumSystem::Explicit => "explicit" "the four coefficients geometry.planet_addendum ... side_dedendum"),
-        real(
-            "geometry.planet_addendum",
-            units::ONE,
-            None,
-            (0.05, 3.0),
-            |p| &mut p.geometry.planet_addendum,
-            "Planet addendum per module, with addendum_system explicit",
+        when(
+            "geometry.addendum_system = explicit",
+            real(
+                "geometry.planet_addendum",
+                units::ONE,
+                None,
+                (0.05, 3.0),
+                |p| &mut p.geometry.planet_addendum,
+                "Planet addendum per module, with addendum_system explicit",
+            ),
         ),
-        real(
-            "geometry.side_addendum",
-            units::ONE,
-            None,
-            (0.05, 3.0),
-            |p| &mut p.geometry.side_addendum,
-            "Side gear addendum per module, with addendum_system explicit",
+        when(
+            "geometry.addendum_system = explicit",
+            real(
+                "geometry.side_addendum",
+                units::ONE,
+                None,
+                (0.05, 3.0),
+                |p| &mut p.geometry.side_addendum,
+                "Side gear addendum per module, with addendum_system explicit",
+            ),
         ),
-        real(
-            "geometry.planet_dedendum",
-            units::ONE,
-            None,
-            (0.05, 3.0),
-            |p| &mut p.geometry.planet_dedendum,
-            "Planet dedendum per module, with addendum_system explicit",
+        when(
+            "geometry.addendum_system = explicit",
+            real(
+                "geometry.planet_dedendum",
+                units::ONE,
+                None,
+                (0.05, 3.0),
+                |p| &mut p.geometry.planet_dedendum,
+                "Planet dedendum per module, with addendum_system explicit",
+            ),
         ),
-        real(
-            "geometry.side_dedendum",
-            units::ONE,
-            None,
-            (0.05, 3.0),
-            |p| &mut p.geometry.side_dedendum,
-            "Side gear dedendum per module, with addendum_system explicit",
+        when(
+            "geometry.addendum_system = explicit",
+            real(
+                "geometry.side_dedendum",
+                units::ONE,
+                None,
+                (0.05, 3.0),
+                |p| &mut p.geometry.side_dedendum,
+                "Side gear dedendum per module, with addendum_system explicit",
+            ),
         ),
-        real(
-            "geometry.backlash",
-            units::METRE,
-            Some(MM),
-            (0.0, 0.05),
-            |p| &mut p.geometry.backlash,
-            "Circumferential backlash at the outer pitch circle",
+        when(
+            "effects.backlash = true",
+            real(
+                "geometry.backlash",
+                units::METRE,
+                Some(MM),
+                (0.0, 0.05),
+                |p| &mut p.geometry.backlash,
+                "Circumferential backlash at the outer pitch circle",
+            ),
         ),
         real(
             "geometry.root_fillet",

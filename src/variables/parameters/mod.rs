@@ -7,7 +7,7 @@ mod gears;
 mod scene;
 mod solver;
 
-use crate::declaration::{Parameter, Row, switch};
+use crate::declaration::{Parameter, Row, switch, when};
 use crate::model::Parameters;
 use crate::model::effects;
 
@@ -36,10 +36,13 @@ fn teeth() -> [Row<Parameter<Parameters>>; 2] {
             |p| &mut p.effects.backlash,
             "Backlash geometry.backlash; false: teeth without play",
         ),
-        switch(
-            "effects.corner_contact",
-            |p| &mut p.effects.corner_contact,
-            "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
+        when(
+            "scene.gear_contact != ideal",
+            switch(
+                "effects.corner_contact",
+                |p| &mut p.effects.corner_contact,
+                "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
+            ),
         ),
     ]
 }

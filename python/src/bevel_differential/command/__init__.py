@@ -6,11 +6,12 @@ import importlib
 import importlib.util
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
 from ..extras import install
-from ..values import DifferentialError, suggestion
+from ..values import DifferentialError, DifferentialWarning, suggestion
 
 NAME = "bevel-differential"
 COMMANDS = {"run": ".command.run", "sweep": ".command.sweep", "optimise": ".optimise.command", "tolerance": ".tolerance.command",
@@ -60,7 +61,10 @@ def _run(name, arguments):
             parsed = parser.parse_args(arguments)
         except SystemExit as end:
             return end.code
-        return module.run(parsed)
+        with warnings.catch_warnings():
+            # commands print what the FMU warns of themselves
+            warnings.simplefilter("ignore", DifferentialWarning)
+            return module.run(parsed)
     except ModuleNotFoundError as missing:
         if missing.name.partition(".")[0] == PACKAGE:
             raise

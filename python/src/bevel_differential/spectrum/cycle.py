@@ -9,7 +9,7 @@ from ..csv_table import CsvTable, Quantity, Text, Time, unknown
 from ..fmu import Fmu
 from ..values import DifferentialError, FileName, Variable
 from .event import Event
-from .vehicle import LENGTH, QUANTITIES, inputs_of, wheel_radius
+from .vehicle import DRIVES, LENGTH, QUANTITIES, inputs_of, wheel_radius
 
 _COLUMNS: list[Quantity | Text] = [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
@@ -22,17 +22,25 @@ TURNS = {"turn_radius", "speed_difference"}
 LONGEST, SHORTEST = 0.01, 1e-4
 
 
-def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int]) -> list[Event]:
+def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int],
+               drives: Mapping[str, int]) -> list[Event]:
     """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
-    SI; `teeth` of planet and side gear. Raises `DifferentialError` with file, line, column and value."""
+    SI; `teeth` of planet and side gear; `drives`: values of `DRIVES` where an event does not set them. Raises
+    `DifferentialError` with file, line, column and value."""
     def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
 
     table = CsvTable(file, known, needed=["name", "count"])
-    return [_event(table, line, row, fmu, vehicle, teeth) for line, row in table.rows]
+    return [_event(table, line, row, fmu, vehicle, (teeth, _drives(row, drives, fmu))) for line, row in table.rows]
 
 
-def _event(table, line, row, fmu, vehicle, teeth):
+def _drives(row, drives, fmu):
+    """Literals of the drives in an event."""
+    literals = {name: {number: literal for literal, number in fmu.variable(name).literals.items()} for name in DRIVES}
+    return {name: literals[name][int(row.get(name, drives[name]))] for name in DRIVES}
+
+
+def _event(table, line, row, fmu, vehicle, gears):
     for name in ("name", "count"):
         if name not in row:
             raise table.problem_at(line, name, "write a value", "")
@@ -44,7 +52,7 @@ def _event(table, line, row, fmu, vehicle, teeth):
         # empty: straight ahead, whatever the scene has
         known["speed_difference"] = 0.0
     try:
-        driven = _driven(known, {**row, **history}, teeth)
+        driven = _driven(known, {**row, **history}, gears)
         duration, distance = _length(table, line, row, known)
     except DifferentialError as failure:
         if str(failure).startswith(str(table.file)):
@@ -65,10 +73,10 @@ def _step(history):
     return float(np.clip(np.min(gaps[gaps > 0.0], initial=LONGEST), SHORTEST, LONGEST))
 
 
-def _driven(vehicle, given, teeth):
+def _driven(vehicle, given, gears):
     """Values of the FMU that are `given`, and those that follow from the quantities of the vehicle."""
     values = {name: value for name, value in given.items() if name not in OWN and name not in QUANTITIES and name != "time"}
-    for name, value in inputs_of(vehicle, teeth).items():
+    for name, value in inputs_of(vehicle, *gears).items():
         if name in values:
             raise DifferentialError(f"{name}: speed, torque or turn of the vehicle give it as well; remove one of both")
         values[name] = value

@@ -6,6 +6,7 @@ from math import ceil, nan, pi
 import numpy as np
 
 from ..differential import Differential
+from ..values import DifferentialError
 from .event import Event
 
 # outputs of damage, in the order of all arrays of modes
@@ -45,7 +46,13 @@ class EventDamage:
 def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -> EventDamage:
     """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
     nothing, and it and its arguments can be sent to other processes."""
-    return _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
+    found = _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
+    # what the FMU cannot feel in this event would be taken in silence; a signal that stays has its value from the start
+    changing = {name for name, (_, values) in event.signals.items() if np.ptp(values) > 0.0}
+    for name, why in differential.unfelt.items():
+        if name in event.values or name in changing:
+            raise DifferentialError(f"{name}: {why}")
+    return found
 
 
 def _steady(differential, event, teeth):

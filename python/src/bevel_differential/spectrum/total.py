@@ -15,7 +15,7 @@ from .event import Event
 from .result import SpectrumResult
 from .slow import ORDERS, count_slow_cycles
 from .sn import Strength
-from .vehicle import QUANTITIES
+from .vehicle import DRIVES, QUANTITIES
 
 TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
@@ -41,9 +41,9 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     for name in values.keys() - variables.keys():
         raise DifferentialError(f"{name}: there is no such variable or quantity{suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
-        facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS], stop=1e-3)
+        facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES], stop=1e-3)
         teeth = int(facts[TEETH[0]]), int(facts[TEETH[1]])
-        events = read_cycle(cycle, differential.fmu, vehicle, teeth) if isinstance(cycle, (str, Path)) else list(cycle)
+        events = read_cycle(cycle, differential.fmu, vehicle, teeth, facts) if isinstance(cycle, (str, Path)) else list(cycle)
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
         damages = tuple(mapper(_Evaluation(differential, teeth), events))

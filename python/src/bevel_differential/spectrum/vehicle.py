@@ -7,6 +7,9 @@ planet.spin_command   = (ω_left − ω_right)/2 · z_side/z_planet
 load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
 ```
 
+So where the scene drives the carrier by speed and the sides by torque. A carrier that is driven by torque takes T as its command, and
+v/r as its first speed. Sides that are driven by speed take v/r ± (ω_left − ω_right)/2, and the spin stays free.
+
 The left wheel is the inner one of a turn to the left, at R − w/2; nothing slips (Ackermann). Torque is positive when the engine
 drives forward, speed when the vehicle goes forward."""
 
@@ -29,18 +32,34 @@ QUANTITIES = {quantity.name: quantity for quantity in [
     Quantity("track", LENGTH),
 ]}
 SPIN = "scene.planet_spin"
+# how the FMU drives each shaft; the sense in which half the difference of speeds adds to each side
+DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
+SIDES = {"left": 1.0, "right": -1.0}
 
 
-def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int]) -> dict[str, float | str | np.ndarray]:
+def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
+              drives: Mapping[str, str]) -> dict[str, float | str | np.ndarray]:
     """Inputs and parameters of the FMU, SI, that follow from the quantities of `vehicle` ({name: number or array of shape
-    (points,)}, SI) with the numbers of `teeth` (planet, side gear). Raises `DifferentialError` for what is missing."""
+    (points,)}, SI) with the numbers of `teeth` (planet, side gear) and the literals of `DRIVES` by name. Raises
+    `DifferentialError` for what is missing."""
     found: dict[str, float | str | np.ndarray] = {}
+    by_speed = [side for side in SIDES if drives[f"scene.{side}_drive"] == "speed"]
     if "torque" in vehicle:
-        found["left.load_torque"] = found["right.load_torque"] = vehicle["torque"] / 2.0
-    if "speed" in vehicle:
-        found["carrier.speed_command"] = vehicle["speed"] / wheel_radius(vehicle, "speed")
+        found.update({f"{side}.load_torque": vehicle["torque"] / 2.0 for side in SIDES if side not in by_speed})
+        if drives["scene.carrier_drive"] == "torque":
+            found["carrier.torque_command"] = vehicle["torque"]
+    speed = vehicle["speed"] / wheel_radius(vehicle, "speed") if "speed" in vehicle else None
+    # both sides together give the carrier its speed
+    if speed is not None and len(by_speed) < len(SIDES):
+        found["carrier.speed_command"] = speed
     difference = _difference(vehicle)
-    if difference is not None:
+    if by_speed and speed is not None:
+        found.update({f"{side}.speed_command": speed + 0.5 * SIDES[side] * (0.0 if difference is None else difference)
+                      for side in by_speed})
+    elif by_speed and difference is not None and np.any(difference):
+        raise DifferentialError(f"speed_difference: it needs speed where scene.{by_speed[0]}_drive = speed; give it as a column or "
+                                "a parameter")
+    elif difference is not None and not by_speed:
         found["planet.spin_command"] = difference / 2.0 * teeth[1] / teeth[0]
         found[SPIN] = "imposed"
     return found

@@ -1,5 +1,6 @@
 """Tolerance files: a scene, the tolerances of what is made, what is wanted, limits and alternatives."""
 
+import contextlib
 from pathlib import Path
 
 import numpy as np
@@ -18,8 +19,9 @@ KEYS = {"description", "scene", "set", "from", "factors", "capability", "wants",
 NEEDED = ("description", "scene", "factors", "wants")
 KINDS = {str: ("text", ("description", "scene")), dict: ("a table", ("set", "factors")),
          list: ("a list", ("wants", "limits", "alternative"))}
-BY_GRADE = "tooth_errors.runout_by_grade"
 INDIVIDUAL = "tooth_errors.seed"
+# draws of which the FMU says what the scene cannot feel
+TRIED = 4
 
 
 class Plan:
@@ -29,8 +31,8 @@ class Plan:
 
     def __init__(self, name: str, description: str, scene: Scene, task: Task, study: Study):
         self.name, self.description, self.scene, self.task, self.study = name, description, scene, task, study
-        self._check_effects()
         self._check_ranges()
+        self._check_felt()
         self.notes = self._remarks()
 
     @classmethod
@@ -63,19 +65,17 @@ class Plan:
         """The result, its runs made by a `Farm`."""
         return self.study.run(lambda designs: farm.evaluate(self.task, designs))
 
-    def _check_effects(self):
-        """Factors of effects that are off would change nothing."""
-        switches = {name: f"effects.{name.partition('.')[0]}" for name in self.study.factors}
-        switches = {name: switch for name, switch in switches.items() if switch in self.scene.fmu.variables}
-        asked = sorted({*switches.values(), BY_GRADE})
-        state = self.scene.run(asked, stop=self.scene.step)[0]
-        for name, switch in switches.items():
-            if not state[switch]:
-                raise DifferentialError(f"{name} has a tolerance, but {switch} is off: set it in the scene or in [set]")
-        for name in RUNOUT:
-            if name in self.study.factors and state[BY_GRADE]:
-                raise DifferentialError(f"{name} has a tolerance, but {BY_GRADE} gives all gears the same runout: leave one of "
-                                        "them out")
+    def _check_felt(self):
+        """Factors that the scene feels in no draw would change nothing."""
+        unfelt = []
+        for _, values in self.study.designs()[:TRIED]:
+            # a design that the FMU refuses shows in the results
+            with contextlib.suppress(DifferentialError):
+                unfelt.append(self.scene.unfelt(values))
+        for name in self.study.factors:
+            if unfelt and all(name in each for each in unfelt):
+                raise DifferentialError(f"{name} has a tolerance, but {unfelt[0][name]}; set that in the scene or in [set], or leave "
+                                        "the factor out")
 
     def _remarks(self):
         factors = self.study.factors

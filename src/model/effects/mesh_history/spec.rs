@@ -12,6 +12,7 @@ use crate::model::scene::GearContact;
 pub struct MeshHistorySpec;
 
 impl Declare for MeshHistorySpec {
+    const WHEN: Option<&'static str> = Some("co-simulation");
     const DESCRIPTION: &'static str =
         "Peak-to-peak side speeds and transmission errors over the last whole mesh cycle; co-simulation only";
     const NEEDS: Option<Needs> = Some(Needs {

@@ -1,0 +1,253 @@
+//! Whether a scene can feel a value: the conditions that rows declare, read once, and warnings about values that change nothing.
+//!
+//! ```text
+//! condition = term {" or " term}      term = factor {" and " factor}      factor = "(" condition ")" | test
+//! test = NAME " = " VALUES | NAME " != " VALUES | NAME " > " NUMBER | "co-simulation" | "initialisation"
+//! ```
+//!
+//! NAME is a parameter that is fixed; VALUES are literals, true, false or numbers, separated by `|`. The last two tests hold where
+//! the FMU takes the steps itself, and for values that are set before them.
+
+use std::sync::OnceLock;
+
+use super::access::{Access, Variable};
+use super::table::table;
+use crate::model::{Inputs, Parameters};
+use crate::problem::Problem;
+
+/// When and for whom a value is set.
+#[derive(Clone, Copy, Debug)]
+pub struct Situation {
+    /// Whether the FMU takes the steps itself.
+    pub own_steps: bool,
+    /// Whether the value is there from the start.
+    pub from_start: bool,
+}
+
+impl Situation {
+    /// Values that co-simulation starts with.
+    pub const START: Self = Self { own_steps: true, from_start: true };
+    /// Values that are set while it runs.
+    pub const RUNNING: Self = Self { own_steps: true, from_start: false };
+}
+
+/// A condition that has been read; rows by their indices.
+#[derive(Debug)]
+enum Condition {
+    Any(Vec<Self>),
+    All(Vec<Self>),
+    OneOf(usize, Vec<f64>),
+    NoneOf(usize, Vec<f64>),
+    Above(usize, f64),
+    OwnSteps,
+    FromStart,
+}
+
+impl Condition {
+    /// The condition in `text`; none if it has another form or names what does not exist.
+    fn read(text: &str) -> Option<Self> {
+        let several = |parts: Vec<&str>| parts.into_iter().map(Self::read).collect::<Option<Vec<_>>>();
+        for (word, of) in [(" or ", Self::Any as fn(Vec<Self>) -> Self), (" and ", Self::All)] {
+            let parts = split(text, word);
+            if parts.len() > 1 {
+                return several(parts).map(of);
+            }
+        }
+        if let Some(inner) = text.strip_prefix('(') {
+            return Self::read(inner.strip_suffix(')')?);
+        }
+        match text {
+            "co-simulation" => return Some(Self::OwnSteps),
+            "initialisation" => return Some(Self::FromStart),
+            _ => {}
+        }
+        let mut words = text.split(' ');
+        let (name, sign, values) = (words.next()?, words.next()?, words.next()?);
+        let index = table().rows.iter().position(|row| row.name == name)?;
+        let values = values.split('|').map(|word| number_of(&table().rows[index], word)).collect::<Option<Vec<_>>>()?;
+        match sign {
+            "=" => Some(Self::OneOf(index, values)),
+            "!=" => Some(Self::NoneOf(index, values)),
+            ">" => Some(Self::Above(index, *values.first()?)),
+            _ => None,
+        }
+    }
+
+    fn holds(&self, parameters: &mut Parameters, situation: Situation) -> bool {
+        let p = parameters;
+        match self {
+            Self::Any(parts) => parts.iter().any(|part| part.holds(p, situation)),
+            Self::All(parts) => parts.iter().all(|part| part.holds(p, situation)),
+            Self::OneOf(index, values) => parameter(*index, p).is_some_and(|value| values.contains(&value)),
+            Self::NoneOf(index, values) => parameter(*index, p).is_some_and(|value| !values.contains(&value)),
+            Self::Above(index, bound) => parameter(*index, p).is_some_and(|value| value > *bound),
+            Self::OwnSteps => situation.own_steps,
+            Self::FromStart => situation.from_start,
+        }
+    }
+}
+
+/// Parts of `text` between `word`s that stand in no brackets.
+fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
+    let (mut parts, mut depth, mut begin) = (Vec::new(), 0, 0);
+    for (i, letter) in text.char_indices() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth -= 1,
+            ' ' if depth == 0 && i >= begin && text[i..].starts_with(word) => {
+                parts.push(&text[begin..i]);
+                begin = i + word.len();
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[begin..]);
+    parts
+}
+
+/// The number that a word stands for as a value of `row`.
+fn number_of(row: &Variable, word: &str) -> Option<f64> {
+    match row.access {
+        Access::Enumeration(kind, ..) => {
+            kind.choices.iter().find(|choice| choice.name == word).map(|c| f64::from(c.value))
+        }
+        Access::Boolean(_) => word.parse().ok().map(|on: bool| f64::from(on)),
+        _ => word.parse().ok(),
+    }
+}
+
+/// Value of a parameter or of an input as a number; outputs have none.
+pub fn number(row: &Variable, parameters: &mut Parameters, inputs: &mut Inputs) -> Option<f64> {
+    Some(match row.access {
+        Access::Real(at) => *at(parameters),
+        Access::Integer(at) => f64::from(*at(parameters)),
+        Access::Boolean(at) => f64::from(*at(parameters)),
+        Access::Enumeration(_, get, _) => f64::from(get(parameters)),
+        Access::Input(at) => *at(inputs),
+        Access::Output(_) => return None,
+    })
+}
+
+fn parameter(index: usize, parameters: &mut Parameters) -> Option<f64> {
+    number(&table().rows[index], parameters, &mut Inputs::ZERO.clone())
+}
+
+/// What must hold for the value of a row to be felt: its switch, and its condition.
+struct Needs {
+    start: Option<f64>,
+    switch: Option<Condition>,
+    when: Option<Condition>,
+}
+
+impl Needs {
+    fn all(&self) -> impl Iterator<Item = &Condition> {
+        self.switch.iter().chain(&self.when)
+    }
+}
+
+/// Those of all rows.
+fn needs() -> &'static [Needs] {
+    static NEEDS: OnceLock<Vec<Needs>> = OnceLock::new();
+    NEEDS.get_or_init(|| {
+        let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+        let mut of = |row: &Variable| Needs {
+            start: number(row, &mut parameters, &mut inputs),
+            switch: row.switch.and_then(|name| Condition::read(&format!("{name} = true"))),
+            when: row.when.and_then(Condition::read),
+        };
+        table().rows.iter().map(&mut of).collect()
+    })
+}
+
+/// Whether the value of row `index` can be felt in a scene of `parameters`.
+pub fn is_felt(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
+    needs()[index].all().all(|condition| condition.holds(parameters, situation))
+}
+
+/// A warning, if `value` is not the start value of row `index` and nothing in a scene of `parameters` can feel it.
+pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situation: Situation) -> Option<Problem> {
+    let (row, needs) = (&table().rows[index], &needs()[index]);
+    if needs.start.is_none_or(|start| start == value) || is_felt(index, parameters, situation) {
+        return None;
+    }
+    let mut missing = |needed: &Option<Condition>| needed.as_ref().is_some_and(|c| !c.holds(parameters, situation));
+    let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
+    let when = row.when.filter(|_| missing(&needs.when)).map(|text| text.replace('|', " or "));
+    let acts: Vec<String> = switch.into_iter().chain(when).collect();
+    Some(Problem::new(row.name, format!("{}{UNFELT}{}", written(row, value), acts.join(", and with "))))
+}
+
+/// What these warnings have in common.
+const UNFELT: &str = " changes nothing in this scene: it acts with ";
+
+/// A value as users write it, with its unit.
+fn written(row: &Variable, value: f64) -> String {
+    match row.access {
+        Access::Enumeration(kind, ..) => {
+            let choice = kind.choices.iter().find(|choice| f64::from(choice.value) == value);
+            choice.map_or(String::new(), |choice| choice.name.to_owned())
+        }
+        Access::Boolean(_) => (value != 0.0).to_string(),
+        _ => {
+            let unit = row.unit.map_or("", |unit| if unit.name == "1" { "" } else { unit.name });
+            format!("{value} {unit}").trim_end().to_owned()
+        }
+    }
+}
+
+/// Warnings about all values that a scene starts with and cannot feel.
+pub fn unfelt(parameters: &Parameters, inputs: &Inputs, situation: Situation) -> Vec<Problem> {
+    let (mut parameters, mut inputs) = (*parameters, *inputs);
+    let mut of = |(i, row)| unfelt_value(i, number(row, &mut parameters, &mut inputs)?, &mut parameters, situation);
+    table().rows.iter().enumerate().filter_map(&mut of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declaration::Variability;
+
+    #[test]
+    fn every_condition_can_be_read_and_depends_on_fixed_parameters_alone() {
+        fn check(condition: &Condition) {
+            match condition {
+                Condition::Any(parts) | Condition::All(parts) => parts.iter().for_each(check),
+                Condition::OneOf(index, _) | Condition::NoneOf(index, _) | Condition::Above(index, _) => {
+                    assert_eq!(table().rows[*index].variability, Variability::Fixed, "{}", table().rows[*index].name);
+                }
+                Condition::OwnSteps | Condition::FromStart => {}
+            }
+        }
+        for (row, needs) in table().rows.iter().zip(needs()) {
+            assert_eq!(row.switch.is_some(), needs.switch.is_some(), "{}", row.name);
+            assert_eq!(row.when.is_some(), needs.when.is_some(), "{}: {:?}", row.name, row.when);
+            needs.all().for_each(check);
+        }
+    }
+
+    #[test]
+    fn or_binds_less_than_and_and_brackets_bind_most() {
+        let holds = |text: &str| Condition::read(text).unwrap().holds(&mut Parameters::default(), Situation::START);
+        let (yes, no) = ("scene.start = equilibrium", "scene.start = rolling|rest");
+        assert!(holds(yes) && !holds(no) && !holds("scene.start != rest|equilibrium"));
+        assert!(holds(&format!("{yes} or {no} and {no}")));
+        assert!(!holds(&format!("({yes} or {no}) and {no}")));
+        assert!(holds("inertia.carrier > 0.019") && !holds("inertia.carrier > 0.02"));
+        assert!(Condition::read("scene.start = standing").is_none());
+        assert!(Condition::read("scene.begin = rest").is_none());
+    }
+
+    #[test]
+    fn start_values_warn_of_nothing_in_any_scene() {
+        let mut p = Parameters::default();
+        p.scene.gear_contact = crate::model::GearContact::Ideal;
+        assert!(unfelt(&p, &Inputs::default(), Situation::START).is_empty());
+        p.specs.limited_slip.preload = 70.0;
+        let found = unfelt(&p, &Inputs::default(), Situation::START);
+        assert_eq!(found.len(), 1);
+        assert_eq!(
+            found[0].to_string(),
+            "limited_slip.preload: 70 N.m changes nothing in this scene: it acts with effects.limited_slip = true"
+        );
+    }
+}

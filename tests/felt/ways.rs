@@ -1,0 +1,74 @@
+//! Conditions of rows as the ways to meet them, read by a reader of the tests' own.
+
+use bevel_differential::variables::{Access, Variable, table};
+
+/// A test of a condition: `=` one of the values, `!` none of them, `>` more than the first.
+#[derive(Clone)]
+pub struct Test {
+    pub row: &'static Variable,
+    pub sign: char,
+    pub values: Vec<f64>,
+}
+
+/// Ways in which a scene can feel `row`: each is a list of tests that all hold. Tests of the situation are left out.
+pub fn ways(row: &Variable) -> Vec<Vec<Test>> {
+    let switch = row.switch.map_or(vec![vec![]], |name| read(&format!("{name} = true")));
+    both(switch, row.when.map_or(vec![vec![]], read))
+}
+
+fn both(a: Vec<Vec<Test>>, b: Vec<Vec<Test>>) -> Vec<Vec<Test>> {
+    a.iter().flat_map(|one| b.iter().map(|other| [one.as_slice(), other].concat())).collect()
+}
+
+fn read(text: &str) -> Vec<Vec<Test>> {
+    let mut words: Vec<String> =
+        text.replace('(', "( ").replace(')', " )").split(' ').rev().map(String::from).collect();
+    let found = any(&mut words);
+    assert!(words.is_empty(), "{text}");
+    found
+}
+
+/// Words are taken from the end.
+fn any(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+    let mut found = all(words);
+    while words.pop_if(|word| word == "or").is_some() {
+        found.extend(all(words));
+    }
+    found
+}
+
+fn all(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+    let mut found = one(words);
+    while words.pop_if(|word| word == "and").is_some() {
+        found = both(found, one(words));
+    }
+    found
+}
+
+fn one(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+    let word = words.pop().unwrap();
+    match word.as_str() {
+        "(" => {
+            let found = any(words);
+            assert_eq!(words.pop().as_deref(), Some(")"));
+            found
+        }
+        "co-simulation" | "initialisation" => vec![vec![]],
+        name => {
+            let row = table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no {name}"));
+            let sign = words.pop().unwrap().chars().next().unwrap();
+            let values = words.pop().unwrap();
+            vec![vec![Test { row, sign, values: values.split('|').map(|value| value_of(row, value)).collect() }]]
+        }
+    }
+}
+
+fn value_of(row: &Variable, word: &str) -> f64 {
+    match row.access {
+        Access::Enumeration(kind, ..) => {
+            f64::from(kind.choices.iter().find(|choice| choice.name == word).unwrap().value)
+        }
+        Access::Boolean(_) => f64::from(word.parse::<bool>().unwrap()),
+        _ => word.parse().unwrap(),
+    }
+}

@@ -1,0 +1,172 @@
+"""A value that changes nothing in a scene is a warning by name, with what would let it act; wherever a scene is set up."""
+
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import pytest
+
+from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene, shipped_scenes
+from bevel_differential.command import main
+from bevel_differential.instance import UNFELT
+from bevel_differential.spectrum import Event, spectrum
+
+SCENES = Path(__file__).resolve().parents[2] / "scenes"
+# what is set, and what would let it act
+CASES = [
+    ({"left.brake_torque": 200.0}, "effects.wheel_brake = true"),
+    ({"limited_slip.preload": 80.0}, "effects.limited_slip = true"),
+    ({"tooth_errors.accuracy_grade": 7}, "effects.tooth_errors = true"),
+    ({"geometry.planet_addendum": 1.1, "geometry.addendum_system": "gleason"}, "geometry.addendum_system = explicit"),
+    ({"carrier.torque_command": 300.0}, "scene.carrier_drive = torque"),
+    ({"left.speed_command": 40.0}, "scene.left_drive = speed"),
+    ({"right.load_torque": 40.0, "scene.right_drive": "speed"}, "scene.right_drive = torque"),
+    ({"planet.spin_command": 3.0}, "scene.planet_spin = imposed"),
+    ({"fault.trigger": 1.0}, "effects.tooth_fault = true"),
+    ({"tooth_fault.depth": 2e-4}, "effects.tooth_fault = true"),
+    ({"contact.reference_line_load": 3e5}, "contact.law = line"),
+    ({"contact.stiffness": 1e10, "contact.stiffness_from_hertz": True}, "contact.stiffness_from_hertz = false"),
+    ({"contact.restitution": 0.7}, "contact.damping_model = restitution"),
+    ({"contact.mesh_stiffness": 2e10, "scene.gear_contact": "lumped"}, "contact.mesh_stiffness_from_geometry = false"),
+    ({"contact.damping": 1e4, "scene.gear_contact": "ideal"}, "scene.gear_contact != ideal"),
+    ({"solid.facets": 20}, "scene.gear_contact = solid"),
+    ({"solver.fixed_step": 2e-4}, "solver.method = fixed_step"),
+    ({"inertia.planet": 1e-5}, "inertia.from_geometry = false"),
+    ({"half_shaft.left_damping": 9.0}, "effects.half_shaft = true"),
+    ({"half_shaft.left_damping": 9.0, "effects.half_shaft": True}, "inertia.left_end > 0"),
+    ({"thrust_friction.pin_radius": 7e-3, "effects.thrust_friction": True, "thrust_friction.radii_from_geometry": True},
+     "thrust_friction.radii_from_geometry = false"),
+    ({"tooth_friction.roughness": 1e-6, "effects.tooth_friction": True}, "tooth_friction.law != coulomb_stribeck"),
+    ({"tooth_errors.relief_length": 0.2, "effects.tooth_errors": True}, "tooth_errors.planet_tip_relief > 0"),
+    ({"carrier.speed_command": 7.0, "scene.carrier_drive": "torque", "scene.start": "rest"}, "scene.carrier_drive = speed"),
+]
+
+
+def unfelt(messages):
+    return [message for message in messages if UNFELT in message]
+
+
+@pytest.mark.parametrize("values, acts_with", CASES, ids=[" ".join(case) for case, _ in CASES])
+def test_a_value_that_changes_nothing_is_named_with_what_would_let_it_act(fmu, values, acts_with):
+    name = next(iter(values))
+    with fmu.open() as opened:
+        opened.initialise(values)
+        assert [message.partition(":")[0] for message in unfelt(opened.messages)] == [name]
+        assert acts_with in opened.unfelt[name]
+
+
+def test_values_set_to_what_they_are_warn_of_nothing(fmu):
+    starts = {v.name: v.start for v in fmu.variables.values() if v.causality in ("parameter", "input") and v.start is not None}
+    literals = {name: next((word for word, number in fmu.variable(name).literals.items() if number == value), value)
+                for name, value in starts.items()}
+    assert len(starts) > 130
+    with fmu.open() as opened:
+        opened.initialise()
+        usual = list(opened.messages)
+        opened.initialise(literals)
+        assert opened.messages == usual and not unfelt(usual)
+
+
+@pytest.mark.parametrize("name", shipped_scenes())
+def test_the_shipped_scenes_set_nothing_that_changes_nothing(name, fmu_file):
+    with Scene.load(SCENES / f"{name}.toml", fmu=fmu_file) as scene:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DifferentialWarning)
+            scene.run(stop=0.02 if name != "hil" else 5.5)
+        assert not unfelt(scene.warnings)
+
+
+def test_each_is_said_once_in_a_run_and_again_in_the_next(fmu):
+    with fmu.open() as opened:
+        for _ in range(2):
+            opened.initialise({"left.brake_torque": 200.0})
+            for k in range(4):
+                # the one again, another one that is set later, and one that acts
+                opened.set({"left.brake_torque": 150.0 + k, "left.load_torque": 800.0 + k, "limited_slip.preload": 70.0 + k})
+                opened.step(1e-3)
+            assert sorted(opened.unfelt) == ["left.brake_torque", "limited_slip.preload"]
+            assert len(unfelt(opened.messages)) == 2
+
+
+def test_an_initial_speed_acts_at_the_start_alone(fmu):
+    with fmu.open() as opened:
+        opened.initialise({"scene.carrier_drive": "torque", "carrier.speed_command": 30.0})
+        assert not opened.unfelt
+        opened.set({"carrier.speed_command": 31.0})
+        assert "scene.carrier_drive = speed" in opened.unfelt["carrier.speed_command"]
+
+
+def test_a_host_that_integrates_is_told_that_the_method_is_its_own(fmu):
+    with fmu.open("ModelExchange") as opened:
+        opened.initialise({"solver.method": "radau", "effects.mesh_history": True})
+        assert sorted(opened.unfelt) == ["effects.mesh_history", "solver.method"]
+
+
+def test_the_log_is_of_the_category_of_warnings_and_quiet_without_it(through_fmpy):
+    lines = []
+    through_fmpy({"left.brake_torque": 200.0}, 0.002, debug_logging=True, logger=lambda *line: lines.append(line))
+    said = [line for line in lines if UNFELT in line[4].decode()]
+    assert [line[3] for line in said] == [b"logStatusWarning"]
+    lines.clear()
+    through_fmpy({"left.brake_torque": 200.0}, 0.002, logger=lambda *line: lines.append(line))
+    assert not lines
+
+
+def test_python_warns_and_keeps_what_was_said(fmu_file):
+    with Differential({"left.brake_torque": "200 N.m"}, fmu=fmu_file) as differential:
+        with pytest.warns(DifferentialWarning, match="left.brake_torque: 200 N.m.*effects.wheel_brake = true") as caught:
+            differential.run(stop=0.002)
+        assert len(caught) == 1 and caught[0].filename == __file__
+        assert str(caught[0].message) in differential.warnings and list(differential.unfelt) == ["left.brake_torque"]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            differential.run(stop=0.002, values={"left.brake_torque": 0.0})
+
+
+def test_the_commands_and_the_report_say_it_once(fmu_file, tmp_path, capsys):
+    said = "left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"
+    scene = ["study_turning", "--set", "left.brake_torque=200 N.m", "--fmu", fmu_file]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DifferentialWarning)
+        assert main(["run", *scene, "--stop", "5 ms"]) == 0
+        assert capsys.readouterr().out.count(said) == 1
+
+
+def test_sweeps_of_many_runs_pass_no_warnings_on(fmu_file, tmp_path):
+    script = ("import sys; from bevel_differential.command import main; sys.exit(main(['sweep', '--scene', 'study_turning', '--vary', "
+              "'left.brake_torque=100, 200', '--plan', 'grid', '--want', 'efficiency', '--workers', '1', "
+              f"'--out', {str(tmp_path / 'sweep.parquet')!r}, '--fmu', {fmu_file!r}]))")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=tmp_path)
+    assert done.returncode == 0 and "DifferentialWarning" not in done.stderr, done.stderr
+
+
+BY_TORQUE = {"scene.carrier_drive": "torque"}
+HEAD = "name,count,duration [s],speed [km/h],speed_difference [rad/s],torque [N.m]"
+CAR = {"wheel_radius": "334 mm", "track": "1.55 m", "scene.gear_contact": "lumped"}
+
+
+@pytest.fixture
+def cycle(fmu_file, tmp_path):
+    """cycle(lines, parameters): damage of a duty cycle."""
+
+    def of(lines, **parameters):
+        file = tmp_path / "cycle.csv"
+        file.write_text("\n".join(lines), encoding="utf-8")
+        return spectrum(file, CAR | {name.replace("__", "."): value for name, value in parameters.items()}, fmu=fmu_file)
+
+    return of
+
+
+@pytest.mark.parametrize("driven", [{}, {"scene__left_drive": "speed", "scene__right_drive": "speed"}], ids=["loads", "wheels"])
+def test_a_duty_cycle_gives_its_torque_to_a_carrier_that_is_driven_by_torque(cycle, driven):
+    lines = [HEAD, "turn,4,20,18,2,450", "back,2,20,-18,-2,-300", "straight,9,10,50,,800"]
+    found = cycle(lines, scene__carrier_drive="torque", **driven).damage
+    assert found == pytest.approx(cycle(lines).damage, rel=2e-3) and found["damage.planet"] > 0.0
+
+
+def test_a_duty_cycle_refuses_by_name_what_nothing_takes(cycle, fmu_file):
+    with pytest.raises(DifferentialError, match="event 'braked': left.brake_torque: 90 N.m.*effects.wheel_brake = true"):
+        cycle([f"{HEAD},left.brake_torque [N.m]", "braked,4,20,18,2,450,90"])
+    with pytest.raises(DifferentialError, match="event 'one': left.load_torque: .*scene.left_drive = torque"):
+        spectrum([Event("one", 1.0, 1.0, values={"left.load_torque": 100.0})], {"scene.left_drive": "speed"}, fmu=fmu_file)
