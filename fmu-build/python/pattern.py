@@ -31,9 +31,9 @@ REMARKS = {
 # cases whose lines of contact are drawn, the first two that are there
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
+# relative radius of the flanks, over that at the pitch point, below which the foot is a seam (as in the report and on the page)
+LEAST_RADIUS = 0.25
 COLUMNS = 3
-# upper end of the colours, MPa: aligned flanks exceed it near the base circle only
-TOP = 4000.0
 # inches above the panels for the legend
 LEGEND = 0.4
 
@@ -145,11 +145,13 @@ def documented(cases):
 
 
 def top_of(data, cases):
-    """Upper end of the colours, MPa: that of the documentation, or what few spots of the user's scenes exceed."""
-    if documented(cases):
-        return TOP
-    found = [row["pressure"] for row in data["pattern"] if row["pressure"] > 0.0]
-    return 100.0 * np.ceil(np.percentile(found, 97.0) / 100.0)
+    """Upper end of the colours, MPa: the largest pressure outside the seam at the foot, where flanks have lost their radius."""
+    shown = [row for row in data["contacts"] if row["followed"] and row["case"] in dict(cases)]
+    # relative radii per cone distance; that at the pitch point is that of the contact nearest to it
+    pitch = min(shown, key=lambda row: abs(row["s"]))
+    least = LEAST_RADIUS * pitch["radius"] / pitch["cone"]
+    sound = [row["pressure"] for row in shown if row["radius"] / row["cone"] > least and not row["corner"]]
+    return 100.0 * np.ceil(max(sound) / 100.0)
 
 
 def strip(data, name):

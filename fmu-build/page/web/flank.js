@@ -3,6 +3,7 @@ import { gradient, shade } from "./scale.js";
 import { hasPairs, pairNames, pairs } from "./pairs.js";
 import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
 import { colour } from "./panel.js";
+import { contactOf, isInSeam } from "./seam.js";
 import { readable, shown } from "./table.js";
 
 const TEETH = ["tooth", "solid"]; // literals of scene.gear_contact with teeth
@@ -29,18 +30,20 @@ export class Flank {
   begin(record, setup) {
     this.record = record;
     this.contact = setup.value("scene.gear_contact");
+    this.elastic = contactOf(setup);
     this.forget();
   }
 
   forget() {
     this.done = 0;
+    this.largest = 0;
     if (!this.cones) return;
     const { pitch, root, tip, mean } = this.cones;
     const height = (angle) => 1e-3 * mean * (angle - pitch);
     this.patterns = FLANKS.map(() => new Pattern(height(root), height(tip)));
   }
 
-  // The pattern up to a time, and the lines of contact then; `most` is the largest pressure of the run [Pa].
+  // The pattern up to a time, and the lines of contact then; `most` is the largest pressure of the run outside the seam [Pa].
   at(time, most) {
     if (this.host.hidden || !this.cones) return;
     this.scale = most;
@@ -67,17 +70,18 @@ export class Flank {
   }
 
   add(present) {
+    const sound = present.filter((pair) => !isInSeam(this.elastic, pair));
+    this.largest = Math.max(this.largest, ...sound.flatMap(({ pressures }) => pressures));
     FLANKS.forEach(([sign], i) => this.patterns[i].add(present.filter(({ force }) => Math.sign(force) === sign)));
   }
 
   describe(present) {
     const pressure = (value) => readable(value / 1e6, 3);
-    const most = Math.max(...this.patterns.map((pattern) => pattern.most));
     const force = this.table.find("planet[1].left_normal_force");
     const lines = present.map(({ tooth, force: own, height, pressures }) => `Tooth ${tooth}: ${shown(force, Math.abs(own), 3)} at `
       + `${readable(1e3 * height, 2)} mm; ${pressures.map(pressure).join(", ")} MPa at toe, middle, heel`);
     if (lines.length === 0) lines.push("No pair is in contact now.");
-    lines.push(`Largest so far ${pressure(most)} MPa`);
+    lines.push(`Largest so far, without the seam at the foot, ${pressure(this.largest)} MPa`);
     this.say(lines);
   }
 
@@ -87,7 +91,7 @@ export class Flank {
     if (host.textContent !== text) host.textContent = text;
     this.part("scale").hidden = this.canvases[0].hidden;
     this.part("scale").style.setProperty("--scale", gradient());
-    this.part("most").textContent = `${readable(this.scale / 1e6, 3)} MPa, the most of this run`;
+    this.part("most").textContent = `${readable(this.scale / 1e6, 3)} MPa, the most of this run without the seam`;
   }
 
   draw(i, present) {

@@ -7,11 +7,12 @@ import { Controls } from "./controls.js";
 import { Flank } from "./flank.js";
 import { Legend } from "./legend.js";
 import { Notice } from "./notice.js";
-import { hasPairs, pressureNames } from "./pairs.js";
+import { hasPairs } from "./pairs.js";
 import { Player } from "./player.js";
 import { showFigures, showTransport, toothTime } from "./readings.js";
 import { Record } from "./record.js";
 import { scaled } from "./scale.js";
+import { largestPressure } from "./seam.js";
 import { Setup } from "./setup.js";
 import { Shapes } from "./shapes.js";
 import { Simulation } from "./simulation.js";
@@ -107,8 +108,7 @@ export class Page {
 
   get names() {
     const mode = MODES[this.setup.colour];
-    const withPressures = mode.withPressures || this.setup.view === "flank";
-    return wanted(this.table, this.setup, mode.needs(this.table), withPressures);
+    return wanted(this.table, this.setup, mode.needs(this.table), this.setup.view === "flank");
   }
 
   simulate() {
@@ -149,7 +149,7 @@ export class Page {
     this.refreshed = performance.now();
     this.traces.refresh();
     this.most = Math.max(...this.forces.map((name) => this.record.largest(name)));
-    this.mostPressure = Math.max(...pressureNames().map((name) => this.record.largest(name)));
+    this.mostPressure = hasPairs(this.record, true) ? largestPressure(this.record, this.setup) : 0;
     if (this.setup.colour === "heat") this.mostHeat = largestPower(this.record, this.table);
     $("scale").lastElementChild.textContent = this.most > 0
       ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";

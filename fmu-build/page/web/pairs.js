@@ -11,8 +11,6 @@ export const pairNames = (withPressures) => {
   return each.flatMap((k) => parts.map((part) => at(k, part)));
 };
 
-export const pressureNames = () => each.flatMap((k) => PRESSURES.map((part) => at(k, part)));
-
 // Whether the record lists pairs at all, and with their pressures.
 export const hasPairs = (record, withPressures = false) => pairNames(withPressures).every((name) => record.has(name));
 

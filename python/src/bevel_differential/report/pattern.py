@@ -17,6 +17,9 @@ ENDS = ("toe", "middle", "heel")
 ROWS, COLUMNS = 240, 48
 # strips that are thinner than this part of the height (half of their width) are drawn so wide, to be seen
 THINNEST = 0.006
+# relative radius of the flanks, over that at the pitch point, below which the foot of a flank is a seam: for the same load the
+# pressure is twice as high there
+LEAST_RADIUS = 0.25
 MM, MPA = 1e3, 1e6
 FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 
@@ -24,7 +27,9 @@ FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 @dataclass(frozen=True)
 class Contacts:
     """Loaded pairs on one kind of flank, by time and tooth: `time` (s), `tooth`, `force` (N), `height` (m, at the mean cone distance)
-    and `pressure` (Pa, shape (contacts, 3): toe, middle, heel); `half_width` of the strip of contact in the middle, m."""
+    and `pressure` (Pa, shape (contacts, 3): toe, middle, heel); `half_width` of the strip of contact in the middle, m; `in_seam`: where
+    the flanks' relative radius is less than `LEAST_RADIUS` of that at the pitch point. Toward a base circle the radius vanishes, and
+    Hertz's pressure, which has no limit there, no longer has a meaning."""
 
     time: np.ndarray
     tooth: np.ndarray
@@ -32,9 +37,10 @@ class Contacts:
     height: np.ndarray
     pressure: np.ndarray
     half_width: np.ndarray
+    in_seam: np.ndarray
 
     @classmethod
-    def of(cls, run: Simulated, sign: float, face: float) -> "Contacts":
+    def of(cls, run: Simulated, sign: float, pair: Pair) -> "Contacts":
         """Those of a run on drive (+1) or coast flanks (−1)."""
         columns = []
         for k in range(1, PAIRS + 1):
@@ -47,8 +53,15 @@ class Contacts:
         found = found[np.lexsort((found[:, 0], found[:, 1]))]
         force, pressure = np.abs(found[:, 2]), found[:, 4:]
         # Hertz: the force on a length b is π/2 times half width times pressure
-        half = 2.0 * force / (np.pi * face * np.maximum(pressure[:, 1], 1.0))
-        return cls(found[:, 0], found[:, 1], force, found[:, 3], pressure, half)
+        half = 2.0 * force / (np.pi * pair.face_width * np.maximum(pressure[:, 1], 1.0))
+        modulus = float(run.value("material.young_modulus")) / (2.0 * (1.0 - float(run.value("material.poisson_ratio")) ** 2))
+        least = LEAST_RADIUS * radius_at_pitch(pair)
+        return cls(found[:, 0], found[:, 1], force, found[:, 3], pressure, half,
+                   np.pi * pair.face_width * least * pressure[:, 1] ** 2 > force * modulus)
+
+    def most(self) -> float:
+        """Largest pressure, Pa: of the flank without its seam, if there is such a contact."""
+        return float((self.pressure if np.all(self.in_seam) else self.pressure[~self.in_seam]).max())
 
     def along(self, longest: float, step: float) -> Iterator[tuple[float, float, np.ndarray]]:
         """(height, half width, pressures) at the contacts, and every `step` of height between those of one tooth that follow each other
@@ -70,7 +83,7 @@ def section(run: Simulated) -> Section:
                   "there is no pattern.")
         return found
     pair = pair_of(run)
-    loaded = [(name, Contacts.of(run, sign, pair.face_width)) for sign, name in FLANKS]
+    loaded = [(name, Contacts.of(run, sign, pair)) for sign, name in FLANKS]
     loaded = [(name, contacts) for name, contacts in loaded if len(contacts.force)]
     if not loaded:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
@@ -78,6 +91,12 @@ def section(run: Simulated) -> Section:
     caption = " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)
     found.add(Picture("pattern", _draw(run, pair, loaded), caption))
     return found
+
+
+def radius_at_pitch(pair: Pair) -> float:
+    """Relative radius of curvature of the flanks at the pitch point, m at the mean cone distance: radii are R tan ψ."""
+    planet, side = (np.tan(gear.arc(gear.pitch)) for gear in pair.gears)
+    return 0.5 * (pair.inner_cone + pair.outer_cone) * planet * side / (planet + side)
 
 
 def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longest: float) -> np.ndarray:
@@ -101,7 +120,7 @@ def _draw(run, pair: Pair, loaded):
     heights, shares = np.linspace(root, tip, ROWS), np.linspace(0.0, 1.0, COLUMNS)
     cones = pair.inner_cone + shares * pair.face_width
     largest = [envelope(contacts, heights, shares, 1.5 * run.scene.step) for _, contacts in loaded]
-    top = max(float(each.max()) for each in largest) / MPA
+    top = max(contacts.most() for _, contacts in loaded) / MPA
     with style.styled():
         picture = style.figure(3.5 * len(loaded))
         panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
@@ -122,7 +141,7 @@ def _draw(run, pair: Pair, loaded):
                       xlim=(ends[0] - 1.0, ends[1] + 3.0))
             flank.set_aspect("equal")
             flank.grid(False)
-            picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25).set_label("largest pressure, MPa")
+            picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither").set_label("largest pressure, MPa")
             scale, unit = style.kilo([contacts.force])
             loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
             loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
@@ -133,7 +152,8 @@ def _draw(run, pair: Pair, loaded):
 
 def _caption(name, contacts):
     low, high = MM * contacts.height.min(), MM * contacts.height.max()
-    k = int(np.argmax(contacts.pressure.max(axis=1)))
+    sound = np.where(contacts.in_seam & ~np.all(contacts.in_seam), 0.0, contacts.pressure.max(axis=1))
+    k = int(np.argmax(sound))
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
     widest = 2.0 * MM * contacts.half_width.max()
     peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
@@ -155,8 +175,12 @@ def _reading(pair, loaded):
     least = 2.0 * MM * THINNEST * 0.5 * (pair.inner_cone + pair.outer_cone) * (planet.tip - planet.root)
     thin = (f" Strips thinner than {words.quantity(least, 'mm', 2)} are drawn that wide."
             if any(2.0 * MM * contacts.half_width.min() < least for _, contacts in loaded) else "")
+    highest = max(float(contacts.pressure.max()) for _, contacts in loaded)
+    seam = (f" The scale ends at the largest pressure outside the seam at the foot, where the flank's radius vanishes and Hertz's formula "
+            f"gives up to {words.quantity(highest / MPA, 'MPa')}, which has no further meaning."
+            if highest > max(contacts.most() for _, contacts in loaded) else "")
     return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all "
             "teeth laid on one "
             f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray "
             "through the apex. Right: "
-            f"how much one pair carries at which height.{thin}")
+            f"how much one pair carries at which height.{thin}{seam}")

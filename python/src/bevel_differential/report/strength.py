@@ -1,15 +1,16 @@
-"""Stresses with their strengths, and safety."""
+"""Stresses with the strengths that they are rated against, and safety."""
 
 import numpy as np
 
 from . import style, words
 from .blocks import Picture, Section, Table
+from .limits import Limited, limits
 from .simulated import Simulated
 
 MPA = 1e6
-STRESSES = (("stress.contact_max", "strength.contact_strength", "flanks: largest Hertz pressure", style.BLUE),
-            ("stress.root_planet_max", "strength.bending_strength", "roots of the planets", style.OCHRE),
-            ("stress.root_side_max", "strength.bending_strength", "roots of the side gears", style.RED))
+LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", style.BLUE),
+          "stress.root_planet_max": ("roots of the planets", style.OCHRE),
+          "stress.root_side_max": ("roots of the side gears", style.RED)}
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
@@ -24,10 +25,11 @@ def section(run: Simulated) -> Section:
     if reason:
         found.say(f"Stresses are not available, as the FMU says: {reason}.")
         return found
-    if all(np.max(run.series(name)) <= 0.0 for name, *_ in STRESSES):
+    stresses = limits(run)
+    if all(np.max(each.stress) <= 0.0 for each in stresses):
         found.say("No tooth was loaded at any communication point, so that there is no stress to show.")
     else:
-        found.add(Picture("stress", _draw(run), _caption(run)))
+        found.add(Picture("stress", _draw(run, stresses), _caption(run, stresses)))
     rows = [(name, what, words.number(float(run.record[name][-1]))) for name, what in RATED]
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
@@ -37,31 +39,38 @@ def section(run: Simulated) -> Section:
     return found
 
 
-def _draw(run):
+def _draw(run, stresses: tuple[Limited, ...]):
     with style.styled():
         picture = style.figure(4.0)
         upper, lower = picture.subplots(2, 1, sharex=True)
-        for panel, rows, title in ((upper, STRESSES[:1], "contact"), (lower, STRESSES[1:], "bending")):
+        for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
             top = 0.0
-            for name, _, label, colour in rows:
-                panel.plot(run.time, run.series(name) / MPA, color=colour, label=label)
-                top = max(top, float(np.max(run.series(name))) / MPA)
-            strength = float(run.value(rows[0][1])) / MPA
-            panel.axhline(strength, color=style.GREY, ls="--", lw=1.1, label="strength at the knee "
-                                                                             f"{words.quantity(strength, 'MPa')}")
-            panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * max(top, strength)))
+            for each in rows:
+                label, colour = LABELS[each.output]
+                panel.plot(run.time, each.stress / MPA, color=colour, label=label)
+                top = max(top, float(np.max(each.stress)) / MPA, float(np.max(each.limit)) / MPA)
+                # rolling is told of the step that ends at a point
+                panel.step(run.time, each.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(each)}")
+            panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
             panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         lower.set_xlabel("time, s")
         return style.svg(picture, "stress")
 
 
-def _caption(run):
+def _limit(each):
+    low, high = float(np.min(each.limit[1:])) / MPA, float(np.max(each.limit[1:])) / MPA
+    return words.quantity(low, "MPa") if low == high else f"{words.number(low)} or {words.quantity(high, 'MPa')}"
+
+
+def _caption(run, stresses):
     parts = []
-    for name, strength, label, _ in STRESSES:
-        values = run.series(name)
-        k = int(np.argmax(values))
-        share = values[k] / float(run.value(strength))
-        parts.append(f"{label} up to {words.quantity(values[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
-                     f"{words.percent(share)} of "
-                     "the strength")
-    return f"Largest stresses of all teeth: {'; '.join(parts)}."
+    for each in stresses:
+        k = each.worst()
+        parts.append(f"{LABELS[each.output][0]} {words.quantity(each.stress[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
+                     f"{words.percent(each.stress[k] / each.limit[k])} of the limit of {words.quantity(each.limit[k] / MPA, 'MPa')}")
+    highest = float(np.max(run.series("stress.contact_max"))) / MPA
+    return (f"Stresses of all teeth that are rated, each with its own limit, at the points at which they come nearest to it: "
+            f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll are loaded on both flanks and keep "
+            f"{words.number(float(run.value('strength.idler_factor')))} of their bending strength (strength.idler_factor). Flanks are "
+            "rated as one pair at the inner point of single contact. Where pairs touch nearer to a base circle Hertz's formula gives up "
+            f"to {words.quantity(highest, 'MPa')} (stress.contact_max), for which there is no strength.")

@@ -1,0 +1,136 @@
+"""All outputs scale with lengths, masses and times as their units say (Buckingham's theorem), where the laws are homogeneous.
+
+`CARRIERS` lists what is not, with the constant that carries units: it scales as long as those units stay, and not when they change."""
+
+import os
+import re
+
+import numpy as np
+import pytest
+import random_scenes
+from bevel_differential import DifferentialError
+from driving import TURN
+from effects_list import effects
+from scaling import differences, dimension
+
+LIMIT = 1e-7
+# largest stresses are those at the ends of steps and at peaks of the approach in between, where others may be higher by some 1e-5
+STEPWISE, STEPWISE_LIMIT = r"safety\.", 1e-5
+# what a constant must change to be one, far above what may be left of rounding and of the solver's tolerance
+SEEN = 1e-6
+SEED, SCENES, POINTS = 21, 36, 6
+# by their numbers in the interface
+ADAPTIVE, FIXED_STEP, GLEASON, EXPLICIT = 1, 2, 2, 4
+# error control is not homogeneous (below): motions are resolved further than they are compared
+TIGHT = {"solver.relative_tolerance": 1e-11}
+# of lengths, masses and times
+ALL, NO_LENGTH, NO_TIME, NONE = [1.31, 0.77, 1.19], [1.0, 0.77, 1.19], [1.31, 0.77, 1.0], [1.0, 1.0, 1.0]
+# all that is calculated but what the solver did; and of that the whole numbers, beside which step sizes are of rounding errors, too
+OUTPUTS, COUNTS = r"(?!solver\.)", r"solver\.(steps|rejected|rhs_calls)"
+DIMENSIONS = ["lengths", "masses", "times"]
+# of the factors of random scenes, in powers of two: most stay within the ranges of the variables
+RANGE = 0.5
+
+# a start without load: teeth strike, so that nothing is constant
+BLOWS = {**TURN, **TIGHT, "geometry.addendum_system": "standard"}
+LIGHT = {**BLOWS, "left.load_torque": 2.0, "right.load_torque": 2.0}
+WHEELS = {**TIGHT, "geometry.addendum_system": "standard", "scene.carrier_drive": "torque", "inertia.left_end": 0.1,
+          "inertia.right_end": 0.1}
+HELD = {**WHEELS, "effects.wheel_brake": True, "left.brake_torque": 500.0, "right.brake_torque": 400.0, "scene.start": "rest",
+        "carrier.speed_command": 0.0, "carrier.torque_command": 60.0, "wheel_brake.stiffness": 7e8, "left.load_torque": 20.0, "right.load_torque": 25.0}
+STEPS = [(5e-4, {})] * POINTS
+# side gears that friction holds are loaded unequally for a while
+UNEQUAL = [(2e-3, {"left.load_torque": load}) for load in (835.0, 835.0, 870.0, 870.0, 870.0, 835.0, 835.0)]
+STEADY = [(2e-3, {})] * POINTS
+
+SPRING = "springs of stuck friction have a damping time of 0.1 ms, and a body stands below 1e-6 rad/s"
+# (values, steps, factors that it stands, what it changes, the constant)
+CARRIERS = {
+    "gleason": (BLOWS | {"geometry.addendum_system": "gleason"}, STEPS, NO_LENGTH, OUTPUTS, "0.05 mm of the whole depth"),
+    "accuracy_grade": (BLOWS | {"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7}, STEPS, NO_LENGTH, OUTPUTS,
+                       "tolerances in um from lengths in mm (ISO 17485)"),
+    "benedict_kelley": (LIGHT | {"effects.tooth_friction": True, "tooth_friction.law": "benedict_kelley"}, STEPS, NONE, OUTPUTS,
+                        "roughness in um, speeds in m/s, and at least 1 N/mm"),
+    "iso_14179": (BLOWS | {"effects.tooth_friction": True, "tooth_friction.law": "iso_14179"}, STEPS, NONE, OUTPUTS,
+                  "N/mm, mm, m/s, mPa.s and um under powers"),
+    "xu_kahraman": (BLOWS | {"effects.tooth_friction": True, "tooth_friction.law": "xu_kahraman"}, STEPS, NONE, OUTPUTS,
+                    "GPa, m, m/s and mPa.s under powers"),
+    "thrust_friction": (WHEELS | {"effects.thrust_friction": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
+    "limited_slip": (WHEELS | {"effects.limited_slip": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
+    "lock": (WHEELS | {"lock.command": 1.0}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
+    "wheel_brake": (HELD, STEADY, NO_TIME, OUTPUTS, SPRING),
+    "solver": (BLOWS | {"solver.relative_tolerance": 1e-6}, STEPS, NO_TIME, COUNTS, "error control resolves speeds to 1 rad/s, and the first step is 1 us"),
+}
+# with faceted teeth errors are those of whole flanks
+SOLID = {"scene.gear_contact": "solid", "tooth_errors.accuracy_grade": 0, "tooth_errors.planet_tip_relief": 0.0}
+ERRORS = {"effects.tooth_errors": True, "tooth_errors.crowning": 2e-5, "tooth_errors.axis_offset": 2e-5,
+          "tooth_errors.shaft_angle_error": 1e-3, "tooth_errors.planet_axial_offset": 3e-5}
+EFFECTS = {effect.name: effect.on for effect in effects(os.environ["FMU"]) if effect.name not in CARRIERS}
+HOMOGENEOUS = {
+    **{contact: {"scene.gear_contact": contact} for contact in ("ideal", "lumped", "tooth", "solid")},
+    **{law: {"contact.law": law, **ERRORS, "tooth_errors.planet_tip_relief": 2e-5} for law in ("impact", "line", "line_weber")},
+    "misaligned solids": SOLID | ERRORS | {"solid.facets": 8},
+    **EFFECTS, "tooth_errors": EFFECTS["tooth_errors"] | {"tooth_errors.accuracy_grade": 0},
+}
+
+
+def test_dimensions_from_units_are_those_of_the_description(fmu):
+    for unit in fmu.description.unitDefinitions:
+        if unit.baseUnit is not None:
+            assert list(dimension(unit.name)) == [unit.baseUnit.m, unit.baseUnit.kg, unit.baseUnit.s], unit.name
+    assert list(dimension("N/m^1.5")) == [-0.5, 1.0, -2.0]
+
+
+def wrong(found, pattern=OUTPUTS, limit=LIMIT):
+    """Of the outputs that a pattern names those that do not scale."""
+    return {name: off for name, off in found.items()
+            if re.match(pattern, name) and off > (STEPWISE_LIMIT if re.match(STEPWISE, name) else limit)}
+
+
+def homogeneous(start):
+    """A plausible scene without what carries units."""
+    start = start | {f"effects.{name}": False for name in CARRIERS if f"effects.{name}" in start}
+    start |= {"lock.command": 0.0, "tooth_friction.law": 1, "tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
+              "material.density": min(start["material.density"], 10e3), **TIGHT}
+    if start["geometry.addendum_system"] == GLEASON:
+        start["geometry.addendum_system"] = EXPLICIT
+    # Newton's method of the fixed steps ends after four iterations, wherever a blow has brought it
+    if start["solver.method"] == FIXED_STEP:
+        start["solver.method"] = ADAPTIVE
+    return start
+
+
+def test_all_outputs_of_random_scenes_scale_with_lengths_masses_and_times(fmu):
+    ran, failures = 0, []
+    for index, found in random_scenes.scenes(fmu, "plausible", SCENES, SEED):
+        factors = 2.0 ** np.random.default_rng([SEED, index]).uniform(-RANGE, RANGE, 3)
+        steps = [(0.2 * size, {name: value for name, value in inputs.items() if name != "lock.command"})
+                 for size, inputs in found["steps"][:POINTS]]
+        try:
+            off, points = differences(fmu, {"start": homogeneous(found["start"]), "steps": steps}, factors)
+        except DifferentialError:
+            # the scene and its image are refused alike
+            continue
+        ran += points > 1
+        if wrong(off):
+            failures.append((index, list(factors), wrong(off)))
+    assert not failures, f"scenes, factors and what does not scale: {failures}"
+    assert ran > 0.8 * SCENES
+
+
+@pytest.mark.parametrize("name", HOMOGENEOUS)
+def test_all_outputs_scale_with_each_contact_law_and_effect(fmu, name):
+    off, points = differences(fmu, {"start": BLOWS | HOMOGENEOUS[name], "steps": STEPS}, ALL)
+    assert points == POINTS + 1 and not wrong(off), wrong(off)
+
+
+@pytest.mark.parametrize("name", CARRIERS)
+def test_what_carries_units_scales_while_they_stay_and_not_when_they_change(fmu, name):
+    values, steps, stands, what, constant = CARRIERS[name]
+    off, _ = differences(fmu, {"start": values, "steps": steps}, stands)
+    assert not wrong(off, what), wrong(off, what)
+    for k, dimension_of in enumerate(DIMENSIONS):
+        if stands[k] == 1.0:
+            factors = [ALL[k] if i == k else 1.0 for i in range(3)]
+            off, _ = differences(fmu, {"start": values, "steps": steps}, factors)
+            assert wrong(off, what, SEEN), f"{name} scales with {dimension_of} as well: {constant}"

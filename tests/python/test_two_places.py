@@ -1,0 +1,123 @@
+"""Outputs that show the same thing at two places agree, in random scenes at every communication point (two_places.py)."""
+
+import os
+
+import numpy as np
+import pytest
+import random_scenes
+from bevel_differential import DifferentialError
+from driving import TURN
+from effects_list import effects
+from integrals import Walk
+from momentum import INSTANT, SOLIDS, Momentum
+from two_places import IDEAL, SIDES, Scene, compared
+
+SEED, SCENES = 31, 90
+TOLERANCE = 1e-8
+# heat that comes at once, by springs of dry friction, a tooth that breaks, or pairs that come and go abruptly
+AT_ONCE = ["thrust_friction", "limited_slip", "wheel_brake", "tooth_fault"]
+# the heat of brakes is part of the power that goes out
+OUTSIDE = "heat.brake"
+# s
+STEPS = [2e-4, 5e-4, 1e-3, 2e-3, 1e-4, 3e-3]
+
+
+def points(fmu, scene):
+    """(instance, step) at the start and after each step, as far as a scene runs."""
+    with fmu.open() as opened:
+        try:
+            opened.initialise(scene["start"])
+            yield opened, 0
+            for k, (size, inputs) in enumerate(scene["steps"], 1):
+                opened.set(inputs)
+                opened.step(size)
+                yield opened, k
+        except DifferentialError:
+            # what may refuse a scene or end it is tried in test_random_scenes.py
+            return
+
+
+def unbalanced(momentum, scene, o):
+    """Side gears whose acceleration is not that of the torques on them: of meshes, half-shaft and drag, unless others rub."""
+    if scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or scene.p["lock.command"] > 0.0:
+        return []
+    drag = momentum.dragged(np.array([o["carrier.speed"], *(o[f"{side}.speed"] for side in SIDES)]))[1:]
+    found = []
+    for side, drags in zip(SIDES, drag):
+        terms = [momentum.radius * o[f"{side}.tangential_force"], -o[f"{side}.shaft_torque"], -drags,
+                 -momentum.side * o[f"{side}.acceleration"]]
+        allowed = INSTANT * sum(map(abs, terms)) + SOLIDS * momentum.facets[1] * abs(terms[-1])
+        if abs(sum(terms)) > allowed:
+            found.append((f"{side} torques and reaction", terms, sum(terms), allowed))
+    return found
+
+
+def test_what_two_outputs_show_agrees_in_random_scenes(fmu):
+    read, failures = 0, {}
+    for index, random in random_scenes.scenes(fmu, "plausible", SCENES, SEED):
+        scene = momentum = None
+        for opened, k in points(fmu, random):
+            if scene is None:
+                scene = Scene(fmu, opened)
+                try:
+                    momentum = Momentum(opened)
+                except ValueError:
+                    # their solids cannot be weighed here
+                    momentum = None
+            o = scene.read(opened)
+            wrong = compared(scene, o)
+            if momentum and scene.contact != IDEAL:
+                wrong += unbalanced(momentum, scene, o)
+            read += 1
+            for what, *values in wrong:
+                failures.setdefault(what, []).append((index, k, *values))
+    assert not failures, {what: (len(rows), rows[0]) for what, rows in failures.items()}
+    assert read > 6 * SCENES
+
+
+EFFECTS = {effect.name: effect for effect in effects(os.environ["FMU"]) if effect.name not in AT_ONCE and effect.switch}
+
+
+@pytest.mark.parametrize("effect", EFFECTS)
+def test_heat_is_the_integral_of_the_power_that_is_lost(fmu, effect):
+    on = EFFECTS[effect].on if "tooth" in EFFECTS[effect].contact else {"scene.gear_contact": EFFECTS[effect].contact[-1]}
+    heats = tuple(name for name in fmu.variables if name.startswith("heat.") and name != OUTSIDE)
+    with fmu.open() as opened:
+        opened.initialise(TURN | on | {"solver.relative_tolerance": TOLERANCE})
+        walk = Walk(opened, [(heats, "power.loss")], TOLERANCE)
+        for size in STEPS:
+            # a point within a step that passes the end of a contact is not balanced until the step is complete
+            before = abs(opened.get("solver.energy_residual"))
+            wrong = walk.step(size)
+            after = abs(opened.get("solver.energy_residual"))
+            assert all(abs(gained - lost) <= allowed + before + after for _, gained, lost, allowed in wrong), wrong
+        assert sum(opened.read(heats)) > 0.0
+
+
+# crowning, displacement of the pins across, and load of each side [m, N.m]; all of the face carries
+FACES = [(0.0, 0.0, 835.0), (1e-5, 0.0, 835.0), (2e-5, 1e-5, 835.0), (0.0, 2e-5, 400.0)]
+
+
+@pytest.mark.parametrize("crowning, offset, load", FACES)
+def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_heel(fmu, crowning, offset, load):
+    """Under the law `line` load per width over radius, and so the square of pressure, is c₀/R + c₁ + c₂ R over the face."""
+    values = {"contact.law": "line", "effects.strength": True, "effects.tooth_errors": True, "tooth_errors.crowning": crowning,
+              "tooth_errors.axis_offset": offset, "scene.planet_spin": "imposed",
+              "left.load_torque": load, "right.load_torque": load}
+    with fmu.open() as opened:
+        opened.initialise(values)
+        scene = Scene(fmu, opened)
+        o = scene.read(opened)
+    cones = np.array([scene.inner, scene.mean, scene.outer])
+    names = ("toe", "middle", "heel")
+    largest = 0.0
+    for k in (1, 2, 3):
+        squares = np.array([o[f"planet[1].left_pair[{k}].{name}_pressure"] for name in names]) ** 2
+        if squares[1] == 0.0:
+            continue
+        assert np.all(squares > 0.0)
+        factors = np.linalg.solve(np.stack([1.0 / cones, np.ones(3), cones], axis=1), squares)
+        face = np.linspace(scene.inner, scene.outer, 2001)
+        largest = max(largest, np.sqrt(np.max(factors[0] / face + factors[1] + factors[2] * face)))
+    # planet 1 carries what the others carry, or more where the pins are off toward it
+    assert largest == pytest.approx(o["stress.contact_max"], rel=1e-6)
