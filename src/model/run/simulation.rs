@@ -81,7 +81,7 @@ impl Simulation {
 
     /// A simulation of `parameters` that continues from `state`, with teeth that are not damaged yet and no history.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        let fatigue = Fatigue::new(state.time, parameters.specs.strength.rate_from, true);
+        let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
         Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
     }
 
