@@ -5,7 +5,8 @@
 //!
 //! The `impact` law acts at R_m, w = F/b. Under the line laws w = 2FR/(R_e² − R_i²) grows with R just as ρ does: the
 //! pressure is the same over the face, and, as R_e² − R_i² = 2 b R_m, it is the same as at R_m under `impact`. One
-//! formula serves both: p_H = √(F E* / (π b R_m τ(s))).
+//! formula serves both: p_H = √(F E* / (π b R_m τ(s))). F is the force at the cone distance of the law's own resultant, R_F of
+//! the line laws, at which the same moment is a smaller force than at R_m.
 
 use serde::{Deserialize, Serialize};
 
