@@ -105,6 +105,11 @@ impl FlankGaps {
         [planet_tooth, if name.flank == Flank::Drive { ahead } else { ahead - 1 }]
     }
 
+    /// Whether the teeth of a gear are alike, so that all repeats from pitch to pitch.
+    pub fn are_alike_all_round(&self) -> bool {
+        self.chip.is_none() && self.errors.as_ref().is_none_or(ToothErrors::is_alike_all_round)
+    }
+
     /// Opening of a pair of teeth in `mesh` at place `s` [rad].
     #[inline(always)]
     pub fn of(&self, mesh: MeshId, pair: PairId, s: f64) -> Opening {

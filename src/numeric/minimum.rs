@@ -36,8 +36,9 @@ pub struct Search {
     pub valley: Option<DVector<f64>>,
 }
 
-/// Iterations; a handful is enough.
+/// Iterations; a handful is enough, but along a valley, where contacts come and go.
 const MAX_ITERATIONS: usize = 200;
+const MAX_ITERATIONS_ALONG: usize = 2000;
 /// Trials of one step, with growing damping or shrinking length.
 const TRIALS: usize = 60;
 /// Part of the damping that acts along a valley.
@@ -52,7 +53,8 @@ impl Search {
     pub fn minimum(&self, landscape: &dyn Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
         let (mut x, mut damping) = (start, 0.0);
         let mut value = landscape.value(&x);
-        for _ in 0..MAX_ITERATIONS {
+        let most = if self.valley.is_some() { MAX_ITERATIONS_ALONG } else { MAX_ITERATIONS };
+        for _ in 0..most {
             if !landscape.is_near(&x) {
                 return None;
             }

@@ -92,7 +92,7 @@ class Statics:
                 return x
             rolled = lambda _, x: most - max((abs(x[k]) for k in self.spins), default=0.0)  # noqa: E731
             rolled.terminal = True
-            crept = solve_ivp(lambda _, x: self.mobility * self.load * self.torques(x), (0.0, 1e4), x, method="BDF", rtol=1e-6,
+            crept = solve_ivp(lambda _, x: self.mobility * self.load * self.torques(x), (0.0, 1e8), x, method="BDF", rtol=1e-6,
                               atol=1e-9, events=rolled)
             x = crept.y[:, -1]
             if crept.status == 1:

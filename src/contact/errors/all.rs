@@ -111,6 +111,11 @@ impl ToothErrors {
             && self.misalignment.as_ref().is_none_or(Misalignment::is_rotation)
     }
 
+    /// Whether the teeth of a gear are alike, so that all repeats from pitch to pitch.
+    pub fn is_alike_all_round(&self) -> bool {
+        self.pitch.is_none() && self.runout.is_none()
+    }
+
     /// Whether planets differ in teeth or position, so that none may represent another.
     pub fn is_individual(&self) -> bool {
         self.pitch.is_some()

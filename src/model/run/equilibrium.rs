@@ -5,11 +5,12 @@ use nalgebra::{DMatrix, DVector};
 use super::carried::Carried;
 use super::excessive_deflection::limit_name;
 use super::hints;
+use crate::contact::gaps::FlankGaps;
 use crate::integrate::{Matrix, Point, in_pairs};
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
 use crate::model::dynamics::equations::Equations;
-use crate::numeric::{Landscape, Search, rising_root, sqrt};
+use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
 /// Longest step of the search for an equilibrium [base pitches]: the potential tilts under unequal loads, and a long
@@ -129,7 +130,8 @@ pub fn settle_as_they_are<const N: usize, const G: usize, const P: usize, const 
 }
 
 /// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a
-/// tooth pitch. What accelerates adds its inertial torque to the loads.
+/// tooth pitch, or `along_valley` within a turn of planets whose teeth differ. What accelerates adds its inertial torque to
+/// the loads.
 ///
 /// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
 /// under loads that drive forward, at negative ones under the mirrored loads.
@@ -148,7 +150,10 @@ fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: b
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier;
         }
     }
-    let well = Well { equations, against, point, unknowns: unknowns(equations) };
+    // teeth that are alike all round are in balance in each pitch or in none
+    let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
+    let near = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
+    let well = Well { equations, against, point, unknowns: unknowns(equations), near };
     let load = torque[0].abs() + torque[1].abs();
     let forward = torque[0] + torque[1];
     let forward = if forward == 0.0 { torque[0] } else { forward };
@@ -196,6 +201,8 @@ struct Well<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFEC
     against: [f64; N],
     point: &'a Point<N>,
     unknowns: Vec<(usize, f64)>,
+    /// Farthest spin that a planet may have [rad].
+    near: f64,
 }
 
 impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Well<'_, N, G, P, WITH_EFFECTS> {
@@ -219,9 +226,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> L
     }
 
     fn is_near(&self, x: &DVector<f64>) -> bool {
-        let (at, teeth) = (self.at(x), self.equations.teeth);
-        let pitch = teeth.base_pitch / teeth.sin_base[0];
-        (0..teeth.layout.groups).all(|g| at.q[teeth.layout.planet(g)].abs() < pitch)
+        let (at, layout) = (self.at(x), &self.equations.teeth.layout);
+        (0..layout.groups).all(|g| at.q[layout.planet(g)].abs() < self.near)
     }
 
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>) {

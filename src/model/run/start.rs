@@ -73,8 +73,8 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 pub struct Preload {
     /// What is carried, and the accelerations with which it is.
     pub carried: Carried,
-    /// Whether the planets do not stay where they are, but roll.
-    pub rolls: bool,
+    /// Whether all is in balance without accelerations other than these, and no planet begins to roll.
+    pub settled: bool,
 }
 
 /// Presses the meshes together until tooth torques balance the loads, and winds the half-shafts up.
@@ -96,12 +96,13 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     press_sides(model, equations, carried.teeth, &mut point)?;
     // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
     let otherwise = WITH_EFFECTS && (equations.in_detail() || P > 0 || equations.bodies_of_gears().is_some());
-    let mut rolls = false;
+    let mut settled = true;
     if !plan.spin_imposed || otherwise {
-        if let Some(settled) = settle(equations, &carried, &point) {
-            point = settled;
+        let found = settle(equations, &carried, &point);
+        settled = found.is_some();
+        if let Some(found) = found {
+            point = found;
         } else if !plan.spin_imposed {
-            rolls = true;
             carried = Carried::new(model, ideal, inputs, state);
             press_sides(model, equations, carried.teeth, &mut point)?;
             if otherwise {
@@ -134,5 +135,6 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
         }
     }
     state.set_point(&point);
-    Ok(Preload { carried, rolls })
+    state.wrap(&model.periods, &teeth.layout);
+    Ok(Preload { carried, settled })
 }

@@ -3,6 +3,7 @@
 use super::start::Preload;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::model::{Gears, Model};
+use crate::model::assembly::teeth::Teeth;
 use crate::model::dynamics::sizes::by_size;
 use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{CARRIER, MAX_DOF, MAX_GROUPS};
@@ -33,7 +34,8 @@ pub fn warnings(model: &Model, inputs: &Inputs, state: &State, preload: &Preload
             found.torque[g] = equations.planet_torques(&point, g);
         }
     });
-    let balance = if preload.rolls { Some(rolling(preload)) } else { unbalanced(model, state, preload, &found) };
+    let rolls = !preload.settled && preload.carried.spin != 0.0;
+    let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
     balance
         .into_iter()
         .chain(unequal(&teeth.plan, &found))
@@ -41,39 +43,36 @@ pub fn warnings(model: &Model, inputs: &Inputs, state: &State, preload: &Preload
         .collect()
 }
 
-/// Planets that roll as soon as the time does.
-fn rolling(preload: &Preload) -> String {
-    let [left, right] = preload.carried.teeth;
+/// Planets that begin to roll.
+fn rolling(plan: &Plan, found: &Found) -> String {
     format!(
-        "there is no equilibrium: the teeth do not hold the planets against what the sides differ by, and they roll; at the start \
-         the gears accelerate as without teeth, while those carry {left:.3} N.m left and {right:.3} N.m right"
+        "this is no equilibrium: the teeth do not hold the planets against the difference of both sides, and they begin to \
+         roll; the gears accelerate as ideal ones do, while their teeth carry {}",
+        found.carried(plan)
     )
 }
 
-/// Torque that is left over where nothing turns against anything else, if it is more than an equilibrium leaves.
-fn unbalanced(model: &Model, state: &State, preload: &Preload, found: &Found) -> Option<String> {
-    let Gears::Teeth(teeth) = &model.gears else { return None };
+/// A search that found nothing, or torque that is left over where nothing turns against anything else.
+fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) -> Option<String> {
     let (layout, carried) = (&teeth.layout, &preload.carried);
     let load = carried.teeth[0].abs() + carried.teeth[1].abs();
     // a group without members has nothing to carry
     let planets = (0..teeth.plan.groups().len()).map(|g| layout.planet(g));
-    if load < LEAST_LOAD || planets.clone().any(|i| state.v[i] != 0.0) {
-        return None;
-    }
+    // of planets that spin the torques change all the time
+    let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
     let sides = (0..2).map(|s| (s, carried.side[s]));
-    // imposed motions have no inverse
     let left_over = sides
         .chain(planets.map(|i| (i, carried.spin)))
         .chain([(CARRIER, carried.carrier)])
-        .filter(|&(i, _)| teeth.inverse_inertia[i] > 0.0)
+        // imposed motions have no inverse
+        .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
         .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())
         .fold(0.0, f64::max);
-    (left_over > BALANCED * load).then(|| {
+    (load > LEAST_LOAD && (!preload.settled || left_over > BALANCED * load)).then(|| {
         format!(
-            "no equilibrium was found: the teeth carry {:.3} N.m left and {:.3} N.m right of {:.3} and {:.3} N.m, and the gears \
-             begin to accelerate at once; peaks and ratings of the run contain this",
-            found.torque_on(&teeth.plan, 0),
-            found.torque_on(&teeth.plan, 1),
+            "no equilibrium was found: the teeth carry {} of {:.3} and {:.3} N.m, and what is not balanced accelerates the gears \
+             at once; peaks and ratings of the run contain this",
+            found.carried(&teeth.plan),
             carried.teeth[0],
             carried.teeth[1]
         )
@@ -81,8 +80,12 @@ fn unbalanced(model: &Model, state: &State, preload: &Preload, found: &Found) ->
 }
 
 impl Found {
-    fn torque_on(&self, plan: &Plan, s: usize) -> f64 {
-        plan.groups().iter().zip(&self.torque).map(|(group, torque)| group.members * torque[s]).sum()
+    /// What the teeth carry on either side, in words.
+    fn carried(&self, plan: &Plan) -> String {
+        let on =
+            |s: usize| plan.groups().iter().zip(&self.torque).map(|(group, torque)| group.members * torque[s]).sum();
+        let [left, right]: [f64; 2] = [on(0), on(1)];
+        format!("{left:.3} N.m left and {right:.3} N.m right")
     }
 }
 

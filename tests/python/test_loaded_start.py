@@ -1,0 +1,171 @@
+"""The start `equilibrium` carries its loads whatever errors the teeth have, or the log says that it does not.
+
+Torques that are left over are inertias times accelerations at t = 0. Where the log says that there is no equilibrium,
+own_statics looks for one."""
+
+import numpy as np
+import pytest
+from opened_scenes import INERTIAS, UM, scene
+from own_statics import BALANCED, Statics
+
+SIDES = ["left", "right"]
+NOTHING_FOUND = ("this is no equilibrium", "no equilibrium was found")
+OUTWARD = {"effects.tooth_errors": True, "tooth_errors.planet_axial_offset": 200.0 * UM}
+RELIEF = {"effects.tooth_errors": True, "tooth_errors.planet_tip_relief": 40.0 * UM, "tooth_errors.side_tip_relief": 40.0 * UM,
+          "tooth_errors.relief_length": 1.0}
+OPENED = {
+    "outward": {**OUTWARD, "contact.law": "line"} | {f"{side}.load_torque": 200.0 for side in SIDES},
+    "far outward": {**OUTWARD, "contact.law": "line", "geometry.planet_count": 4, "tooth_errors.planet_axial_offset": 400.0 * UM}
+                   | {f"{side}.load_torque": 835.0 for side in SIDES},
+    "long relief": {**RELIEF, "contact.law": "line"} | {f"{side}.load_torque": 20.0 for side in SIDES},
+    "crowned": {"effects.tooth_errors": True, "contact.law": "line_weber", "tooth_errors.crowning": 20.0 * UM}
+               | {f"{side}.load_torque": 5.0 for side in SIDES},
+    "impact": {**OUTWARD, "contact.law": "impact"} | {f"{side}.load_torque": 200.0 for side in SIDES},
+}
+# points at which the largest force is looked for [s]
+SHOWN, FINE = 0.05, 1e-4
+# of the ramp of the loads [s]
+RAMP, COARSE = 0.3, 1e-3
+MOST = 1.05
+# of the loads of the ramp's begin: teeth that touch at once need not find each other by blows
+FIRST = 0.01
+
+
+def left_over(driven, values):
+    """The largest torque that is not balanced, over the larger load."""
+    count = values.get("geometry.planet_count", 2)
+    weights = {f"der({side}.speed)": values["inertia.side_gear"] for side in SIDES}
+    if values.get("scene.planet_spin") != "imposed":
+        weights |= {f"der(planet[{i + 1}].spin_speed)": values["inertia.planet"] for i in range(count)}
+    if values.get("effects.pin_compliance"):
+        # their inertias are near those of the planets
+        weights |= {f"der(planet[{i + 1}].pin_speed)": values["inertia.planet"] for i in range(count)}
+    if values.get("effects.half_shaft"):
+        weights |= {f"der({side}.end_speed)": values[f"inertia.{side}_end"] for side in SIDES}
+    torques = np.abs(driven.read(weights)) * list(weights.values())
+    return np.max(torques) / max(abs(values[f"{side}.load_torque"]) for side in SIDES)
+
+
+def said(driven):
+    return [message for message in driven.messages if message.startswith("scene.start")]
+
+
+def is_without_equilibrium(driven):
+    return any(phrase in message for message in said(driven) for phrase in NOTHING_FOUND)
+
+
+def forces(values):
+    return [f"planet[{i + 1}].{side}_normal_force" for i in range(values.get("geometry.planet_count", 2)) for side in SIDES]
+
+
+def largest_force(opened, values, stop):
+    """The largest force of a mesh from now to `stop` [s]."""
+    names, largest = forces(values), 0.0
+    while opened.time < stop - 0.5 * FINE:
+        opened.step(FINE)
+        largest = max(largest, max(opened.read(names)))
+    return largest
+
+
+def largest_after_ramp(fmu, values):
+    """The same after a slow ramp of the loads."""
+    loads = {f"{side}.load_torque": values[f"{side}.load_torque"] for side in SIDES}
+    with fmu.open() as opened:
+        opened.initialise(values | {name: FIRST * load for name, load in loads.items()})
+        for k in range(1, round(RAMP / COARSE) + 1):
+            opened.set({name: load * max(FIRST, k * COARSE / RAMP) for name, load in loads.items()})
+            opened.step(COARSE)
+        return largest_force(opened, values, opened.time + SHOWN)
+
+
+@pytest.mark.parametrize("name", OPENED)
+def test_teeth_that_errors_keep_apart_carry_from_the_start_on_without_a_blow(fmu, name):
+    values = INERTIAS | OPENED[name]
+    with fmu.open() as opened:
+        opened.initialise(values)
+        assert left_over(opened, values) < BALANCED
+        assert min(opened.read(forces(values))) > 0.0
+        assert not said(opened)
+        largest = largest_force(opened, values, SHOWN)
+    assert largest <= MOST * largest_after_ramp(fmu, values)
+
+
+@pytest.mark.parametrize("name", OPENED)
+def test_the_mirrored_start_is_the_mirror_image(fmu, name):
+    values = INERTIAS | OPENED[name]
+    load = values["left.load_torque"]
+    names = ["left.relative_angle", "right.relative_angle", "planet[1].spin_angle", "planet[2].spin_angle"]
+    found = []
+    for sign in (1.0, -1.0):
+        with fmu.open() as opened:
+            opened.initialise(values | {f"{side}.load_torque": sign * load for side in SIDES} | {"carrier.speed_command": sign * 50.0})
+            found.append((sign * np.array(opened.read(names)), opened.read(forces(values))))
+    np.testing.assert_allclose(found[0][0], found[1][0], atol=1e-10)
+    np.testing.assert_allclose(found[0][1], found[1][1], rtol=1e-7)
+
+
+def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_log_says_so(fmu, request):
+    without = []
+    for number in range(request.config.getoption("--scenes")):
+        values = scene(number)
+        with fmu.open() as opened:
+            opened.initialise(values)
+            if is_without_equilibrium(opened):
+                without.append(number)
+            else:
+                assert left_over(opened, values) < BALANCED, number
+    for number in without:
+        values = scene(number)
+        pitch = 2.0 * np.pi / values["geometry.planet_teeth"]
+        with Statics(fmu, values) as statics:
+            # not where a maximum may be
+            for part in (-0.81, -0.57, -0.33, -0.09, 0.07, 0.31, 0.55, 0.79):
+                assert statics.equilibrium(part * pitch, pitch) is None, number
+
+
+def test_random_starts_with_errors_begin_without_a_blow(fmu, request):
+    for number in range(0, request.config.getoption("--scenes"), 10):
+        values = scene(number)
+        with fmu.open() as opened:
+            opened.initialise(values)
+            if is_without_equilibrium(opened):
+                continue
+            largest = largest_force(opened, values, SHOWN)
+        assert largest <= MOST * largest_after_ramp(fmu, values), number
+
+
+def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):
+    unequal = {"contact.law": "line", "left.load_torque": 400.0, "right.load_torque": 100.0}
+    with fmu.open() as opened:
+        [message] = said(opened.initialise(unequal))
+        assert "begin to roll" in message
+        [message] = said(opened.initialise({**OPENED["outward"], "tooth_errors.axis_offset": 200.0 * UM}))
+        assert "planets carry unequal parts" in message
+        carried = np.array(opened.read(forces({}))).reshape(2, 2).sum(axis=1)
+        told = [float(part.split()[1]) for part in message.split(": ")[-1].removesuffix(" of it").split(", ")]
+        np.testing.assert_allclose(told, carried / carried.sum(), atol=0.01)
+        assert min(told) < 0.25
+
+
+DRAG = {"effects.bearing_drag": True, "bearing_drag.side_torque": 20.0, "bearing_drag.carrier_torque": 30.0}
+BALANCED_DRIVES = {
+    "drag": {**DRAG, "carrier.speed_command": 50.0},
+    "drag, driven by torque": {**DRAG, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
+                               "left.load_torque": 300.0, "right.load_torque": 300.0, "carrier.speed_command": 50.0},
+    "final drive": {"effects.final_drive": True, "carrier.speed_command": 50.0},
+    "one wheel held at its speed": {"scene.left_drive": "speed", "left.speed_command": 50.0, "carrier.speed_command": 50.0,
+                                    "right.load_torque": 300.0},
+}
+
+
+@pytest.mark.parametrize("name", BALANCED_DRIVES)
+def test_gears_under_drag_and_drives_start_without_accelerating_against_each_other(fmu, name):
+    values = INERTIAS | {"contact.law": "line", **BALANCED_DRIVES[name]}
+    with fmu.open() as opened:
+        opened.initialise(values)
+        left, right, carrier, planet = opened.read(
+            ["der(left.speed)", "der(right.speed)", "der(carrier.speed)", "der(planet[1].spin_speed)"])
+        assert values["inertia.side_gear"] * max(abs(left - carrier), abs(right - carrier), abs(planet)) < BALANCED * 300.0
+        assert not said(opened)
+        at_start = max(opened.read(forces(values)))
+        assert largest_force(opened, values, 0.01) < MOST * at_start
