@@ -1,6 +1,7 @@
 """The command `optimise`: from a problem file to a front, a choice and files for CAD."""
 
 import argparse
+import sys
 from pathlib import Path
 
 from ..command.arguments import add_fmu
@@ -35,6 +36,8 @@ def run(arguments: argparse.Namespace) -> int:
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
+    if blow := problem.rates_start():
+        print(f"warning: {blow}", file=sys.stderr, flush=True)
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
     try:

@@ -19,6 +19,8 @@ KEYS = {"description", "scene", "objectives", "conditions", "population", "gener
         "follow", "compare", "confirm"}
 NEEDED = ("description", "scene", "objectives", "vary")
 SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
+# outputs that add up, or keep the worst of, what was since ratings began
+RATED = ("safety.", "damage.")
 # least effort; fewer than four designs do not make a generation with parents to choose from
 EFFORT = {"population": 4, "generations": 1, "starts": 1, "seed": 0, "front": 1}
 
@@ -133,6 +135,18 @@ class Problem:
             if getattr(problem, key) < least:
                 raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
         return problem
+
+    def rates_start(self) -> str:
+        """Which wanted figures are those of a start out of equilibrium, and what helps; empty where none is."""
+        wants = [each.want for each in [*self.objectives, *self.conditions]]
+        rated = list(dict.fromkeys(want.name for want in wants if want.name.startswith(RATED)))
+        known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values}
+        settled = known["scene.start"] == self.scene.fmu.variable("scene.start").literals["equilibrium"]
+        chosen = {each.name for each in (*self.space.dimensions, *self.followers)}
+        if not rated or settled or known["strength.rate_from"] > 0.0 or "strength.rate_from" in chosen:
+            return ""
+        return (f"{', '.join(rated)}: the scene does not start in equilibrium, and these figures are those of the blow with which "
+                "teeth meet their load; set strength.rate_from after the run-in, or scene.start = \"equilibrium\"")
 
     @property
     def key(self) -> str:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from . import style, words
+from . import run_in, style, words
 from .blocks import Picture, Section, Table
 from .limits import Limited, limits
 from .simulated import Simulated
@@ -36,6 +36,8 @@ def section(run: Simulated) -> Section:
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
                     "of the "
                     "solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
+    if advice := run_in.advice(run):
+        found.say(advice)
     return found
 
 
