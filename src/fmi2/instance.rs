@@ -120,6 +120,9 @@ impl Instance {
     pub fn warn_of_set_value(&mut self, reference: u32, value: f64) {
         if self.now.phase.is_running() && self.log.is_on(Category::Warning) {
             let (index, situation) = (reference as usize, self.situation(false));
+            if variables::table().rows.get(index).is_some_and(|row| self.unfelt.contains(&row.name)) {
+                return;
+            }
             let found = felt::unfelt_value(index, value, &mut self.now.parameters, situation);
             self.warn_of_unfelt(found);
         }

@@ -140,3 +140,27 @@ fn a_logger_that_calls_back_is_refused_and_does_no_harm() {
         fmi2FreeInstance(c);
     }
 }
+
+#[test]
+fn a_value_that_changes_nothing_is_a_warning_by_name_once_in_a_run() {
+    let unfelt = |host: &Host| -> Vec<String> {
+        let lines = host.log();
+        let said = lines.iter().filter(|line| line.message.contains("changes nothing in this scene"));
+        said.map(|line| line.message.clone()).collect()
+    };
+    let host = Host::new();
+    assert_eq!(host.set("left.brake_torque", 200.0), Status::Ok);
+    host.start();
+    let said = ["left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"];
+    assert_eq!(unfelt(&host), said);
+    for value in [100.0, 300.0] {
+        assert_eq!(host.set_many(&["left.brake_torque", "right.brake_torque"], &[value, 0.0]), Status::Ok);
+    }
+    assert_eq!(unfelt(&host), said, "a start value is no warning, and the other has been named");
+    assert_eq!(host.reset(), Status::Ok);
+    host.clear_log();
+    host.start();
+    assert!(unfelt(&host).is_empty());
+    assert_eq!(host.set("right.brake_torque", 90.0), Status::Ok);
+    assert_eq!(unfelt(&host).len(), 1);
+}

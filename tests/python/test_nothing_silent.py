@@ -1,5 +1,6 @@
 """A value that changes nothing in a scene is a warning by name, with what would let it act; wherever a scene is set up."""
 
+import os
 import subprocess
 import sys
 import warnings
@@ -124,6 +125,16 @@ def test_python_warns_and_keeps_what_was_said(fmu_file):
             differential.run(stop=0.002, values={"left.brake_torque": 0.0})
 
 
+def test_the_plan_of_a_scene_says_it_of_the_start_and_of_what_is_set_later(tmp_path):
+    file = tmp_path / "later.toml"
+    file.write_text((SCENES / "study_turning.toml").read_text() + "limited_slip.preload = 80.0\n"
+                    "[[at]]\ntime = 0.1\nleft.brake_torque = 90.0\n[[at]]\ntime = 0.2\nleft.brake_torque = 95.0\n"
+                    "[[table]]\ninput = \"right.brake_torque\"\ntime = [0.0, 0.3]\nvalue = [0.0, 20.0]\n", encoding="utf-8")
+    printed = subprocess.run([os.environ["FMU_BUILD"], "scene", str(file)], capture_output=True, text=True, check=True).stdout
+    said = [line.split()[1].rstrip(":") for line in printed.splitlines() if UNFELT in line]
+    assert said == ["limited_slip.preload", "left.brake_torque", "right.brake_torque"]
+
+
 def test_the_commands_and_the_report_say_it_once(fmu_file, tmp_path, capsys):
     said = "left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"
     scene = ["study_turning", "--set", "left.brake_torque=200 N.m", "--fmu", fmu_file]
@@ -131,6 +142,9 @@ def test_the_commands_and_the_report_say_it_once(fmu_file, tmp_path, capsys):
         warnings.simplefilter("error", DifferentialWarning)
         assert main(["run", *scene, "--stop", "5 ms"]) == 0
         assert capsys.readouterr().out.count(said) == 1
+        page = tmp_path / "hil.html"
+        assert main(["report", "--scene", "hil", *scene[1:], "--quick", "--out", str(page)]) == 0
+        assert page.read_text(encoding="utf-8").count(said) == 1
 
 
 def test_sweeps_of_many_runs_pass_no_warnings_on(fmu_file, tmp_path):
