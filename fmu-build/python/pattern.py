@@ -151,7 +151,7 @@ def top_of(data, cases):
     pitch = min(shown, key=lambda row: abs(row["s"]))
     least = LEAST_RADIUS * pitch["radius"] / pitch["cone"]
     sound = [row["pressure"] for row in shown if row["radius"] / row["cone"] > least and not row["corner"]]
-    return 100.0 * np.ceil(max(sound) / 100.0)
+    return 100.0 * np.ceil(max(sound or [row["pressure"] for row in shown]) / 100.0)
 
 
 def strip(data, name):

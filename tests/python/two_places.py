@@ -55,7 +55,7 @@ class Scene:
                          for side in SIDES]
         # forces do not differ over the face, and act where the law says
         self.is_even = not any(p[f"effects.{name}"] for name in ("tooth_errors", "tooth_fault", "pin_compliance"))
-        self.first, self.least = {}, inf
+        self.first, self.least = {}, {}
 
     def read(self, opened):
         """All values of an instant, inputs included."""
@@ -236,12 +236,15 @@ def stresses(scene, o):
         for end in ends:
             own = sqrt(factor) * pair[f"{end}_pressure"]
             yield f"pressure at the {end} below the largest", AtMost(own), o["stress.contact_max"], own
-    strength = p["strength.bending_strength"]
-    limits = [strength / planet if planet > 0.0 else inf, strength / side if side > 0.0 else inf]
-    # steps are rated, not the start
-    if o["solver.steps"] > 0.0:
-        scene.least = min(scene.least, *limits)
-        yield "safety of the roots", AtMost(o["safety.root_min"]), (1.0 + BETWEEN) * scene.least, 1.0
+    rated = o["stress.contact_rated"]
+    if scene.is_even and pitch > 0.0:
+        yield scene.constant("rated pressure over that at the pitch point", rated / pitch, 1.0)
+    limits = {"root_min": (max(planet, side), p["strength.bending_strength"]), "flank_min": (rated, p["strength.contact_strength"])}
+    for safety, (stress, strength) in limits.items():
+        # steps are rated, not the start
+        if o["solver.steps"] > 0.0 and stress > 0.0:
+            least = scene.least[safety] = min(scene.least.get(safety, inf), strength / stress)
+            yield safety, AtMost(o[f"safety.{safety}"]), (1.0 + BETWEEN) * least, 1.0
 
 
 CHECKS = [geometry, motion, forces, places, powers, stresses]
