@@ -119,7 +119,7 @@ def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_l
         pitch = 2.0 * np.pi / values["geometry.planet_teeth"]
         with Statics(fmu, values) as statics:
             # not where a maximum may be
-            for part in (-0.81, -0.57, -0.33, -0.09, 0.07, 0.31, 0.55, 0.79):
+            for part in (-0.81, -0.33, 0.07, 0.55):
                 assert statics.equilibrium(part * pitch, pitch) is None, number
 
 
@@ -139,7 +139,7 @@ def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):
     with fmu.open() as opened:
         [message] = said(opened.initialise(unequal))
         assert "begin to roll" in message
-        [message] = said(opened.initialise({**OPENED["outward"], "tooth_errors.axis_offset": 200.0 * UM}))
+        [message] = said(opened.initialise({**OPENED["outward"], "tooth_errors.axis_offset": 20.0 * UM}))
         assert "planets carry unequal parts" in message
         carried = np.array(opened.read(forces({}))).reshape(2, 2).sum(axis=1)
         told = [float(part.split()[1]) for part in message.split(": ")[-1].removesuffix(" of it").split(", ")]

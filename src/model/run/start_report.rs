@@ -91,9 +91,11 @@ impl Found {
 
 /// Planets that carry very unequal parts of the loads.
 fn unequal(plan: &Plan, found: &Found) -> Option<String> {
+    // planets that errors jam push against the others
+    let total = [0, 1].map(|s| (0..plan.planets).map(|i| found.torque[plan.group_of[i]][s]).sum::<f64>());
     let part = |planet: usize| {
         let [left, right] = found.torque[plan.group_of[planet]];
-        left.abs() + right.abs()
+        left * total[0].signum() + right * total[1].signum()
     };
     let parts: Vec<f64> = (0..plan.planets).map(part).collect();
     let sum: f64 = parts.iter().sum();
