@@ -44,7 +44,7 @@ pub enum Kind {
 }
 
 /// A loaded slice as far as it must stay the same.
-pub type Loaded = (PairName, u8, u64, bool, bool);
+pub type Loaded = (PairName, u8, u64, bool, bool, [bool; 2]);
 
 /// Gears with elastic bodies.
 pub struct Gears {
@@ -137,10 +137,13 @@ impl Gears {
         act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(name)[0] })
     }
 
-    /// Loaded slices: teeth, kind of contact, place on the face, and whether damping is full; where this changes, derivatives
-    /// jump or bend. Nothing if one is less than `least` deep [rad].
+    /// Loaded slices: teeth, kind of contact, place on the face, whether damping is full, and which ends of the face carry;
+    /// where this changes, derivatives jump or bend. Nothing if one that stands still, or the deepest of those that move with a
+    /// part of the face, is less than `least` deep [rad].
     pub fn pattern(&self, gaps: Option<&dyn Gaps>, states: &[DetailedState; 2], least: f64) -> Option<Vec<Loaded>> {
         let (mut pattern, mut shallow) = (Vec::new(), false);
+        let mut deepest: Vec<(PairName, f64)> = Vec::new();
+        let ends = self.detailed.face.ends().unwrap_or([self.mesh.cone; 2]);
         let fixed: Vec<u64> = match &self.detailed.face {
             CutFace::Whole(node) => vec![node.cone.to_bits()],
             CutFace::Cut(_, nodes) => nodes.iter().map(|node| node.cone.to_bits()).collect(),
@@ -148,12 +151,18 @@ impl Gears {
         };
         self.shared(gaps, |teeth| {
             self.detailed.look_shared(teeth, states, &mut |slice| {
-                shallow |= slice.arc < least;
                 let place = Some(slice.cone.to_bits()).filter(|place| fixed.contains(place)).unwrap_or(0);
                 let full = slice.arc * slice.cone * 1e4 >= 1.0;
-                pattern.push((slice.name, slice.spot as u8, place, slice.normal <= 0.0, full));
+                match deepest.iter_mut().find(|(name, _)| *name == slice.name) {
+                    _ if place != 0 => shallow |= slice.arc < least,
+                    Some((_, arc)) => *arc = arc.max(slice.arc),
+                    None => deepest.push((slice.name, slice.arc)),
+                }
+                let carry = ends.map(|end| slice.approach.arc - slice.opening.at(end) / end > 0.0);
+                pattern.push((slice.name, slice.spot as u8, place, slice.normal <= 0.0, full, carry));
             })
         });
+        shallow |= deepest.iter().any(|(_, arc)| *arc < least);
         (!shallow).then_some(pattern)
     }
 }
