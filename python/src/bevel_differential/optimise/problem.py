@@ -142,7 +142,7 @@ class Problem:
         rated = list(dict.fromkeys(want.name for want in wants if want.name.startswith(RATED)))
         known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values}
         settled = known["scene.start"] == self.scene.fmu.variable("scene.start").literals["equilibrium"]
-        chosen = {each.name for each in (*self.space.dimensions, *self.followers)}
+        chosen = {each.variable for each in self.space.dimensions} | {each.name for each in self.followers}
         if not rated or settled or known["strength.rate_from"] > 0.0 or "strength.rate_from" in chosen:
             return ""
         return (f"{', '.join(rated)}: the scene does not start in equilibrium, and these figures are those of the blow with which "
