@@ -170,8 +170,8 @@ impl Scene {
                 let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
                 let image = self.name(view, row.name);
                 let added = match image.as_str() {
-                    "left.angle" | "left.relative_angle" => left,
-                    "right.angle" | "right.relative_angle" => right,
+                    "left.angle" | "left.wheel_angle" | "left.relative_angle" => left,
+                    "right.angle" | "right.wheel_angle" | "right.relative_angle" => right,
                     name if name.ends_with(".spin_angle") && planet => ahead,
                     _ => apart,
                 };

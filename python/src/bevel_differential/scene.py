@@ -99,7 +99,7 @@ class Scene:
             self._initialise(instance, values)
             return " ".join(instance.events)
 
-    def unfelt(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
+    def unfelt_of(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
         """Variables whose values at the start change nothing in the scene, by name, with the FMU's words why."""
         with self.fmu.open() as instance:
             self._initialise(instance, values)
@@ -109,6 +109,11 @@ class Scene:
     def warnings(self) -> list[str]:
         """What the FMU warned of in the last run of this thread."""
         return self._differential.warnings
+
+    @property
+    def unfelt(self) -> dict[str, str]:
+        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's words why."""
+        return self._differential.unfelt
 
     def summary(self, record: np.ndarray) -> str:
         """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown."""

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ..designs.task import Row, Task
-from ..instance import UNFELT
 from ..statistic import Statistic
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
@@ -91,7 +90,8 @@ class DesignTask(Task):
             raise DifferentialError(f"{without[0].partition(':')[0]}: no whole mesh cycle passes; let the scene run longer, or "
                                     "faster")
         warned = [text for text in self.scene.warnings
-                  if text.startswith(REFUSED_WARNINGS) and UNFELT not in text and not self._told(row, text)]
+                  if text.startswith(REFUSED_WARNINGS) and text.partition(":")[0] not in self.scene.unfelt
+                  and not self._told(row, text)]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
         return {name.rpartition(":")[0]: value for name, value in figures.items()}
 

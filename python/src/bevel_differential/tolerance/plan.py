@@ -71,7 +71,7 @@ class Plan:
         for _, values in self.study.designs()[:TRIED]:
             # a design that the FMU refuses shows in the results
             with contextlib.suppress(DifferentialError):
-                unfelt.append(self.scene.unfelt(values))
+                unfelt.append(self.scene.unfelt_of(values))
         for name in self.study.factors:
             if unfelt and all(name in each for each in unfelt):
                 raise DifferentialError(f"{name} has a tolerance, but {unfelt[0][name]}; set that in the scene or in [set], or leave "
