@@ -42,7 +42,9 @@ BANDS = {
     "thrust_friction.pin_coefficient": (0.0, 0.2), "tooth_errors.shaft_angle_error": (-1e-3, 1e-3),
     "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
     "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "planet.spin_command": (-60.0, 60.0),
-    "strength.tool_radius": (0.0, 0.3)}
+    "strength.tool_radius": (0.0, 0.3),
+    # from the start for half
+    "strength.rate_from": (-0.02, 0.02)}
 # lengths that follow the module, in modules
 IN_MODULES = {
     "geometry.backlash": (0.0, 0.05), "geometry.planet_bore": (0.0, 2.0), "geometry.side_bore": (0.0, 4.0),

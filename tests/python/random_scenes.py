@@ -12,9 +12,9 @@ from sampling import latin, spread
 KINDS = ("wild", "bold", "plausible")
 # of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make steps expensive
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
-# switches that came after the seeds were chosen, in that order: each is drawn by a generator of its own, so that the other draws
+# variables that came after the seeds were chosen, in that order: each is drawn by a generator of its own, so that the other draws
 # stay as they were
-LATER = ["effects.body_compliance", "effects.mesh_history"]
+LATER = ["effects.body_compliance", "effects.mesh_history", "strength.rate_from"]
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 

@@ -242,7 +242,7 @@ def stresses(scene, o):
     limits = {"root_min": (max(planet, side), p["strength.bending_strength"]), "flank_min": (rated, p["strength.contact_strength"])}
     for safety, (stress, strength) in limits.items():
         # steps are rated, not the start
-        if o["solver.steps"] > 0.0 and stress > 0.0:
+        if o["solver.steps"] > 0.0 and stress > 0.0 and p["strength.rate_from"] == 0.0:
             least = scene.least[safety] = min(scene.least.get(safety, inf), strength / stress)
             yield safety, AtMost(o[f"safety.{safety}"]), (1.0 + BETWEEN) * least, 1.0
 
