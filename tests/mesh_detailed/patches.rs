@@ -134,10 +134,10 @@ fn loads_from_5_to_835_newton_metres_deflect_crowned_teeth_as_4000_slices_say() 
                     }
                     high
                 };
-                let program = solve(&|a| -both.load(Some(&gaps), &at(&both, a)).force[0]);
+                let program = solve(&|a| both.load(Some(&gaps), &at(&both, a)).force[0]);
                 let own = |a: f64| places(&both, a).iter().map(|&(d, s)| slices(&both, &gaps.0, d, s)[0]).sum::<f64>();
                 let slices = solve(&own);
-                let force = -both.load(Some(&gaps), &at(&both, slices)).force[0];
+                let force = both.load(Some(&gaps), &at(&both, slices)).force[0];
                 worst = [worst[0].max((program / slices - 1.0).abs()), worst[1].max((force / moment - 1.0).abs())];
             }
         }
@@ -215,7 +215,7 @@ fn derivatives_of_a_patch_contain_how_its_ends_move() {
                         let d = difference(&state, i, h[i], |s| readings(&both.load(gaps, s))[a]);
                         let off = (found[a].d[i] - d).abs() * unit(a) * by(i) / scale;
                         worst = worst.max(off);
-                        assert!(off < 1e-7, "{damping:?} {gaps:?} {state:?} reading {a} by {i}: {} {d}", found[a].d[i]);
+                        assert!(off < 1e-6, "{damping:?} {gaps:?} {state:?} reading {a} by {i}: {} {d}", found[a].d[i]);
                     }
                 }
             }

@@ -10,22 +10,25 @@
 //! What belongs to a pair is found once per pair (`directions`, `pair`); `sums` go over the face by the pair's own
 //! coordinates, and `totals` take them to those of the mesh.
 
+mod carrying;
 mod directions;
 mod face;
 mod face_load;
 mod loads;
 mod mesh;
 mod pair;
+mod points;
 mod shared;
 mod sums;
 mod totals;
 mod touching;
 
 pub use directions::Arms;
-pub use face::{Face, Node};
+pub use face::Face;
 pub use face_load::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, Teeth};
+pub use points::Node;
 pub use shared::SharedTeeth;
 
 /// Variables of a mesh: q, x, w and their rates.

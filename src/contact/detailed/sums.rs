@@ -14,7 +14,9 @@
 use super::super::damping::Damping;
 use super::super::spring::{Elastic, Spring};
 use super::super::tooth_friction::{Sliding, ToothFriction};
-use super::face::{Moves, Node, Part};
+use super::carrying::Moves;
+use super::face::Part;
+use super::points::Node;
 use super::{Arms, Opening};
 use crate::numeric::Dual;
 
