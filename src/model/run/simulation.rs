@@ -67,14 +67,15 @@ impl Simulation {
         }
         imposed::jump(&simulation.model, inputs, &mut simulation.state);
         update_friction(&simulation.model, inputs, &mut simulation.state);
+        let mut in_equilibrium = parameters.scene.start == Start::Equilibrium;
         if let Some(preload) = &preload {
-            let found = start_report::warnings(&simulation.model, inputs, &simulation.state, preload);
-            Arc::make_mut(&mut simulation.model).warnings.extend(found);
+            let outcome = start_report::judge(&simulation.model, inputs, &simulation.state, preload);
+            in_equilibrium = outcome.in_equilibrium;
+            Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
         }
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
-        let in_equilibrium = parameters.scene.start == Start::Equilibrium;
         simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
         Ok(simulation)
     }

@@ -23,9 +23,17 @@ struct Found {
     torque: [[f64; 2]; MAX_GROUPS],
 }
 
-/// What is worth a warning in the start `preload` of `state`.
-pub fn warnings(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Vec<Problem> {
-    let Gears::Teeth(teeth) = &model.gears else { return Vec::new() };
+/// What a start turned out to be.
+pub struct Outcome {
+    /// Whether it is in equilibrium.
+    pub in_equilibrium: bool,
+    /// What is worth a warning.
+    pub warnings: Vec<Problem>,
+}
+
+/// What the start `preload` of `state` turned out to be.
+pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
+    let Gears::Teeth(teeth) = &model.gears else { return Outcome { in_equilibrium: true, warnings: Vec::new() } };
     let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
     by_size!(teeth, teeth.additions.bodies.act_in(state), {
         let (equations, point) = (E::new(teeth, inputs, state), state.point::<N>());
@@ -36,11 +44,9 @@ pub fn warnings(model: &Model, inputs: &Inputs, state: &State, preload: &Preload
     });
     let rolls = !preload.settled && preload.carried.spin != 0.0;
     let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
-    balance
-        .into_iter()
-        .chain(unequal(&teeth.plan, &found))
-        .map(|message| Problem::new("scene.start", message))
-        .collect()
+    let in_equilibrium = balance.is_none();
+    let messages = balance.into_iter().chain(unequal(&teeth.plan, &found));
+    Outcome { in_equilibrium, warnings: messages.map(|message| Problem::new("scene.start", message)).collect() }
 }
 
 /// Planets that begin to roll.
