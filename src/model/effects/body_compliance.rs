@@ -31,8 +31,7 @@ impl Declare for BodyComplianceSpec {
 const NARROW: f64 = 0.5;
 
 /// Names of the bores, gears and what holds them.
-const BORES: [[&str; 3]; 2] =
-    [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
+const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
 
 /// What is assumed of the bore of gear `i`, where it is none or so narrow that it decides the deflection.
 fn assumed(setting: &Setting, i: usize) -> Option<Problem> {

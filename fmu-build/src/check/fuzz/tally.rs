@@ -41,7 +41,12 @@ struct FunctionTally {
 
 impl Default for Tally {
     fn default() -> Self {
-        Self { rows: vec![FunctionTally::default(); Function::ALL.len()], scenes: 0, compared: 0, longest: LongestCall::default() }
+        Self {
+            rows: vec![FunctionTally::default(); Function::ALL.len()],
+            scenes: 0,
+            compared: 0,
+            longest: LongestCall::default(),
+        }
     }
 }
 
