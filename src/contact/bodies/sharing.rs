@@ -16,11 +16,10 @@ const PULLING: f64 = 3.0;
 const MOST_PULL: f64 = 0.9;
 /// Base pitches past the ends of the path to which couplings are followed.
 const PAST: f64 = 0.25;
-/// Neighbours on one flank that are told apart: bodies under many small teeth give way so far that pairs touch beyond both
-/// ends of the path. A coupling left out among them would make the compliance of all indefinite, and loads without a solution.
-const NEIGHBOURS: i64 = 11;
+/// Neighbours on one flank that are told apart.
+const NEIGHBOURS: i64 = 3;
 /// Largest sum of numbers of two pairs on unlike flanks of a mesh.
-const FACING: i64 = 12;
+const FACING: i64 = 4;
 /// Places at which couplings are searched for their least.
 const PLACES: i32 = 8;
 
@@ -28,11 +27,11 @@ const PLACES: i32 = 8;
 #[derive(Clone, Debug)]
 pub struct SharedBodies {
     /// On one flank of a mesh, by how many pairs further up the path.
-    within: Vec<Polynomial>,
+    within: Vec<Option<Polynomial>>,
     /// On unlike flanks of a mesh, by the sum of their numbers.
-    facing: Vec<Polynomial>,
+    facing: Vec<Option<Polynomial>>,
     /// Between a planet's meshes, by flanks on the left and right and by the difference of the planet's teeth.
-    across: [Vec<Polynomial>; 4],
+    across: [Vec<Option<Polynomial>>; 4],
     /// Bound of how far loads pull a pair together, over the approach of the flanks that carry them.
     pub pull: Pull,
 }
@@ -87,31 +86,29 @@ pub struct Coupling {
     pub twice: [f64; 3],
 }
 
-/// Half the range of u about the middle of `path` [rad] in which two places `apart` are both on it; `past` where they are so
-/// far apart that one is always beyond an end.
-fn both(path: [f64; 2], apart: f64, past: f64) -> f64 {
+/// The range of u about the middle of `path` [rad] in which two places `apart` are both on it.
+fn both(path: [f64; 2], apart: f64) -> Option<[f64; 2]> {
     let half = 0.5 * (path[1] - path[0] - apart.abs());
-    if half > 0.0 { half } else { past }
+    (half > 0.0).then_some([-half, half])
 }
 
 impl SharedBodies {
     /// The bodies of `mesh`, the path of whose pairs is `path` [rad], of which both teeth are beams within `beams`; `centred` is the place of a pair whose tooth stands in the
     /// middle of its gap, `pitch` the base pitch [rad].
     pub fn new(mesh: &MeshOnBodies, [path, beams]: [[f64; 2]; 2], (centred, pitch): (f64, f64)) -> Self {
-        let past = PAST * pitch;
-        let reach = [path[0] - past, path[1] + past];
+        let reach = [path[0] - PAST * pitch, path[1] + PAST * pitch];
         let middle = 0.5 * (reach[0] + reach[1]);
         // the angle of a load goes on past the beams as on them
         let tooth = |side, flank, s| LoadedTooth { side, flank, s };
         // places go together
         let with = |apart: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            let half = both(reach, apart, past);
-            Polynomial::new([middle - half, middle + half], |u| t([u + 0.5 * apart, u - 0.5 * apart]))
+            let range = both(reach, apart)?.map(|u| middle + u);
+            Some(Polynomial::new(range, |u| t([u + 0.5 * apart, u - 0.5 * apart])))
         };
         // places go against each other
         let against = |sum: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            let half = both(reach, sum - 2.0 * middle, past);
-            Polynomial::new([-half, half], |u| t([0.5 * sum + u, 0.5 * sum - u]))
+            let range = both(reach, sum - 2.0 * middle)?;
+            Some(Polynomial::new(range, |u| t([0.5 * sum + u, 0.5 * sum - u])))
         };
         let within = (1..=NEIGHBOURS)
             .map(|k| {
@@ -145,8 +142,8 @@ impl SharedBodies {
         });
         let mut bodies = Self { within, facing, across, pull: Pull::default() };
         let least = mesh.least_alone(beams);
-        let pull = |all: &[Polynomial]| {
-            let most = all.iter().map(Polynomial::least).fold(0.0, f64::min);
+        let pull = |all: &[Option<Polynomial>]| {
+            let most = all.iter().flatten().map(Polynomial::least).fold(0.0, f64::min);
             let pull = -PULLING * most / least;
             // the loads may grow by the same pull
             if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
@@ -178,7 +175,7 @@ impl SharedBodies {
         } else {
             (self.facing.get(a.number.wrapping_add(b.number).wrapping_add(FACING) as usize), false)
         };
-        let Some(polynomial) = polynomial else { return Coupling::default() };
+        let Some(Some(polynomial)) = polynomial else { return Coupling::default() };
         // against each other, u is counted from the left mesh, or from the drive flank
         let turned = !with && if alike { a.side == 1 } else { a.flank == Flank::Coast };
         let [own, other] = if with {
