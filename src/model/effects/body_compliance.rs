@@ -8,6 +8,7 @@ use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
+use crate::numeric::sin;
 use crate::problem::Problem;
 
 /// It has no parameters of its own: geometry and material say all.
@@ -26,7 +27,41 @@ impl Declare for BodyComplianceSpec {
     }
 }
 
+/// A bore narrower than this part of the root circle at the toe is one of which the gear's stiffness is that of its bore.
+const NARROW: f64 = 0.5;
+
+/// Names of the bores, gears and what holds them.
+const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
+
+/// What is assumed of the bore of gear `i`, where it is none or so narrow that it decides the deflection.
+fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
+    let [name, gear, holder] = BORES[i];
+    let bore = [setting.geometry.planet_bore, setting.geometry.side_bore][i];
+    let toe = 2.0 * setting.pair.inner_cone * sin(setting.pair.gears[i].root);
+    let text = if bore == 0.0 {
+        format!(
+            "0: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two modules below \
+             the roots; that is stiffer than on any bore; give the diameter of the {holder} if it has one"
+        )
+    } else if bore < NARROW * toe {
+        format!(
+            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: the {gear} is held on a {holder} as thin as that, \
+             and its body gives way the more the thinner it is, without limit; for a mere hole through a gear in one piece \
+             with its {holder} set 0",
+            bore * 1e3,
+            toe * 1e3
+        )
+    } else {
+        return None;
+    };
+    Some(Problem::new(name, text))
+}
+
 impl Effect for BodyComplianceSpec {
+    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+        (0..2).filter_map(|i| assumed(setting, i)).collect()
+    }
+
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
         if setting.contact.law == ContactLaw::Impact {
             found.push(Problem::new(
