@@ -68,7 +68,7 @@ pub unsafe extern "C" fn foreign_start(run: *const Run, u: *mut f64) -> f64 {
         // SAFETY: within the size
         unsafe { *u.add(i) = y / run.magnitudes[i] };
     }
-    state.time
+    state.time()
 }
 
 /// Calls of right-hand side and Jacobian since the last call of this function.
