@@ -30,6 +30,15 @@ fn force(torque: f64) -> f64 {
     torque / (PLANETS * pair.mean_cone * pair.sin_base()[1])
 }
 
+/// The same where the force acts as a line law has it: its load per length grows with the cone distance R, so that the
+/// resultant is at ∫R² dR / ∫R dR.
+fn flank_force(torque: f64) -> f64 {
+    let pair = Pair::new(&GearSpec::default());
+    let [inner, outer] = [pair.inner_cone, pair.outer_cone];
+    let cone = 2.0 / 3.0 * (outer.powi(3) - inner.powi(3)) / (outer.powi(2) - inner.powi(2));
+    force(torque) * pair.mean_cone / cone
+}
+
 fn set_slopes(host: &Host, slope: f64) {
     let references = LOADS.map(reference);
     // SAFETY: a live component and arrays of two
@@ -80,17 +89,17 @@ fn integral([low, high]: [f64; 2]) -> [f64; 4] {
     let speeds = [SPIN, SPIN * f64::from(spec.planet_teeth) / f64::from(spec.side_teeth)];
     let meshes = [1.0, PLANETS];
     // D₁ = (c Tᵐ)ᵏ/N
-    let of = |gear: usize, curve: &SnCurve, stress: &dyn Fn(f64) -> f64, m: f64| {
+    let of = |gear: usize, curve: &SnCurve, stress_at_one: f64, m: f64| {
         let begin = 0.5 * rating.pitch[gear] / speeds[gear];
         let exponent = m * curve.slope;
-        let at_one = (stress(force(1.0)) / curve.strength).powf(curve.slope) / curve.reference_cycles;
+        let at_one = (stress_at_one / curve.strength).powf(curve.slope) / curve.reference_cycles;
         let torque = |t: f64| low + (high - low) * t;
         let power = |t: f64| torque(t).powf(exponent + 1.0);
         let sum = (power(1.0) - power(begin)) / ((exponent + 1.0) * (high - low));
         meshes[gear] * speeds[gear] / TAU * at_one * sum
     };
-    let root = |gear: usize| of(gear, &rating.bending[gear], &|f| rating.root[gear].stress(f), 1.0);
-    let flank = |gear: usize| of(gear, &rating.pitting, &|f| rating.contact.rated_pressure(f).unwrap(), 0.5);
+    let root = |gear: usize| of(gear, &rating.bending[gear], rating.root[gear].stress(force(1.0)), 1.0);
+    let flank = |gear: usize| of(gear, &rating.pitting, rating.contact.rated_pressure(flank_force(1.0)).unwrap(), 0.5);
     [root(0), root(1), flank(0), flank(1)]
 }
 
@@ -186,7 +195,7 @@ fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_ste
             // the largest stress of all is that of the highest peak
             let worst = (0..2).map(|gear| rating.root[gear].stress(force(peak))).fold(0.0, f64::max);
             close(host.get("safety.root_min"), rating.bending[1].strength / worst, 2e-4);
-            let pressure = rating.contact.rated_pressure(force(peak)).unwrap();
+            let pressure = rating.contact.rated_pressure(flank_force(peak)).unwrap();
             close(host.get("safety.flank_min"), rating.pitting.strength / pressure, 1e-4);
         }
     }
