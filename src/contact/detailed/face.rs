@@ -64,12 +64,12 @@ impl Face {
         }
     }
 
-    /// Points of the sum over all of it.
+    /// Most points of a sum over it.
     pub fn points(&self) -> usize {
         match self {
             Self::Whole(_) => 1,
             Self::Cut(..) => POINTS,
-            Self::Sliced(..) => EIGHT,
+            Self::Sliced(..) => MOST,
         }
     }
 

@@ -22,6 +22,10 @@ const BUDGET: u64 = 2_000_000;
 /// What a section of solid teeth costs in meshes of plain teeth: by facet of a flank, and the least.
 const SOLID_PER_FACET: usize = 2;
 const LEAST_SOLID: usize = 40;
+/// What the meshes of a planet on elastic gear bodies cost at most, where a dozen pairs move each other.
+const ON_BODIES: usize = 16;
+/// What effects that act on bodies add: drag, shafts, dry friction.
+const EFFECTS: usize = 3;
 /// Entries of the matrices of plain teeth with planets that are alike.
 const PLAIN: usize = 16;
 /// What a step of Radau costs in steps of the other methods.
@@ -42,13 +46,17 @@ pub fn budget(model: &Model) -> u64 {
         Law::Solid(solid) => {
             solid.section_count() * (SOLID_PER_FACET * model.parameters.solid.facets as usize).max(LEAST_SOLID)
         }
-        _ if teeth.additions.in_detail => teeth.additions.detailed.face.points() * teeth.layout.groups,
-        _ => 1,
+        _ => {
+            let in_detail = if teeth.additions.in_detail { teeth.additions.detailed.face.points() } else { 0 };
+            let on_bodies = if teeth.shared.is_some() { ON_BODIES } else { 0 };
+            ((in_detail + on_bodies) * teeth.layout.groups).max(1)
+        }
     };
+    let effects = if teeth.additions.bodies.always { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
     let freedoms = teeth.layout.count();
     let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
-    BUDGET / (work.max(freedoms * freedoms / PLAIN) * steps) as u64
+    BUDGET / ((work.max(freedoms * freedoms / PLAIN) + effects) * steps) as u64
 }
 
 /// What to integrate.
