@@ -116,6 +116,8 @@ def differences(fmu, scene, factors):
             # the balance says how well heat is known
             off = np.maximum(off - residual, 0.0)
         if name in RATIOS:
+            # of torques that are alike the difference is one of roundings
+            whole = max(whole, 1.0)
             off = np.where(torque > ROUNDING * largest["N.m"], off, 0.0)
         found[name] = float(np.max(off)) / whole if whole > 0.0 else float(np.max(off))
     return found, len(one)

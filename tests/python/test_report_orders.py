@@ -107,8 +107,8 @@ def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
 def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
     run = simulated("study_straight")
     pair = pair_of(run)
-    contacts = Contacts.of(run, 1.0, pair.face_width)
-    assert len(np.unique(contacts.tooth)) == 1 and len(Contacts.of(run, -1.0, pair.face_width).force) == 0
+    contacts = Contacts.of(run, 1.0, pair)
+    assert len(np.unique(contacts.tooth)) == 1 and len(Contacts.of(run, -1.0, pair).force) == 0
     # radii of both flanks where they touch, R tan ψ with arcs that add up to the line of action
     planet, side = pair.gears
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
