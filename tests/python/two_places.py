@@ -74,8 +74,9 @@ def geometry(scene, o):
     for i, gear in enumerate(["planet", "side"]):
         yield "pitch angle", o[f"geometry.{gear}_pitch_angle"], scene.pitch[i], 1.0
         yield "base angle", sin(o[f"geometry.{gear}_base_angle"]), scene.lever[i], 1.0
-    # of the gears as they are made, whether or not the scene lets them play
-    lash = scene.p["geometry.backlash"] * cos(scene.alpha) / scene.outer
+    # of the gears, whether or not the scene has their teeth
+    backlash = scene.p["geometry.backlash"] if scene.p["effects.backlash"] else 0.0
+    lash = backlash * cos(scene.alpha) / scene.outer
     yield "lash of a wheel", o["geometry.wheel_lash"], 2.0 * lash / scene.lever[1], 1.0
 
 
