@@ -34,6 +34,18 @@ impl Polynomial {
         Self { middle, per_half: 1.0 / half, terms }
     }
 
+    /// The same value everywhere.
+    pub fn constant(value: f64) -> Self {
+        let mut terms = [0.0; DEGREE + 1];
+        terms[0] = value;
+        Self { middle: 0.0, per_half: 0.0, terms }
+    }
+
+    /// Whether it has more than one value.
+    pub fn varies(&self) -> bool {
+        self.per_half > 0.0
+    }
+
     /// Value at a share from −1 to 1 of the half interval.
     pub fn at_share(&self, x: f64) -> f64 {
         self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term)

@@ -16,10 +16,11 @@ const PULLING: f64 = 3.0;
 const MOST_PULL: f64 = 0.9;
 /// Base pitches past the ends of the path to which couplings are followed.
 const PAST: f64 = 0.25;
-/// Neighbours on one flank that are told apart.
-const NEIGHBOURS: i64 = 3;
+/// Neighbours on one flank that are told apart: pairs touch beyond both ends of the path, where many small teeth stand on bodies
+/// that give way. A coupling left out among them would make the compliance of all indefinite, so that nothing balances loads.
+const NEIGHBOURS: i64 = 24;
 /// Largest sum of numbers of two pairs on unlike flanks of a mesh.
-const FACING: i64 = 4;
+const FACING: i64 = 24;
 /// Places at which couplings are searched for their least.
 const PLACES: i32 = 8;
 
@@ -27,11 +28,11 @@ const PLACES: i32 = 8;
 #[derive(Clone, Debug)]
 pub struct SharedBodies {
     /// On one flank of a mesh, by how many pairs further up the path.
-    within: Vec<Option<Polynomial>>,
+    within: Vec<Polynomial>,
     /// On unlike flanks of a mesh, by the sum of their numbers.
-    facing: Vec<Option<Polynomial>>,
+    facing: Vec<Polynomial>,
     /// Between a planet's meshes, by flanks on the left and right and by the difference of the planet's teeth.
-    across: [Vec<Option<Polynomial>>; 4],
+    across: [Vec<Polynomial>; 4],
     /// Bound of how far loads pull a pair together, over the approach of the flanks that carry them.
     pub pull: Pull,
 }
@@ -86,10 +87,20 @@ pub struct Coupling {
     pub twice: [f64; 3],
 }
 
-/// The range of u about the middle of `path` [rad] in which two places `apart` are both on it.
-fn both(path: [f64; 2], apart: f64) -> Option<[f64; 2]> {
-    let half = 0.5 * (path[1] - path[0] - apart.abs());
-    (half > 0.0).then_some([-half, half])
+/// t of u about `middle` [rad], where both places, those of u in `places`, are within `reach`; of the ends of it where they never
+/// are.
+fn on(
+    [low, high]: [f64; 2],
+    (middle, apart): (f64, f64),
+    places: impl Fn(f64) -> [f64; 2],
+    t: &dyn Fn([f64; 2]) -> f64,
+) -> Polynomial {
+    let half = 0.5 * (high - low - apart.abs());
+    if half > 0.0 {
+        Polynomial::new([middle - half, middle + half], |u| t(places(u)))
+    } else {
+        Polynomial::constant(t(places(middle).map(|s| s.clamp(low, high))))
+    }
 }
 
 impl SharedBodies {
@@ -102,13 +113,11 @@ impl SharedBodies {
         let tooth = |side, flank, s| LoadedTooth { side, flank, s };
         // places go together
         let with = |apart: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            let range = both(reach, apart)?.map(|u| middle + u);
-            Some(Polynomial::new(range, |u| t([u + 0.5 * apart, u - 0.5 * apart])))
+            on(reach, (middle, apart), |u| [u + 0.5 * apart, u - 0.5 * apart], t)
         };
         // places go against each other
         let against = |sum: f64, t: &dyn Fn([f64; 2]) -> f64| {
-            let range = both(reach, sum - 2.0 * middle)?;
-            Some(Polynomial::new(range, |u| t([0.5 * sum + u, 0.5 * sum - u])))
+            on(reach, (0.0, sum - 2.0 * middle), |u| [0.5 * sum + u, 0.5 * sum - u], t)
         };
         let within = (1..=NEIGHBOURS)
             .map(|k| {
@@ -142,8 +151,9 @@ impl SharedBodies {
         });
         let mut bodies = Self { within, facing, across, pull: Pull::default() };
         let least = mesh.least_alone(beams);
-        let pull = |all: &[Option<Polynomial>]| {
-            let most = all.iter().flatten().map(Polynomial::least).fold(0.0, f64::min);
+        let pull = |all: &[Polynomial]| {
+            // of pairs that can both be on the path; others are as far apart only under loads that press many more
+            let most = all.iter().filter(|t| t.varies()).map(Polynomial::least).fold(0.0, f64::min);
             let pull = -PULLING * most / least;
             // the loads may grow by the same pull
             if pull < 0.5 { (pull / (1.0 - pull)).min(MOST_PULL) } else { MOST_PULL }
@@ -175,7 +185,7 @@ impl SharedBodies {
         } else {
             (self.facing.get(a.number.wrapping_add(b.number).wrapping_add(FACING) as usize), false)
         };
-        let Some(Some(polynomial)) = polynomial else { return Coupling::default() };
+        let Some(polynomial) = polynomial else { return Coupling::default() };
         // against each other, u is counted from the left mesh, or from the drive flank
         let turned = !with && if alike { a.side == 1 } else { a.flank == Flank::Coast };
         let [own, other] = if with {

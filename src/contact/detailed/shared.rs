@@ -7,7 +7,7 @@ use super::super::any_spring::AnySpring;
 use super::super::bodies::{SharedBodies, Standing};
 use super::super::damping::Damping;
 use super::super::pairs::{Flank, ToothPair};
-use super::super::shared::{Bends, Change, Couplings, Gradients, MOST, Moved, Own};
+use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place_for};
 use super::super::spring::Spring;
 use super::directions::Arcs;
 use super::face::{Cut, Part};
@@ -61,8 +61,12 @@ struct Shared {
     near: [Option<Near>; MOST],
     arc: [f64; MOST],
     couplings: Couplings<MOST>,
-    bends: Bends<MOST>,
     own: Own<MOST>,
+}
+
+/// How the bodies see pairs.
+fn standing_of<'a>(near: &'a [Option<Near>; MOST]) -> impl Fn(usize) -> Option<&'a Standing> {
+    |k| near[k].as_ref().map(|near| &near.standing)
 }
 
 /// What the elastic part of a face carries at an own arc, over J.
@@ -112,23 +116,24 @@ impl Detailed {
                 let (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
                 let mut cut = Cut::default();
                 let parts = self.face.loaded(pair.depth + margin, &opening, &mut cut);
-                if count < MOST && !parts.iter().all(Part::is_empty) {
+                if parts.iter().all(Part::is_empty) {
+                    return;
+                }
+                if let Some(place) = place_for(pair.depth, &mut count, |k| arc[k]) {
                     let tooth = (shared.numbers)(name);
                     let standing = Standing { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
-                    near[count] = Some(Near { side, name, pair: *pair, opening, axial, arcs, standing });
-                    arc[count] = pair.depth;
-                    count += 1;
+                    near[place] = Some(Near { side, name, pair: *pair, opening, axial, arcs, standing });
+                    arc[place] = pair.depth;
                 }
             });
         }
-        let standing = |k: usize| near[k].as_ref().map(|near: &Near| &near.standing);
-        let (couplings, bends) = Couplings::with_bends(shared.bodies, count, standing);
+        let couplings = Couplings::new(shared.bodies, count, standing_of(&near));
         // flanks that excess material presses carry at arcs below 0, so that every arc is asked
         let own = Own::new(&couplings, &arc, |k, arc| {
             let carried = near[k].as_ref().map_or(Carried::default(), |near| self.carried(spring, near, arc));
             [carried.load, carried.by_arc]
         });
-        Shared { near, arc, couplings, bends, own }
+        Shared { near, arc, couplings, own }
     }
 
     /// Loads of both meshes of a planet.
@@ -196,9 +201,10 @@ impl Detailed {
         thrust: bool,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let Shared { near, arc, couplings, bends, own } = self.shared(spring, shared, states, 0.0);
+        let Shared { near, arc, couplings, own } = self.shared(spring, shared, states, 0.0);
         let along = couplings.times(&couplings.by_own, &own.load);
         let gradients = (ROWS > 0).then(|| {
+            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, standing_of(&near));
             let (mut by, mut changes) = ([[0.0; COORDINATES]; MOST], [Change::default(); MOST]);
             for (k, near) in near.iter().flatten().enumerate() {
                 let (at, pair) = (3 * near.side, &near.pair);

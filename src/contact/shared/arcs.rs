@@ -1,11 +1,18 @@
 //! Own arcs and loads of pairs that move each other.
 
-use super::couplings::Couplings;
+use super::couplings::{Couplings, MOST};
 
 /// Newton steps at most; a few serve.
 const STEPS: usize = 40;
-/// What is left of an equation, relative to the largest arc.
+/// What is left of an equation, relative to the largest arc; more where there are more loads than `FEW` to round.
 const SOLVED: f64 = 4e-15;
+const FEW: usize = 8;
+/// Steps in a row that may leave more than the one before.
+const VAIN: i32 = 3;
+/// Rounds from pair to pair that follow them.
+const ROUNDS: usize = 50;
+/// What is left where it is rounding that hinders, relative to the largest arc.
+const ROUNDED: f64 = 1e-13;
 /// Least arc to which it is related [rad]: a light load's.
 const LEAST: f64 = 1e-4;
 
@@ -41,13 +48,17 @@ impl<const K: usize> Own<K> {
     }
 
     /// Those of pairs whose arcs are `arcs`; `law` gives the load of pair `k` at its own arc, and its slope.
+    ///
+    /// The loads make ΣΦ*(ω_k) + ½Σt_kl ω_k ω_l − ΣA_k ω_k least, Φ* the energy of a pair by its load, and the bodies make it
+    /// convex. Newton's method finds them quickly unless pairs come and go in turn. Rounds from pair to pair lead down always.
     #[inline(always)]
     pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
         // what is left of an equation has the rounding of the openings of flanks, too
         let scale = arcs[..n].iter().fold(LEAST, |most, arc| most.max(arc.abs()));
-        let (mut last, mut part) = (f64::INFINITY, 1.0);
+        let solved = SOLVED * scale * n.div_ceil(FEW) as f64;
+        let (mut last, mut part, mut vain) = (f64::INFINITY, 1.0, 0);
         for step in 0..STEPS {
             for k in 0..n {
                 [own.load[k], own.stiffness[k]] = law(k, own.arc[k]);
@@ -58,18 +69,38 @@ impl<const K: usize> Own<K> {
                 left[k][0] = arcs[k] - moved[k] - own.arc[k];
                 most = most.max(left[k][0].abs());
             }
-            if most <= SOLVED * scale || n < 2 || step == STEPS - 1 {
+            if most <= solved || n < 2 || step == STEPS - 1 {
                 break;
             }
             // pairs that come and go in turn are approached by halves
-            part = if most < last { 1.0 } else { 0.5 * part };
+            (part, vain) = if most < last { (1.0, 0) } else { (0.5 * part, vain + 1) };
             last = most;
+            if K == MOST && vain > VAIN {
+                if most <= ROUNDED * scale {
+                    break;
+                }
+                own.go_round(couplings, arcs, &law);
+                (last, vain) = (f64::INFINITY, 0);
+                continue;
+            }
             own.solve(couplings, &mut left);
             for k in 0..n {
                 own.arc[k] += part * left[k][0];
             }
         }
         own
+    }
+
+    /// Brings each pair in turn to the arc that the loads of the others leave it.
+    #[cold]
+    fn go_round(&mut self, couplings: &Couplings<K>, arcs: &[f64; K], law: &dyn Fn(usize, f64) -> [f64; 2]) {
+        for _ in 0..ROUNDS {
+            for (k, row) in couplings.value.iter().enumerate().take(couplings.count) {
+                let moved: f64 = row.iter().zip(&self.load).map(|(t, load)| t * load).sum();
+                self.arc[k] = arcs[k] - moved;
+                self.load[k] = law(k, self.arc[k])[0];
+            }
+        }
     }
 
     /// Solves (1 + t diag(∂ω/∂a)) x = `right`. The product is positive definite but for a factor at each column, so that

@@ -2,9 +2,21 @@
 
 use crate::contact::bodies::{Coupling, SharedBodies, Standing};
 
-/// Pairs of a planet's two meshes that may carry at once: six in each. Flanks that approach by half a base pitch, the limit, have
-/// four in a mesh.
-pub const MOST: usize = 12;
+/// Pairs of a planet's two meshes that may carry at once. Flanks that approach by half a base pitch, the limit, have four in a
+/// mesh of a dozen teeth and up to eighteen of two hundred. Of more than these the deepest count.
+pub const MOST: usize = 24;
+
+/// Where a pair goes that is `depth` deep among `count` others: next to them, or where there is no room in place of the shallowest,
+/// if that is not as deep.
+#[inline(always)]
+pub fn place_for(depth: f64, count: &mut usize, depth_of: impl Fn(usize) -> f64) -> Option<usize> {
+    if *count < MOST {
+        *count += 1;
+        return Some(*count - 1);
+    }
+    let shallowest = (0..MOST).min_by(|&k, &l| depth_of(k).total_cmp(&depth_of(l)))?;
+    (depth_of(shallowest) < depth).then_some(shallowest)
+}
 
 /// Couplings t_kl of up to `K` pairs, with their derivatives by the places.
 #[derive(Clone, Copy, Debug)]

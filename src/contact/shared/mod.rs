@@ -19,7 +19,7 @@ mod moved;
 mod plain;
 
 pub use arcs::Own;
-pub use couplings::{Bends, Couplings, MOST};
+pub use couplings::{Bends, Couplings, MOST, place_for};
 pub use gradients::{Change, Gradients};
 pub use moved::Moved;
 pub use plain::{SharedForce, SharedMeshes};

@@ -3,7 +3,7 @@
 //! Sums are compiled for each number of pairs, as they are short and asked for all the time, and once for each law.
 
 use super::arcs::Own;
-use super::couplings::{Bends, Couplings, MOST};
+use super::couplings::{Bends, Couplings, MOST, place_for};
 use super::gradients::{Change, Gradients};
 use super::moved::Moved;
 use crate::contact::bodies::{SharedBodies, Standing};
@@ -160,11 +160,14 @@ impl SharedMeshes<'_> {
                     continue;
                 }
                 self.mesh.engagement.near(flank, states[side].position[1], approach, margin, |pair| {
-                    if count < MOST && pair.depth + margin > 0.0 {
+                    if pair.depth + margin <= 0.0 {
+                        return;
+                    }
+                    let depth_of = |k: usize| near[k].as_ref().map_or(0.0, |near: &Near<S::Place>| near.pair.depth);
+                    if let Some(place) = place_for(pair.depth, &mut count, depth_of) {
                         let tooth = self.tooth(side, flank, pair.number);
                         let standing = Standing { side, flank, number: pair.number, tooth, s: pair.s };
-                        near[count] = Some(Near { pair: *pair, standing, place: law.specific.place(pair.s) });
-                        count += 1;
+                        near[place] = Some(Near { pair: *pair, standing, place: law.specific.place(pair.s) });
                     }
                 });
             }
