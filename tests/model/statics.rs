@@ -1,5 +1,6 @@
 //! Statics: preload, sharing of load, the cogging well of free planets and its threshold.
 
+use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::geometry::{GearSpec, Pair};
@@ -36,6 +37,28 @@ fn equilibrium_starts_with_balanced_torques_and_no_acceleration() {
             assert!((f.side_acceleration[side] * inertia).abs() < 1e-6);
         }
         assert!((f.carrier_torque - 2.0 * LOAD).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn three_planets_that_differ_stay_in_the_equilibrium_they_start_in() {
+    for (planet, pins) in [(10, false), (11, false), (10, true), (11, true)] {
+        let mut p = teeth(planet, 15, 3);
+        (p.effects.tooth_errors, p.effects.pin_compliance) = (true, pins);
+        p.contact.law = ContactLaw::Line;
+        (p.specs.tooth_errors.accuracy_grade, p.specs.tooth_errors.axis_offset) = (5, 30e-6);
+        let inputs = Inputs { load_torque: [300.0, 303.0], ..Inputs::default() };
+        let mut s = started(&p, &inputs);
+        let normals =
+            |s: &mut Simulation| s.forces().mesh[..3].iter().flatten().map(|m| m.normal).collect::<Vec<f64>>();
+        let begin = normals(&mut s);
+        for k in 1..=20 {
+            s.advance(f64::from(k) * 1e-5).unwrap();
+            let off =
+                normals(&mut s).iter().zip(&begin).map(|(now, then)| (now / then - 1.0).abs()).fold(0.0, f64::max);
+            // the gears turn by 0.5 degrees
+            assert!(off < 0.02, "{planet} teeth, pins {pins}: {off} after {k} steps");
+        }
     }
 }
 
