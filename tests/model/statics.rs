@@ -46,8 +46,10 @@ fn three_planets_that_differ_stay_in_the_equilibrium_they_start_in() {
         let mut p = teeth(planet, 15, 3);
         (p.effects.tooth_errors, p.effects.pin_compliance) = (true, pins);
         p.contact.law = ContactLaw::Line;
-        (p.specs.tooth_errors.accuracy_grade, p.specs.tooth_errors.axis_offset) = (5, 30e-6);
-        let inputs = Inputs { load_torque: [300.0, 303.0], ..Inputs::default() };
+        let errors = &mut p.specs.tooth_errors;
+        (errors.accuracy_grade, errors.axis_offset) = (5, -50e-6);
+        (errors.planet_tip_relief, errors.side_tip_relief) = (35e-6, 25e-6);
+        let inputs = Inputs { load_torque: [-300.0, -303.0], ..Inputs::default() };
         let mut s = started(&p, &inputs);
         let normals =
             |s: &mut Simulation| s.forces().mesh[..3].iter().flatten().map(|m| m.normal).collect::<Vec<f64>>();
