@@ -134,7 +134,7 @@ impl Tally {
             "{}\n{}",
             table.terminal(),
             wrapped(&format!(
-                "longest call: {}, {:.3} s (call {at} of the round with seed {seed}); simulations started: {}; communication steps done: {}; steps completed in model exchange: {}; states \
+                "longest call: {}, {:.3} s of the processor (call {at} of the round with seed {seed}); simulations started: {}; communication steps done: {}; steps completed in model exchange: {}; states \
                  compared before and after a call: {}",
                 Function::ALL.get(function).map_or("none", |f| f.name()),
                 took.as_secs_f64(),
