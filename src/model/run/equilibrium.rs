@@ -213,6 +213,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> W
     fn at(&self, x: &DVector<f64>) -> Point<N> {
         let mut point = *self.point;
         self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
+        // a group without members stands as the first, whose twin it is
+        let layout = &self.equations.teeth.layout;
+        for g in (1..G).filter(|&g| layout.members[g] == 0.0) {
+            point.q[layout.planet(g)] = point.q[layout.planet(0)];
+            if P > 0 {
+                point.q[layout.pin(g)] = point.q[layout.pin(0)];
+            }
+        }
         point
     }
 }
