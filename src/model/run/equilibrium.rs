@@ -98,20 +98,20 @@ fn press<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
 
 /// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
 ///
-/// Errors may keep these apart, where nothing leads on: then, and where the search finds none, it begins from teeth that are
-/// pressed as they are.
+/// Errors may keep these apart, where nothing leads on, and bodies of gears may give way far beyond them: then, and where the
+/// search finds none, it begins from teeth that are pressed as they are.
 pub fn settle<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     loads: &Carried,
     pressed: &Point<N>,
 ) -> Option<Point<N>> {
-    let is_open = WITH_EFFECTS && equations.gaps().is_some();
+    let is_other = WITH_EFFECTS && (equations.gaps().is_some() || equations.bodies_of_gears().is_some());
     let touches = || {
         let sum = equations.statics(pressed).0;
         (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
     };
-    let found = if !is_open || touches() { minimum(equations, loads, pressed, false) } else { None };
-    if found.is_some() || !is_open { found } else { settle_as_they_are(equations, loads) }
+    let found = if !is_other || touches() { minimum(equations, loads, pressed, false) } else { None };
+    if found.is_some() || !is_other { found } else { settle_as_they_are(equations, loads) }
 }
 
 /// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
