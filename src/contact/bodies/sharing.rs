@@ -18,9 +18,9 @@ const MOST_PULL: f64 = 0.9;
 const PAST: f64 = 0.25;
 /// Neighbours on one flank that are told apart: pairs touch beyond both ends of the path, where many small teeth stand on bodies
 /// that give way. A coupling left out among them would make the compliance of all indefinite, so that nothing balances loads.
-const NEIGHBOURS: i64 = 24;
+const NEIGHBOURS: i64 = 16;
 /// Largest sum of numbers of two pairs on unlike flanks of a mesh.
-const FACING: i64 = 24;
+const FACING: i64 = 16;
 /// Places at which couplings are searched for their least.
 const PLACES: i32 = 8;
 

@@ -64,6 +64,14 @@ struct Shared {
     own: Own<MOST>,
 }
 
+impl Shared {
+    /// No pairs.
+    #[inline(always)]
+    fn none() -> Self {
+        Self { near: std::array::from_fn(|_| None), arc: [0.0; MOST], couplings: Couplings::NONE, own: Own::NONE }
+    }
+}
+
 /// How the bodies see pairs.
 fn standing_of<'a>(near: &'a [Option<Near>; MOST]) -> impl Fn(usize) -> Option<&'a Standing> {
     |k| near[k].as_ref().map(|near| &near.standing)
@@ -94,8 +102,15 @@ impl Detailed {
     }
 
     /// The pairs of both meshes that are pressed, that others may pull together, or that are within `lookout` of the deepest
-    /// approach of flanks, with their own arcs.
-    fn shared<S: Spring>(&self, spring: &S, shared: &SharedTeeth, states: &[DetailedState; 2], lookout: f64) -> Shared {
+    /// approach of flanks, with their own arcs, into `to`, which is large and not to be moved.
+    fn shared<S: Spring>(
+        &self,
+        spring: &S,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        lookout: f64,
+        to: &mut Shared,
+    ) {
         // excess material presses before flanks that fit do
         let excess = [0, 1].map(|side| {
             let gaps = shared.teeth[side].gaps.map_or(0.0, |gaps| -gaps.least());
@@ -106,7 +121,7 @@ impl Detailed {
             [-q, q].map(|q| q - shared.teeth[side].engagement.half_backlash() + excess[side])
         });
         let deepest = depth.as_flattened().iter().fold(0.0f64, |deepest, depth| deepest.max(*depth));
-        let (mut near, mut arc) = ([None; MOST], [0.0; MOST]);
+        let Shared { near, arc, couplings, own } = to;
         let mut count = 0;
         for side in 0..2 {
             let (teeth, state) = (&shared.teeth[side], &states[side]);
@@ -127,13 +142,12 @@ impl Detailed {
                 }
             });
         }
-        let couplings = Couplings::new(shared.bodies, count, standing_of(&near));
+        couplings.fill(shared.bodies, count, standing_of(near));
         // flanks that excess material presses carry at arcs below 0, so that every arc is asked
-        let own = Own::new(&couplings, &arc, |k, arc| {
+        *own = Own::new(couplings, arc, |k, arc| {
             let carried = near[k].as_ref().map_or(Carried::default(), |near| self.carried(spring, near, arc));
             [carried.load, carried.by_arc]
         });
-        Shared { near, arc, couplings, own }
     }
 
     /// Loads of both meshes of a planet.
@@ -169,7 +183,9 @@ impl Detailed {
     /// Elastic energy of both meshes [J].
     pub fn energy_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> f64 {
         with_teeth!(&self.spring, spring => {
-            let Shared { near, arc, own, .. } = self.shared(spring, shared, states, 0.0);
+            let mut all = Shared::none();
+            self.shared(spring, shared, states, 0.0, &mut all);
+            let Shared { near, arc, own, .. } = &all;
             let energy = |(k, near): (usize, &Near)| {
                 let alone = self.carried(spring, near, own.arc[k]).energy;
                 self.moment * (alone + 0.5 * own.load[k] * (arc[k] - own.arc[k]))
@@ -182,7 +198,9 @@ impl Detailed {
     pub fn moved(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> Moved {
         let mut moved = Moved::default();
         with_teeth!(&self.spring, spring => {
-            let Shared { near, arc, own, .. } = self.shared(spring, shared, states, Moved::LOOKOUT);
+            let mut all = Shared::none();
+            self.shared(spring, shared, states, Moved::LOOKOUT, &mut all);
+            let Shared { near, arc, own, .. } = &all;
             for (k, near) in near.iter().flatten().enumerate() {
                 moved.add(near.side, near.pair.flank, near.pair.number, arc[k] - own.arc[k]);
             }
@@ -201,10 +219,12 @@ impl Detailed {
         thrust: bool,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let Shared { near, arc, couplings, own } = self.shared(spring, shared, states, 0.0);
+        let mut all = Shared::none();
+        self.shared(spring, shared, states, 0.0, &mut all);
+        let Shared { near, arc, couplings, own } = &all;
         let along = couplings.times(&couplings.by_own, &own.load);
         let gradients = (ROWS > 0).then(|| {
-            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, standing_of(&near));
+            let (_, bends) = Couplings::with_bends(shared.bodies, couplings.count, standing_of(near));
             let (mut by, mut changes) = ([[0.0; COORDINATES]; MOST], [Change::default(); MOST]);
             for (k, near) in near.iter().flatten().enumerate() {
                 let (at, pair) = (3 * near.side, &near.pair);
@@ -216,7 +236,7 @@ impl Detailed {
                     opening: (at + 2, carried.by_opening * near.axial[0]),
                 };
             }
-            Gradients::new((&couplings, &bends), &own, &along, by, &changes)
+            Gradients::new((couplings, &bends), own, &along, by, &changes)
         });
         for (k, near) in near.iter().flatten().enumerate() {
             let (side, name) = (near.side, near.name);

@@ -28,6 +28,9 @@ pub struct Own<const K: usize> {
 }
 
 impl<const K: usize> Own<K> {
+    /// Those of no pairs.
+    pub const NONE: Self = Self { arc: [0.0; K], load: [0.0; K], stiffness: [0.0; K] };
+
     /// The same of pairs under a law that is linear at positive arcs: where all of them carry, one solution is exact.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
@@ -108,10 +111,10 @@ impl<const K: usize> Own<K> {
     #[inline(always)]
     pub fn solve<const R: usize>(&self, couplings: &Couplings<K>, right: &mut [[f64; R]; K]) {
         let n = couplings.count;
-        let mut matrix = couplings.value;
-        for row in matrix.iter_mut().take(n) {
-            for (entry, stiffness) in row.iter_mut().zip(&self.stiffness) {
-                *entry *= stiffness;
+        let mut matrix = [[0.0; K]; K];
+        for (row, t) in matrix.iter_mut().zip(&couplings.value).take(n) {
+            for k in 0..n {
+                row[k] = t[k] * self.stiffness[k];
             }
         }
         for p in 0..n {

@@ -3,8 +3,8 @@
 use crate::contact::bodies::{Coupling, SharedBodies, Standing};
 
 /// Pairs of a planet's two meshes that may carry at once. Flanks that approach by half a base pitch, the limit, have four in a
-/// mesh of a dozen teeth and up to eighteen of two hundred. Of more than these the deepest count.
-pub const MOST: usize = 24;
+/// mesh of a dozen teeth and up to eighteen of two hundred; at a tenth of it, six. Of more than these the deepest count.
+pub const MOST: usize = 16;
 
 /// Where a pair goes that is `depth` deep among `count` others: next to them, or where there is no room in place of the shallowest,
 /// if that is not as deep.
@@ -39,12 +39,22 @@ pub struct Bends<const K: usize> {
 }
 
 impl<const K: usize> Couplings<K> {
+    /// Those of no pairs.
+    pub const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+
     /// Couplings of the first `count` pairs, each `standing` as told.
     #[inline(always)]
     pub fn new<'a>(bodies: &SharedBodies, count: usize, standing: impl Fn(usize) -> Option<&'a Standing>) -> Self {
-        let mut all = Self { count, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
-        for_each_two(bodies, count, standing, |k, l, t: &Coupling| all.set(k, l, t), false);
+        let mut all = Self::NONE;
+        all.fill(bodies, count, standing);
         all
+    }
+
+    /// Fills in those of the first `count` pairs, each `standing` as told.
+    #[inline(always)]
+    pub fn fill<'a>(&mut self, bodies: &SharedBodies, count: usize, standing: impl Fn(usize) -> Option<&'a Standing>) {
+        self.count = count;
+        for_each_two(bodies, count, standing, |k, l, t: &Coupling| self.set(k, l, t), false);
     }
 
     /// The same with second derivatives.
@@ -54,7 +64,7 @@ impl<const K: usize> Couplings<K> {
         count: usize,
         standing: impl Fn(usize) -> Option<&'a Standing>,
     ) -> (Self, Bends<K>) {
-        let mut all = Self { count, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+        let mut all = Self { count, ..Self::NONE };
         let mut bends = Bends { own: [[0.0; K]; K], both: [[0.0; K]; K] };
         let set = |k: usize, l: usize, t: &Coupling| {
             all.set(k, l, t);

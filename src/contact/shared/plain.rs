@@ -184,7 +184,7 @@ impl SharedMeshes<'_> {
     /// Forces and heat of both meshes.
     #[inline(never)]
     pub fn force<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
-        let mut near = [const { None }; MOST];
+        let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, Default::default(), {
             let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
@@ -207,7 +207,7 @@ impl SharedMeshes<'_> {
     /// The same with their derivatives and the elastic energy.
     #[inline(never)]
     pub fn linearise<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> SharedForce {
-        let mut near = [const { None }; MOST];
+        let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, SharedForce::default(), {
             let (sharing, bends) = Sharing::<_, K>::with_bends::<S>(self.bodies, law, &near, count);
@@ -290,7 +290,7 @@ impl SharedMeshes<'_> {
     /// Elastic energy of both meshes [J].
     #[inline(never)]
     pub fn energy<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> f64 {
-        let mut near = [const { None }; MOST];
+        let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, 0.0, {
             let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
@@ -305,7 +305,7 @@ impl SharedMeshes<'_> {
     /// By how much pairs that touch or are about to are moved by others.
     #[inline(never)]
     pub fn moved<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> Moved {
-        let mut near = [const { None }; MOST];
+        let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, Moved::LOOKOUT, &mut near);
         let mut moved = Moved::default();
         by_count!(count, (), {
@@ -326,7 +326,7 @@ impl SharedMeshes<'_> {
         side: usize,
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
-        let mut near = [const { None }; MOST];
+        let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, (), {
             let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);

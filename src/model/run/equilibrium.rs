@@ -18,6 +18,8 @@ use crate::problem::Problem;
 const LONGEST_STEP: f64 = 1.0 / 32.0;
 /// Torque balance at equilibrium, relative to the loads.
 const BALANCE: f64 = 1e-11;
+/// Rounds from side to side that press teeth as they are where no minimum is found.
+pub const ROUNDS: usize = 12;
 /// Loads below this are none [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
@@ -120,13 +122,25 @@ pub fn settle_as_they_are<const N: usize, const G: usize, const P: usize, const 
     equations: &Equations<N, G, P, WITH_EFFECTS>,
     loads: &Carried,
 ) -> Option<Point<N>> {
+    minimum(equations, loads, &pressed_as_they_are(equations, loads, 1)?, true)
+}
+
+/// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies of planets
+/// join both sides.
+pub fn pressed_as_they_are<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    loads: &Carried,
+    rounds: usize,
+) -> Option<Point<N>> {
     let mut pressed = Point::ZERO;
     let carry = |s: usize, at: &Point<N>| {
         let (sum, by_position) = equations.statics(at);
         [sum[s], by_position[s][s]]
     };
-    press(equations, loads.teeth, &mut pressed, carry).ok()?;
-    minimum(equations, loads, &pressed, true)
+    for _ in 0..rounds {
+        press(equations, loads.teeth, &mut pressed, carry).ok()?;
+    }
+    Some(pressed)
 }
 
 /// Position of the minimum of V + Σ T_s α_s near `point`, over all that is free but the carrier, if there is one within a

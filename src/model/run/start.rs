@@ -1,7 +1,7 @@
 //! The state at the start time.
 
 use super::carried::Carried;
-use super::equilibrium::{press_sides, settle, settle_as_they_are};
+use super::equilibrium::{ROUNDS, press_sides, pressed_as_they_are, settle, settle_as_they_are};
 use super::imposed::body_effects;
 use crate::integrate::Point;
 use crate::model::assembly::ideal::Ideal;
@@ -106,7 +106,8 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
             carried = Carried::new(model, ideal, inputs, state);
             press_sides(model, equations, carried.teeth, &mut point)?;
             if otherwise {
-                point = settle_as_they_are(equations, &carried).unwrap_or(point);
+                let pressed = || pressed_as_they_are(equations, &carried, ROUNDS);
+                point = settle_as_they_are(equations, &carried).or_else(pressed).unwrap_or(point);
             }
         }
     }
