@@ -5,7 +5,7 @@ usage: run.py FMU FOLDER [--quick]
 FOLDER receives table.md, results.csv, results.json and peers.png. Each run is a separate process; repetitions go
 round all rows, so that a slow period of the machine affects every tool. Costs are medians. A tool that is not installed is
 left out. Lines "progress FRACTION WHAT" on standard error report progress; the table goes to standard output.
-`cargo run --release -- compare-simulators` makes the environment and does all of it.
+`cargo run -p lab --release -- compare-simulators` makes the environment and does all of it.
 """
 
 import importlib.metadata

@@ -4,7 +4,7 @@
 
 FMU is this program's, LIBRARY foreign-solvers as cargo built it. Writes drivetrain.ssp, errors.csv and pictures to FOLDER
 and prints the tables. Fails if hosts disagree, or if errors, orders or limits are not what theory says.
-`cargo run --release -- drivetrain` makes the environment and does all of it.
+`cargo run -p lab --release -- drivetrain` makes the environment and does all of it.
 """
 
 import contextlib

@@ -1,22 +1,44 @@
-//! The command line: the commands of all rooms, an overview grouped by their readers, and usage errors in one line.
+//! The command line: the commands of all rooms, by their readers.
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use anyhow::Result;
-use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 
-use crate::check::CheckCommand;
 use crate::fmu::BuildCommand;
 use crate::gears::GearsCommand;
 use crate::gears::study::StudyCommand;
-use crate::measure::MeasureCommand;
+use crate::tools::program::{Program, Stop};
 
-/// How users call this program.
-const PROGRAM: &str = "cargo run --release --";
-/// Exit code of usage errors.
-pub const USAGE: u8 = 2;
+/// How users call this program, and the laboratory.
+pub const PROGRAM: &str = "cargo run --release --";
+/// The same of the laboratory, which is a program of its own.
+pub const LABORATORY: &str = "cargo run -p lab --release --";
+/// The commands of the laboratory; those who type one here are told where it is.
+pub const IN_THE_LABORATORY: [&str; 22] = [
+    "cost",
+    "solids",
+    "stiffness",
+    "survey",
+    "compare-simulators",
+    "peers",
+    "compare-solvers",
+    "foreign",
+    "drivetrain",
+    "test-python",
+    "test-wheel",
+    "test-page",
+    "zero-cost",
+    "off",
+    "prices",
+    "real-time",
+    "fuzz",
+    "memcheck",
+    "memory",
+    "mutants",
+    "hosts",
+    "platforms",
+];
 
 #[derive(Parser)]
 #[command(name = "fmu-build", bin_name = PROGRAM, version, disable_help_subcommand = true)]
@@ -36,10 +58,6 @@ pub enum AnyCommand {
     Gears(GearsCommand),
     #[command(flatten)]
     Build(BuildCommand),
-    #[command(flatten)]
-    Measure(MeasureCommand),
-    #[command(flatten)]
-    Check(CheckCommand),
     /// Shows this overview, or the options of a command
     #[command(hide = true)]
     Help {
@@ -54,91 +72,41 @@ impl AnyCommand {
         match self {
             Self::Gears(command) => command.run(),
             Self::Build(command) => command.run(),
-            Self::Measure(command) => command.run(),
-            Self::Check(command) => command.run(),
             // answered while the command line is read
             Self::Help { .. } => Ok(()),
         }
     }
 }
 
-/// Why no command runs: help was asked for, or the command line is wrong.
-#[derive(Debug)]
-pub struct Stop(clap::Error);
-
-impl Stop {
-    /// Prints help to standard output, or a usage error as one line to standard error.
-    pub fn report(&self) -> ExitCode {
-        if self.0.use_stderr() {
-            eprintln!("{}", self.one_line());
-            return ExitCode::from(USAGE);
-        }
-        // a closed pipe is no reason to fail
-        let _ = self.0.print();
-        ExitCode::SUCCESS
-    }
-
-    /// The usage error with clap's suggestion, and where to read on.
-    fn one_line(&self) -> String {
-        let text = self.0.render().to_string();
-        let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
-        let parts: Vec<&str> = lines.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
-        let line = parts.join(" ").replace(" tip: ", "; ").replace(" [possible values", "; [possible values");
-        let usage = text.lines().find_map(|line| line.trim().strip_prefix("Usage: "));
-        let named = usage.and_then(|usage| usage.strip_prefix(PROGRAM)?.split_whitespace().next());
-        let command = named.filter(|word| word.starts_with(|c: char| c.is_ascii_lowercase()));
-        format!("{line} (see {PROGRAM} {}--help)", command.map_or(String::new(), |name| format!("{name} ")))
-    }
-}
-
 /// The command that `arguments`, the program's name first, ask for: the study if they name none.
 pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand, Stop> {
-    let matches = command().try_get_matches_from(arguments).map_err(Stop)?;
-    let CommandLine { command: named, study } = CommandLine::from_arg_matches(&matches).map_err(Stop)?;
-    match named {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let named = arguments.iter().skip(1).find(|word| *word != "help");
+    if let Some(name) = named.and_then(|word| IN_THE_LABORATORY.iter().find(|name| word == *name)) {
+        return Err(Stop::Wrong(format!("{name} is in the laboratory: {LABORATORY} {name}")));
+    }
+    let program = program();
+    let CommandLine { command, study } = program.parse(arguments)?;
+    match command {
         None => Ok(AnyCommand::Gears(GearsCommand::Study(study))),
-        Some(AnyCommand::Help { command: None }) => Err(help(&[])),
-        Some(AnyCommand::Help { command: Some(name) }) => Err(help(&[name])),
+        Some(AnyCommand::Help { command }) => Err(program.help::<CommandLine>(command)),
         Some(command) => Ok(command),
     }
 }
 
-/// What `--help` after `command` shows.
-fn help(command_name: &[String]) -> Stop {
-    let words = ["fmu-build".to_owned()].into_iter().chain(command_name.iter().cloned());
-    let shown = command().try_get_matches_from(words.chain(["--help".to_owned()]));
-    Stop(shown.err().unwrap_or_else(|| clap::Error::new(ErrorKind::DisplayHelp)))
-}
-
-fn command() -> clap::Command {
-    // the last of two equal options counts, as in most programs
-    CommandLine::command()
-        .args_override_self(true)
-        .override_help(overview())
-        .mut_subcommands(|command| command.args_override_self(true))
-}
-
-/// The commands by room, a line each.
-fn overview() -> String {
+fn program() -> Program {
     let blank = || clap::Command::new("room");
-    let rooms = [
-        ("For users of the gears:", GearsCommand::augment_subcommands(blank())),
-        ("Building the FMU:", BuildCommand::augment_subcommands(blank())),
-        ("Measuring:", MeasureCommand::augment_subcommands(blank())),
-        ("Checking:", CheckCommand::augment_subcommands(blank())),
-    ];
-    let all = || rooms.iter().flat_map(|(_, room)| room.get_subcommands());
-    let width = all().map(|command| command.get_name().len()).max().unwrap_or(0);
-    let mut out = format!("Usage: {PROGRAM} [COMMAND] [OPTIONS]\n");
-    for (title, room) in &rooms {
-        out.push_str(&format!("\n{title}\n"));
-        for command in room.get_subcommands() {
-            let about = command.get_about().map_or(String::new(), ToString::to_string);
-            out.push_str(&format!("  {:<width$}  {about}\n", command.get_name()));
-        }
+    Program {
+        call: PROGRAM,
+        groups: vec![
+            ("For users of the gears:", GearsCommand::augment_subcommands(blank())),
+            ("Building the FMU:", BuildCommand::augment_subcommands(blank())),
+        ],
+        end: format!(
+            "Without a command: study. Options of a command: {PROGRAM} COMMAND --help\n\
+             What measures and checks is in the laboratory: {LABORATORY} help"
+        ),
     }
-    out.push_str(&format!("\nWithout a command: study. Options of a command: {PROGRAM} COMMAND --help\n"));
-    out
 }
 
 #[cfg(test)]
@@ -149,9 +117,17 @@ mod tests {
         parse(["fmu-build"].iter().chain(words).map(OsString::from))
     }
 
+    /// What is wrong with the words.
+    fn told(words: &[&str]) -> String {
+        match parsed(words).err() {
+            Some(Stop::Wrong(line)) => line,
+            _ => String::new(),
+        }
+    }
+
     #[test]
     fn the_declared_options_are_consistent() {
-        command().debug_assert();
+        program().command::<CommandLine>().debug_assert();
     }
 
     #[test]
@@ -166,11 +142,12 @@ mod tests {
     }
 
     #[test]
-    fn former_names_still_work_and_are_not_shown() {
-        for old in ["off", "peers", "foreign", "memory"] {
-            assert!(parsed(&[old]).is_ok(), "{old}");
-            assert!(!overview().contains(&format!("  {old} ")), "{old}");
+    fn a_command_of_the_laboratory_is_told_where_it_is() {
+        for words in [&["cost"][..], &["cost", "--quick"], &["help", "cost"]] {
+            assert_eq!(told(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
         }
+        // a file may be called like one
+        assert!(parsed(&["geometry", "--out", "cost"]).is_ok());
     }
 
     #[test]
@@ -181,13 +158,13 @@ mod tests {
             (&["loads", "--out", "x"], &["--scene"]),
             (&["--quik"], &["'--quik'"]),
         ] {
-            let line = parsed(words).err().map(|stop| stop.one_line()).unwrap_or_default();
+            let line = told(words);
             assert!(!line.contains('\n') && parts.iter().all(|part| line.contains(part)), "{words:?}: {line}");
         }
     }
 
     #[test]
     fn a_repeated_option_counts_last() {
-        assert!(parsed(&["cost", "--quick", "--quick", "--out", "a", "--out", "b"]).is_ok());
+        assert!(parsed(&["geometry", "--out", "a", "--out", "b"]).is_ok());
     }
 }

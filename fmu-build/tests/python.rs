@@ -8,7 +8,7 @@ use fmu_build::tools::python::Environment;
 
 #[test]
 fn the_fmu_passes_its_python_tests() -> Result<()> {
-    let environment = Environment::ready(|what| println!("{what}"))?;
+    let environment = Environment::complete(|what| println!("{what}"))?;
     let fmu = package::package()?;
     // the error is pytest's report, which Debug prints line by line
     let program = Path::new(env!("CARGO_BIN_EXE_fmu-build"));

@@ -28,7 +28,7 @@ fn listed(folder: &Path) -> Result<Vec<(String, u64)>> {
 
 #[test]
 fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
-    let environment = Environment::ready(|what| println!("{what}"))?;
+    let environment = Environment::complete(|what| println!("{what}"))?;
     let libraries = libraries::build()?.built;
     let sources = paths::workspace().join("python");
     let before = listed(&sources)?;

@@ -1,6 +1,6 @@
 """The page in Chromium for the tests, and beside it the native FMU and node.
 
-The command `cargo run --release -- test-page` runs them and gives the environment variables PAGE, FMU, CHROMIUM and NODE."""
+The command `cargo run -p lab --release -- test-page` runs them and gives the environment variables PAGE, FMU, CHROMIUM and NODE."""
 
 import csv
 import os
@@ -55,7 +55,7 @@ def named_file(variable):
     """The file that an environment variable names."""
     path = Path(os.environ.get(variable, ""))
     if not path.is_file():
-        pytest.exit(f"{variable} names no file; use: cargo run --release -- test-page", returncode=2)
+        pytest.exit(f"{variable} names no file; use: cargo run -p lab --release -- test-page", returncode=2)
     return path
 
 

@@ -240,6 +240,11 @@ impl Host {
         self.recorder.lines().clone()
     }
 
+    /// Number of lines in the log.
+    pub fn log_length(&self) -> usize {
+        self.recorder.lines().len()
+    }
+
     /// The last message; empty if there is none.
     pub fn last_message(&self) -> String {
         self.recorder.lines().last().map_or_else(String::new, |line| line.message.clone())

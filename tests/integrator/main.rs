@@ -6,6 +6,7 @@ mod continuation;
 mod driven;
 mod going_on;
 mod impact;
+mod kahraman_singh;
 mod methods;
 mod order;
 mod problems;

@@ -27,7 +27,7 @@ def fmu_file():
     """Path of the .fmu, from the environment variable FMU."""
     path = os.environ.get("FMU", "")
     if not os.path.isfile(path):
-        pytest.exit("FMU does not name the packaged .fmu; use: cargo run --release -- test-python", returncode=2)
+        pytest.exit("FMU does not name the packaged .fmu; use: cargo run -p lab --release -- test-python", returncode=2)
     return path
 
 

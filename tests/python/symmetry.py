@@ -77,7 +77,7 @@ class Image:
         return {"start": start, "steps": [(size, self.values(inputs)) for size, inputs in self.steps]}
 
     def tooth(self):
-        """Index of the gear and number of the broken tooth, as tests/mirror/teeth.rs has them."""
+        """Index of the gear and number of the broken tooth, as tests/model/mirror/teeth.rs has them."""
         index, tooth = self.start["tooth_fault.index"], self.start["tooth_fault.tooth"]
         n, z_p, z_s = self.planets, self.planet_teeth, self.side_teeth
         shifted = 2 * z_s * index // n % 2

@@ -1,7 +1,7 @@
 """Mirror images: a differential that is reflected, with all speeds and torques, does the same; and so it does a tooth later.
 
 Scenes are those of the other tests, the ready ones and random ones. Individual tooth errors, which the FMU draws from a
-seed for either flank, are mirrored by the library's tests (tests/mirror)."""
+seed for either flank, are mirrored by the library's tests (tests/model/mirror)."""
 
 import re
 import tomllib
@@ -178,7 +178,7 @@ def compare(fmu):
 @pytest.mark.parametrize("way", ["reversed", "swapped"])
 @pytest.mark.parametrize("name", NAMED)
 def test_the_image_of_a_scene_of_these_tests_does_the_same(compare, name, way):
-    # with an odd number of planet teeth the sides stand half a pitch apart at the start (tests/mirror)
+    # with an odd number of planet teeth the sides stand half a pitch apart at the start (tests/model/mirror)
     if way == "swapped" and (NAMED[name].get("geometry.planet_teeth", 10) % 2 or name in TIED):
         pytest.skip("the image starts elsewhere")
     wrong, share = compare({"start": NAMED[name], "steps": STEPS}, way)

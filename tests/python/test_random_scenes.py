@@ -1,7 +1,7 @@
 """Random scenes on the packaged FMU: each finishes in balance or is refused with a clear error.
 
 None panics, hangs, calls a step good that gave a value which is no number, or takes more steps than are granted.
-200 by default; `cargo run --release -- test-python -k random --scenes 10000` runs more."""
+200 by default; `cargo run -p lab --release -- test-python -k random --scenes 10000` runs more."""
 
 import collections
 

@@ -59,7 +59,7 @@ def scene_command():
     """scene_command(NAME, …): runs the command `scene` of the program under test."""
     program = os.environ.get("FMU_BUILD", "")
     if not os.path.isfile(program):
-        pytest.fail("FMU_BUILD does not name the program; use: cargo run --release -- test-python")
+        pytest.fail("FMU_BUILD does not name the program; use: cargo run -p lab --release -- test-python")
 
     def run(*arguments):
         done = subprocess.run([program, "scene", *map(str, arguments)], capture_output=True, text=True, encoding="utf-8")

@@ -85,7 +85,7 @@ pub fn build() -> Result<Libraries> {
 
 /// The library for old Linux systems, if its tool chain is installed.
 pub(super) fn old_linux() -> Result<Option<Library>> {
-    Environment::old_linux().filter(|_| CROSS).map(|tools| for_old_linux(&tools)).transpose()
+    toolchains::old_linux().found().filter(|_| CROSS).map(|tools| for_old_linux(&tools)).transpose()
 }
 
 /// The library for Windows, if a tool chain for it is installed.

@@ -5,7 +5,6 @@ use clap::ValueEnum;
 
 use crate::fmu::libraries::{self, CROSS, HOST, Library};
 use crate::fmu::toolchains::{self, WINDOWS};
-use crate::tools::python::Environment;
 
 /// A platform to build the library for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -45,7 +44,7 @@ impl Platform {
 
     fn can_be_built(self) -> bool {
         match self {
-            Self::Linux64 => CROSS && Environment::old_linux().is_some(),
+            Self::Linux64 => CROSS && toolchains::old_linux().found().is_some(),
             Self::Win64 => CROSS && (WINDOWS.found().is_some() || libraries::rustup_has_windows()),
             Self::ThisMachine => true,
         }

@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::tools::paths;
 use crate::tools::progress::Progress;
-use crate::tools::python::Environment;
+use crate::tools::python::Wanted;
 
 /// The command that installs them, for hints.
 pub const COMMAND: &str = "cargo run --release -- toolchains";
@@ -49,7 +49,7 @@ fn run(platform: Option<&str>) -> Result<()> {
     let progress = Progress::start("looking for Python");
     let mut made = Vec::new();
     if wanted("linux64") {
-        let linux = Environment::for_old_linux(|what| progress.stage(what))?;
+        let linux = old_linux().made(|what| progress.stage(what))?;
         made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
     }
     if wanted("win64") {
@@ -63,6 +63,12 @@ fn run(platform: Option<&str>) -> Result<()> {
     progress.finish();
     println!("{}", made.join("\n"));
     Ok(())
+}
+
+/// The linker for old Linux systems.
+pub fn old_linux() -> Wanted {
+    let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
+    Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
 }
 
 /// A tool chain that a script in fmu-build/cross unpacks from Debian's packages.

@@ -38,7 +38,7 @@ impl WheelCommand {
         let progress = Progress::start("building the library");
         let libraries = platforms::build(&self.platforms)?;
         progress.stage("building the wheel");
-        let environment = Environment::ready(|what| progress.stage(what))?;
+        let environment = Environment::complete(|what| progress.stage(what))?;
         let wheel = write(&libraries, &environment, &paths::wheel())?;
         progress.finish();
         println!("{}", paths::shown(&wheel));

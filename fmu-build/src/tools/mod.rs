@@ -3,12 +3,11 @@
 
 pub mod csv_file;
 pub mod files;
-pub mod machine;
 pub mod numbers;
 pub mod paths;
+pub mod program;
 pub mod progress;
 pub mod python;
-pub mod random;
 pub mod script;
 pub mod sections;
 pub mod table;

@@ -1,5 +1,5 @@
-//! The Python environments, each made once from pinned versions: one for fmpy, matplotlib and pytest, and one for each
-//! comparison with other programs.
+//! Python environments, each made once from pinned versions: that of users' commands, to which the tests add their packages, and
+//! those that other commands ask for.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -16,69 +16,63 @@ const OLDEST: (u32, u32) = (3, 11);
 /// Newest one worth asking for by its number.
 const NEWEST: u32 = 15;
 
-/// A Python environment with all requirements.
+/// A Python environment.
 pub struct Environment {
     folder: PathBuf,
-    requirements: PathBuf,
-    /// The packages in a few words.
-    holds: &'static str,
 }
 
-impl Environment {
-    /// The environment of all commands but one, made if it does not exist; `report` receives the current stage.
-    pub fn ready(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::workspace().join("fmu-build").join("python").join("requirements.txt");
-        Self {
-            folder: paths::target().join("python"),
-            requirements,
-            holds: "fmpy, numpy, scipy, matplotlib, dask, pymoo, pytest",
-        }
-        .made(report)
-    }
+/// What an environment shall hold.
+pub struct Wanted {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The list of packages.
+    pub requirements: PathBuf,
+    /// The packages in a few words.
+    pub holds: &'static str,
+}
 
-    /// The environment with the programs to compare with; it lies next to the results of the comparison.
-    pub fn for_simulators(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::simulators_benchmark().join("requirements.txt");
-        let folder = paths::target().join("peers").join("venv");
-        Self { folder, requirements, holds: "MuJoCo, Drake, fmpy" }.made(report)
-    }
-
-    /// The environment with other solvers.
-    pub fn for_solvers(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::solvers_benchmark().join("requirements.txt");
-        Self { folder: paths::target().join("foreign"), requirements, holds: "scipy, scikit-SUNDAE" }.made(report)
-    }
-
-    /// The environment with FMI hosts; it lies next to their results.
-    pub fn for_hosts(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::hosts().join("requirements.txt");
-        let folder = paths::target().join("hosts").join("venv");
-        Self { folder, requirements, holds: "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox" }
-            .made(report)
-    }
-
-    /// The environment with what drives a browser.
-    pub fn for_browser(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::browser_tests().join("requirements.txt");
-        Self { folder: paths::target().join("browser"), requirements, holds: "playwright, pytest, fmpy, numpy" }
-            .made(report)
-    }
-
-    /// The environment with the linker for old Linux systems.
-    pub fn for_old_linux(report: impl Fn(&str)) -> Result<Self> {
-        Self::of_old_linux().made(report)
+impl Wanted {
+    /// The environment, made if it does not exist or has other requirements; `report` receives the current stage.
+    pub fn made(&self, report: impl Fn(&str)) -> Result<Environment> {
+        let stamp = stamp_of(&[&self.requirements])?;
+        self.folder().made(&[&stamp], &stamp, |environment| {
+            environment.make(&report)?;
+            environment.install(&self.requirements, None, self.holds, &report)
+        })
     }
 
     /// The same if it has been made, for these requirements.
-    pub fn old_linux() -> Option<Self> {
-        let environment = Self::of_old_linux();
-        let stamp = environment.wanted_stamp().ok()?;
-        environment.is_stamped(&stamp).then_some(environment)
+    pub fn found(&self) -> Option<Environment> {
+        let stamp = stamp_of(&[&self.requirements]).ok()?;
+        let environment = self.folder();
+        environment.has(&stamp).then_some(environment)
     }
 
-    fn of_old_linux() -> Self {
-        let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
-        Self { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
+    fn folder(&self) -> Environment {
+        Environment { folder: self.folder.clone() }
+    }
+}
+
+impl Environment {
+    /// The environment of users' commands, made if it does not exist; `report` receives the current stage. It may hold the
+    /// packages of the tests as well.
+    pub fn ready(report: impl Fn(&str)) -> Result<Self> {
+        let Users { environment, first, all, first_stamp, all_stamp } = Users::new()?;
+        environment.made(&[&first_stamp, &all_stamp], &first_stamp, |environment| {
+            environment.make(&report)?;
+            environment.install(&first, Some(&all), "fmpy, numpy, matplotlib", &report)
+        })
+    }
+
+    /// The same with the packages of the tests, of all extras of the Python package, and of the wheel.
+    pub fn complete(report: impl Fn(&str)) -> Result<Self> {
+        let Users { environment, all, first_stamp, all_stamp, .. } = Users::new()?;
+        environment.made(&[&all_stamp], &all_stamp, |environment| {
+            if !environment.has(&first_stamp) {
+                environment.make(&report)?;
+            }
+            environment.install(&all, None, "scipy, dask, pymoo, pytest", &report)
+        })
     }
 
     /// The folder with its programs.
@@ -93,40 +87,25 @@ impl Environment {
         Ok(PathBuf::from(String::from_utf8_lossy(&output.stdout).trim()))
     }
 
-    /// The environment that builds the other parts of a drivetrain and couples them.
-    pub fn for_drivetrain(report: impl Fn(&str)) -> Result<Self> {
-        let requirements = paths::drivetrain().join("requirements.txt");
-        let folder = paths::target().join("drivetrain").join("venv");
-        Self { folder, requirements, holds: "pythonfmu, fmpy, libcosim" }.made(report)
-    }
-
-    /// This environment, made if it does not exist or has other requirements.
-    fn made(self, report: impl Fn(&str)) -> Result<Self> {
-        let stamp = self.wanted_stamp()?;
+    /// This environment, worked on by `make` unless it has one of the stamps that are `enough`; then it gets `stamp`.
+    fn made(self, enough: &[&str], stamp: &str, make: impl FnOnce(&Self) -> Result<()>) -> Result<Self> {
         fs::create_dir_all(self.folder.parent().unwrap_or(&self.folder))?;
         // released when the file is closed, be it by a crash
         let lock = File::create(self.folder.with_extension("lock")).context("the environment cannot be locked")?;
         lock.lock().context("the environment cannot be locked")?;
-        if !self.is_stamped(&stamp) {
-            self.make(report)?;
+        if !enough.iter().any(|stamp| self.has(stamp)) {
+            make(&self)?;
             fs::write(self.stamp(), stamp)?;
         }
         Ok(self)
-    }
-
-    /// What the stamp of an environment with these requirements says.
-    fn wanted_stamp(&self) -> Result<String> {
-        let wanted = fs::read_to_string(&self.requirements)
-            .with_context(|| format!("{} cannot be read", self.requirements.display()))?;
-        Ok(format!("{:016x}\n", variables::fnv1a(wanted.bytes())))
     }
 
     fn stamp(&self) -> PathBuf {
         self.folder.join("requirements.stamp")
     }
 
-    /// Complete, for these requirements, and its interpreter still runs.
-    fn is_stamped(&self, stamp: &str) -> bool {
+    /// Complete, with this stamp, and its interpreter still runs.
+    fn has(&self, stamp: &str) -> bool {
         fs::read_to_string(self.stamp()).is_ok_and(|found| found == stamp) && version_of(&self.interpreter()).is_some()
     }
 
@@ -136,14 +115,18 @@ impl Environment {
         finish(
             python.command().args(["-m", "venv", "--clear"]).arg(&self.folder),
             "the Python environment cannot be created",
-        )?;
-        report(&format!("installing {}", self.holds));
-        finish(
-            self.command()
-                .args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"])
-                .arg(&self.requirements),
-            "the Python packages cannot be installed (check the network)",
         )
+    }
+
+    /// Installs the packages of a list, in the versions that `pins` names where they are in another one.
+    fn install(&self, list: &Path, pins: Option<&Path>, what: &str, report: impl Fn(&str)) -> Result<()> {
+        report(&format!("installing {what}"));
+        let mut pip = self.command();
+        pip.args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"]).arg(list);
+        if let Some(pins) = pins {
+            pip.arg("--constraint").arg(pins);
+        }
+        finish(&mut pip, "the Python packages cannot be installed (check the network)")
     }
 
     fn interpreter(&self) -> Python {
@@ -184,6 +167,40 @@ impl Environment {
         }
         Ok(report)
     }
+}
+
+/// The environment of users' commands, its two lists of packages, and the stamps for them.
+struct Users {
+    environment: Environment,
+    /// Names alone; the other list has the versions.
+    first: PathBuf,
+    all: PathBuf,
+    first_stamp: String,
+    all_stamp: String,
+}
+
+impl Users {
+    fn new() -> Result<Self> {
+        let lists = paths::workspace().join("fmu-build").join("python");
+        let [first, all] = ["first.txt", "requirements.txt"].map(|name| lists.join(name));
+        let (first_stamp, all_stamp) = (stamp_of(&[&first, &all])?, stamp_of(&[&all])?);
+        Ok(Self {
+            environment: Environment { folder: paths::target().join("python") },
+            first,
+            all,
+            first_stamp,
+            all_stamp,
+        })
+    }
+}
+
+/// What the stamp of an environment with the packages of these lists says.
+fn stamp_of(lists: &[&Path]) -> Result<String> {
+    let mut text = Vec::new();
+    for list in lists {
+        text.extend(fs::read(list).with_context(|| format!("{} cannot be read", list.display()))?);
+    }
+    Ok(format!("{:016x}\n", variables::fnv1a(text.into_iter())))
 }
 
 /// A way to call Python.

@@ -200,6 +200,14 @@ impl Well<'_> {
     fn at(&self, x: &DVector<f64>) -> Point<LARGEST> {
         let mut point = *self.point;
         self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
+        // a group without members stands as the first, whose twin it is
+        let layout = &self.equations.teeth.layout;
+        for g in (1..layout.groups).filter(|&g| layout.members[g] == 0.0) {
+            point.q[layout.planet(g)] = point.q[layout.planet(0)];
+            if layout.pins {
+                point.q[layout.pin(g)] = point.q[layout.pin(0)];
+            }
+        }
         point
     }
 }

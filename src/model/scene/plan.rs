@@ -96,7 +96,16 @@ impl Plan {
                 }
             }
         }
+        plan.fill_up();
         Ok(plan)
+    }
+
+    /// Three groups are simulated as four: the fourth has no members, and moves as the first.
+    fn fill_up(&mut self) {
+        let spare = self.layout().groups;
+        for g in self.group_count..spare {
+            self.groups[g] = Group { members: 0.0, ..self.groups[0] };
+        }
     }
 
     fn add_group(&mut self, phase: [f64; 2], planet: usize) {

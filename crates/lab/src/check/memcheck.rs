@@ -1,0 +1,135 @@
+//! Memory errors and leaks: hosts in C that run whole lives of instances, and calls at random, under memcheck.
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::Instant;
+
+use anyhow::{Context, Result, bail, ensure};
+use bevel_differential::numeric::lanes;
+use bevel_differential::variables::{guid, table};
+use clap::Args;
+
+use crate::check::fuzz;
+use crate::tools::places;
+use fmu_build::fmu::package;
+use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::table::Table;
+
+/// Calls at random: of the host in C, and of the driver in Rust.
+const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];
+
+/// Value reference of `name`, as an argument.
+pub fn reference(name: &str) -> Result<OsString> {
+    let found = table().rows.iter().position(|row| row.name == name);
+    found.map(|i| i.to_string().into()).with_context(|| format!("there is no variable {name}"))
+}
+
+/// A program on the library, as the hosts in C take it: library, GUID, references of an input and of an output.
+pub fn arguments(library: &Path) -> Result<Vec<OsString>> {
+    Ok(vec![library.into(), guid().into(), reference("left.load_torque")?, reference("left.speed")?])
+}
+
+/// Compiles tests/c/`name`.c with `options` and returns the program.
+pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
+    let folder = paths::target().join("memory");
+    paths::create_folder(&folder)?;
+    // tests compile at the same time: none runs what another is writing
+    let program = folder.join(format!("{name}-{}", std::process::id()));
+    let output = Command::new("cc")
+        .args(["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror"])
+        .args(options)
+        .arg("-o")
+        .arg(&program)
+        .arg(places::c_hosts().join(format!("{name}.c")))
+        .args(["-ldl", "-lm"])
+        .output()
+        .context("a C compiler builds the hosts: install one (apt-get install gcc)")?;
+    ensure!(output.status.success(), "{name}.c: {}", String::from_utf8_lossy(&output.stderr));
+    Ok(program)
+}
+
+/// What a checker reported about a program.
+struct Checked {
+    program: &'static str,
+    checker: &'static str,
+    lost: String,
+    errors: String,
+    seconds: f64,
+}
+
+/// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
+#[derive(Args, Clone, Debug)]
+pub struct MemcheckCommand {}
+
+impl MemcheckCommand {
+    /// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
+    pub fn run(&self) -> Result<()> {
+        run()
+    }
+}
+
+fn run() -> Result<()> {
+    let progress = Progress::start("building the library and the host");
+    let library = package::build_library("bevel-differential")?;
+    let life = compiled("life", &[])?;
+    let mut host_arguments = arguments(&library)?;
+    host_arguments.push(CALLS[0].to_string().into());
+    let this = env::current_exe().context("the path of this program is unknown")?;
+    let mut checked = Vec::new();
+    progress.stage("memcheck on the host in C");
+    checked.push(memcheck("life of instances, in C", &life, &host_arguments)?);
+    progress.stage("memcheck on calls at random");
+    checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
+    fs::remove_file(&life).context("the host cannot be removed")?;
+    progress.finish();
+    let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);
+    for c in checked {
+        table.push([c.program.to_owned(), c.checker.to_owned(), c.errors, c.lost, format!("{:.1}", c.seconds)]);
+    }
+    print!("{}", table.terminal());
+    Ok(())
+}
+
+fn rounds(calls: usize) -> Vec<OsString> {
+    ["fuzz", "--worker", "--calls", &calls.to_string()].map(OsString::from).to_vec()
+}
+
+fn memcheck(program: &'static str, path: &Path, arguments: &[OsString]) -> Result<Checked> {
+    let start = Instant::now();
+    let output = Command::new("valgrind")
+        .args(["--leak-check=full", "--error-exitcode=99", "--errors-for-leak-kinds=definite,indirect,possible"])
+        .args(["--show-leak-kinds=definite,indirect,possible", "--num-callers=30"])
+        .arg(path)
+        .args(arguments)
+        // valgrind may not know all instructions on wider vectors
+        .env(lanes::VARIABLE, "narrow")
+        .output()
+        .context("valgrind checks the memory: install it (apt-get install valgrind)")?;
+    let said = success(program, &output)?;
+    let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind reported no count of errors")?;
+    let lost = between(&said, "definitely lost: ", " bytes").unwrap_or("0").to_owned();
+    Ok(Checked {
+        program,
+        checker: "memcheck",
+        lost,
+        errors: errors.to_owned(),
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}
+
+/// Text of `said` between two others.
+fn between<'a>(said: &'a str, before: &str, after: &str) -> Option<&'a str> {
+    said.split_once(before)?.1.split_once(after).map(|(text, _)| text)
+}
+
+fn success(program: &str, output: &Output) -> Result<String> {
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    if !output.status.success() {
+        bail!("{program} ({}):\n{}", output.status, said.trim_end());
+    }
+    Ok(said)
+}

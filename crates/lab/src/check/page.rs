@@ -1,0 +1,115 @@
+//! The page in a browser: Chromium runs it as a reader does, and its results are compared with node's and with the native FMU's.
+
+use std::env;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+
+use crate::tools::{environments, places};
+use fmu_build::fmu::package;
+use fmu_build::fmu::page::FILE;
+use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::table::Table;
+
+/// Names a Chromium that is not on the search path.
+const CHROME: &str = "CHROME";
+
+/// Opens the page in Chromium and checks it there: scenes, controls, messages, links, pictures, the bits of the native FMU
+///
+/// The page is made before, by the command `page`. It takes node, and Chromium: `chromium` on the search path, or the program that
+/// the environment variable CHROME names.
+#[derive(Args, Clone, Debug)]
+pub struct TestPageCommand {
+    /// The page [default: the one that the command `page` built]
+    page: Option<PathBuf>,
+    /// Keep the screenshots in this folder
+    #[arg(long, value_name = "DIR")]
+    shots: Option<PathBuf>,
+}
+
+impl TestPageCommand {
+    /// Runs the tests and prints a table of what was checked.
+    pub fn run(&self) -> Result<()> {
+        let page = match &self.page {
+            Some(file) => file.clone(),
+            None => paths::page().join(FILE),
+        };
+        ensure!(page.is_file(), "{} is not there; make it: cargo run --release -- page", paths::shown(&page));
+        let node =
+            found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
+        let chromium = chromium()?;
+        let progress = Progress::start("looking for Python");
+        let environment = environments::browser(|what| progress.stage(what))?;
+        progress.stage("packaging the FMU");
+        let fmu = package::package()?;
+        progress.stage("testing the page");
+        let checked = paths::target().join("browser").join("checked.csv");
+        let mut pytest = environment.command();
+        pytest
+            .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "--tb=short", "--table"])
+            .arg(&checked)
+            .arg(places::browser_tests())
+            .env("PAGE", page.canonicalize()?)
+            .env("FMU", &fmu)
+            .env("BEVEL_DIFFERENTIAL_FMU", &fmu)
+            .env("NODE", node)
+            .env("CHROMIUM", chromium);
+        if let Some(folder) = &self.shots {
+            paths::create_folder(folder)?;
+            pytest.arg("--shots").arg(folder.canonicalize()?);
+        }
+        let output = pytest.output().context("pytest cannot be run")?;
+        progress.finish();
+        if !output.status.success() {
+            let [report, errors] =
+                [output.stdout, output.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+            bail!("the page fails its tests:\n{report}{errors}");
+        }
+        print!("{}", table(&checked)?.terminal());
+        Ok(())
+    }
+}
+
+/// The file of Chromium.
+fn chromium() -> Result<PathBuf> {
+    if let Some(named) = env::var_os(CHROME).filter(|named| !named.is_empty()) {
+        let shown = Path::new(&named).display().to_string();
+        return found(&named)
+            .with_context(|| format!("{CHROME} = {shown}: this program does not run; name a Chromium"));
+    }
+    found(OsStr::new("chromium"))
+        .with_context(|| format!("Chromium is not installed: apt install chromium, or name one by {CHROME}"))
+}
+
+/// The file of a program that runs, on the search path unless `name` is a path.
+fn found(name: &OsStr) -> Option<PathBuf> {
+    let folders = env::var_os("PATH").unwrap_or_default();
+    let named = Path::new(name);
+    let beside = env::split_paths(&folders).map(|folder| folder.join(named).with_extension(env::consts::EXE_EXTENSION));
+    let mut candidates =
+        std::iter::once(named.to_path_buf()).filter(|file| file.components().count() > 1).chain(beside);
+    candidates.find(|file| file.is_file() && runs(file))
+}
+
+fn runs(program: &Path) -> bool {
+    let quiet = Stdio::null;
+    let status = Command::new(program).arg("--version").stdin(quiet()).stdout(quiet()).stderr(quiet()).status();
+    status.is_ok_and(|status| status.success())
+}
+
+/// What was checked, from the file of the tests.
+fn table(file: &Path) -> Result<Table> {
+    let text = fs::read(file).with_context(|| format!("{} cannot be read", paths::shown(file)))?;
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(&text[..]);
+    let mut table = Table::new(["checked", "cases", "found", "time, s"]).left([0, 2]);
+    for row in reader.deserialize() {
+        let row: [String; 4] = row?;
+        table.push(row);
+    }
+    Ok(table)
+}

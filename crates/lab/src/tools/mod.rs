@@ -1,0 +1,6 @@
+//! Tools that only the laboratory needs, beside those of `fmu_build`.
+
+pub mod environments;
+pub mod machine;
+pub mod places;
+pub mod random;

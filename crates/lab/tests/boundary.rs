@@ -1,0 +1,108 @@
+//! The C functions from outside: at random, and by hosts written in C. The long runs are commands: `fuzz` and `memory`.
+
+use std::ffi::OsString;
+use std::process::Command;
+use std::sync::mpsc;
+use std::thread;
+use std::time::Duration;
+
+use fmu_build::fmu::package;
+use lab::check::fuzz::{self, Function, Tally};
+use lab::check::memcheck;
+
+/// Calls of the short run.
+const CALLS: usize = 4000;
+/// Least part of calls that must be carried out, and least steps in a thousand calls: a run of refusals shows little.
+const DONE: f64 = 0.4;
+const STEPS: u64 = 5;
+
+#[test]
+fn calls_at_random_keep_every_promise() {
+    let mut tally = Tally::default();
+    for seed in 1..=(CALLS / fuzz::CALLS) as u64 {
+        if let Err(broken) = fuzz::run(seed, fuzz::CALLS, &mut tally) {
+            panic!("{broken:?}\nagain: {}", fuzz::again(seed));
+        }
+    }
+    assert_eq!(tally.calls(), CALLS as u64);
+    let done: u64 = Function::ALL.iter().map(|&f| tally.done(f)).sum();
+    assert!(done as f64 > DONE * CALLS as f64, "{done} calls of {CALLS} were carried out");
+    for step in [Function::fmi2DoStep, Function::fmi2CompletedIntegratorStep] {
+        assert!(tally.done(step) * 1000 >= STEPS * CALLS as u64, "{step:?}: {} carried out", tally.done(step));
+    }
+}
+
+/// A round at speeds with more mesh cycles in a step than can be run through.
+#[test]
+fn a_round_at_absurd_speeds_ends() {
+    let (send, outcome) = mpsc::channel();
+    thread::spawn(move || send.send(fuzz::run(215, fuzz::CALLS, &mut Tally::default())));
+    outcome.recv_timeout(Duration::from_secs(120)).expect("the round hangs").unwrap();
+}
+
+#[test]
+fn the_same_seed_makes_the_same_calls() {
+    let counts = |seed| {
+        let mut tally = Tally::default();
+        fuzz::run(seed, fuzz::CALLS, &mut tally).unwrap();
+        (Function::ALL.iter().map(|&f| tally.done(f)).collect::<Vec<_>>(), tally.scenes, tally.compared)
+    };
+    assert_eq!(counts(5), counts(5));
+    assert_ne!(counts(5), counts(6));
+}
+
+#[test]
+fn a_tally_survives_being_written() {
+    let mut tally = Tally::default();
+    fuzz::run(3, 100, &mut tally).unwrap();
+    let read = Tally::read(&tally.lines()).unwrap();
+    assert_eq!(read.lines(), tally.lines());
+    assert!(Tally::read("1 2\n").is_none());
+    assert!(read.table().contains("longest call: fmi2"));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
+    let library = package::build_library("bevel-differential").unwrap();
+    let output = Command::new("nm").args(["-D", "--defined-only"]).arg(&library).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let listed = String::from_utf8(output.stdout).unwrap();
+    let mut exported: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().last()).collect();
+    let mut known: Vec<&str> = Function::ALL.iter().map(|f| f.name()).collect();
+    exported.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(exported, known);
+}
+
+/// Runs a host in C on the library and returns what it printed.
+#[cfg(target_os = "linux")]
+fn host(name: &str, further: &[OsString]) -> String {
+    let library = package::build_library("bevel-differential").unwrap();
+    let program = memcheck::compiled(name, &[]).unwrap();
+    let output = Command::new(&program).args(memcheck::arguments(&library).unwrap()).args(further).output().unwrap();
+    std::fs::remove_file(&program).unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).unwrap()
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_host_in_c_leads_instances_of_both_kinds_through_their_lives() {
+    assert!(host("life", &["2000".into()]).ends_with("messages\n"));
+}
+
+#[test]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+fn what_belongs_to_the_host_stays_as_it_was() {
+    let said = host("surroundings", &[memcheck::reference("inertia.left_end").unwrap()]);
+    // numbers too small to be normal play no part
+    assert!(said.contains("flush_to_zero 0\n"), "{said}");
+    // other ways to round move the speed by less than the solver's tolerance
+    for mode in ["upward", "downward", "toward_zero"] {
+        let moved = said.lines().find_map(|line| line.strip_prefix(mode)).unwrap();
+        assert!(moved.trim().parse::<f64>().unwrap() < 1e-6, "{said}");
+    }
+    // the host may let invalid operations, divisions by zero and overflows trap
+    assert_eq!(said.matches(" runs\n").count(), 3, "{said}");
+}

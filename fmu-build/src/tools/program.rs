@@ -1,0 +1,122 @@
+//! A program with commands in groups: what it prints as help, and usage errors in one line.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::Parser;
+use clap::error::ErrorKind;
+
+use super::usage::UsageError;
+
+/// Exit code of usage errors.
+const USAGE: u8 = 2;
+
+/// A program, as its overview shows it.
+pub struct Program {
+    /// How users call it.
+    pub call: &'static str,
+    /// Titles of groups, and a command whose subcommands are those of the group.
+    pub groups: Vec<(&'static str, clap::Command)>,
+    /// The end of the overview.
+    pub end: String,
+}
+
+/// Why no command runs: help was asked for, or the command line is wrong.
+#[derive(Debug)]
+pub enum Stop {
+    /// This is to be printed.
+    Shown(String),
+    /// This is wrong, in one line.
+    Wrong(String),
+}
+
+impl Stop {
+    /// Prints help to standard output, or a usage error to standard error.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Self::Shown(text) => {
+                use std::io::Write as _;
+                // a closed pipe is no reason to fail
+                let _ = write!(std::io::stdout(), "{text}");
+                ExitCode::SUCCESS
+            }
+            Self::Wrong(line) => {
+                eprintln!("{line}");
+                ExitCode::from(USAGE)
+            }
+        }
+    }
+}
+
+impl Program {
+    /// The command line that `arguments`, the program's name first, give.
+    pub fn parse<C: Parser>(&self, arguments: impl IntoIterator<Item = OsString>) -> Result<C, Stop> {
+        let matches = self.command::<C>().try_get_matches_from(arguments).map_err(|error| self.stop(&error))?;
+        C::from_arg_matches(&matches).map_err(|error| self.stop(&error))
+    }
+
+    /// What `--help` shows, of `command` if one is named.
+    pub fn help<C: Parser>(&self, command: Option<String>) -> Stop {
+        let name = C::command().get_name().to_owned();
+        let words = [name].into_iter().chain(command).chain(["--help".to_owned()]);
+        let shown = self.command::<C>().try_get_matches_from(words);
+        self.stop(&shown.err().unwrap_or_else(|| clap::Error::new(ErrorKind::DisplayHelp)))
+    }
+
+    /// How the program reads its command line.
+    pub fn command<C: Parser>(&self) -> clap::Command {
+        // the last of two equal options counts, as in most programs
+        C::command()
+            .args_override_self(true)
+            .override_help(self.overview())
+            .mut_subcommands(|command| command.args_override_self(true))
+    }
+
+    /// The commands by group, a line each.
+    pub fn overview(&self) -> String {
+        let all = || self.groups.iter().flat_map(|(_, group)| group.get_subcommands());
+        let width = all().map(|command| command.get_name().len()).max().unwrap_or(0);
+        let mut out = format!("Usage: {} [COMMAND] [OPTIONS]\n", self.call);
+        for (title, group) in &self.groups {
+            out.push_str(&format!("\n{title}\n"));
+            for command in group.get_subcommands() {
+                let about = command.get_about().map_or(String::new(), ToString::to_string);
+                out.push_str(&format!("  {:<width$}  {about}\n", command.get_name()));
+            }
+        }
+        out.push_str(&format!("\n{}\n", self.end));
+        out
+    }
+
+    fn stop(&self, error: &clap::Error) -> Stop {
+        let text = error.render().to_string();
+        if error.use_stderr() {
+            Stop::Wrong(self.one_line(&text))
+        } else {
+            Stop::Shown(format!("{}\n", text.trim_end()))
+        }
+    }
+
+    /// The usage error `text` with clap's suggestion, and where to read on.
+    fn one_line(&self, text: &str) -> String {
+        let lines = text.lines().map(str::trim).take_while(|line| !line.starts_with("Usage:"));
+        let parts: Vec<&str> = lines.filter(|line| !line.is_empty() && !line.starts_with("For more")).collect();
+        let line = parts.join(" ").replace(" tip: ", "; ").replace(" [possible values", "; [possible values");
+        let usage = text.lines().find_map(|line| line.trim().strip_prefix("Usage: "));
+        let named = usage.and_then(|usage| usage.strip_prefix(self.call)?.split_whitespace().next());
+        let command = named.filter(|word| word.starts_with(|c: char| c.is_ascii_lowercase()));
+        format!("{line} (see {} {}--help)", self.call, command.map_or(String::new(), |name| format!("{name} ")))
+    }
+}
+
+/// How the program ends after its command: an error is printed, and one of use has its own exit code.
+pub fn end(outcome: Result<()>) -> ExitCode {
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            if error.is::<UsageError>() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Teeth in contact: laws, stiffness, meshes of every kind against explicit flanks, finite elements and closed forms.
+
+mod bench;
+mod errors_explicit;
+mod hunt_crossley;
+mod mesh_conjugacy;
+mod mesh_detailed;
+mod mesh_explicit;
+#[path = "../common/mesh_laws.rs"]
+mod mesh_laws;
+mod mesh_potential;
+mod mesh_rotated_flanks;
+mod mesh_shared;
+mod solid_contact;
+mod stiffness_pairs;
+mod tooth_bodies;
+mod tooth_corner_stiffness;
+mod tooth_finite_elements;
+mod tooth_laws;
+mod tooth_load_places;
+mod tooth_stiffness;

@@ -1,0 +1,6 @@
+//! Meshes of a planet that share elastic bodies: forces of all pairs from one energy, exact derivatives, and loads of pairs as
+//! the compliance between them says.
+
+mod derivatives;
+mod pairs;
+mod setup;

@@ -1,0 +1,178 @@
+//! Tooth pairs on elastic bodies against 3-D finite elements: single pairs, and two pairs that share a rotation.
+
+use crate::stiffness_pairs::{LINE_LOAD, PER_MM_UM, STEEL, buildable, random_pairs, stiffness};
+use bevel_differential::contact::bodies::{MeshOnBodies, Support};
+use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
+use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
+
+/// Rows of one gear set on one support.
+struct Set {
+    name: String,
+    spec: GearSpec,
+    supports: [Support; 2],
+    /// s [rad], q of planet and side gear [mm·µm/N], c [N/(mm·µm)].
+    single: Vec<[f64; 4]>,
+    /// s [rad], c of both with and without coupling [N/(mm·µm)].
+    double: Vec<[f64; 3]>,
+}
+
+/// Fillet of the reference [modules].
+const FILLET: f64 = 0.40;
+
+fn sets() -> Vec<Set> {
+    let mut sets: Vec<Set> = Vec::new();
+    let lines = include_str!("../data/golden_fe3d_pairs.csv").lines().filter(|l| !l.starts_with('#'));
+    for line in lines.skip(1) {
+        let columns: Vec<&str> = line.split(',').collect();
+        let number = |i: usize| columns[i].parse::<f64>().expect("a number");
+        let name = columns[..9].join(" ");
+        if sets.last().is_none_or(|set| set.name != name) {
+            let spec = GearSpec {
+                module: number(0) * 1e-3,
+                planet_teeth: number(1) as i32,
+                side_teeth: number(2) as i32,
+                pressure_angle: number(3).to_radians(),
+                addendum_system: match columns[5] {
+                    "gleason" => AddendumSystem::Gleason,
+                    "iso" => AddendumSystem::Iso23509,
+                    other => panic!("{other}"),
+                },
+                ..GearSpec::default()
+            };
+            let spec = GearSpec { face_width: number(4) * Pair::new(&spec).outer_cone, ..spec };
+            let supports = match columns[6] {
+                "tooth" => [Support::NearRoot; 2],
+                // the reference names radii
+                "full" => [number(7), number(8)].map(|radius| Support::Bore(2e-3 * radius)),
+                other => panic!("{other}"),
+            };
+            sets.push(Set { name, spec, supports, single: Vec::new(), double: Vec::new() });
+        }
+        let set = sets.last_mut().expect("a set");
+        match columns[9] {
+            "one" => set.single.push([number(10).to_radians(), number(11), number(12), number(14)]),
+            "two" => set.double.push([number(10).to_radians(), number(15), number(16)]),
+            other => panic!("{other}"),
+        }
+    }
+    sets
+}
+
+#[test]
+fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
+    let sets = sets();
+    assert_eq!(sets.len(), 8);
+    for set in sets {
+        let free = stiffness(&set.spec, FILLET);
+        let mesh = MeshOnBodies::new(&Pair::new(&set.spec), &free.teeth, set.supports, 1).expect("bodies");
+        let reference = LINE_LOAD / Pair::new(&set.spec).mean_cone;
+        println!("{}", set.name);
+        let mut mean = 0.0;
+        for &[s, planet, side, c] in &set.single {
+            let alone = mesh.alone(s, reference);
+            let [q1, q2] = alone.gear.map(|q| q * PER_MM_UM);
+            let ratio = alone.stiffness() / PER_MM_UM / c;
+            let off = |x: f64| 100.0 * (x - 1.0);
+            println!(
+                "  s {:7.3}°: q planet {:+.1} %, side {:+.1} %, c {:+.1} %",
+                s.to_degrees(),
+                off(q1 / planet),
+                off(q2 / side),
+                off(ratio)
+            );
+            assert!((ratio - 1.0).abs() < 0.07, "{} at {s}: {ratio}", set.name);
+            mean += ratio / set.single.len() as f64;
+        }
+        println!("  mean c {:+.1} %", 100.0 * (mean - 1.0));
+        assert!((mean - 1.0).abs() < 0.04, "{}: {mean}", set.name);
+        for &[s, c_sum, c_free] in &set.double {
+            let [both, apart] = mesh.two_pairs(s, reference).map(|c| c / PER_MM_UM);
+            let points = 100.0 * (both / apart - c_sum / c_free);
+            println!(
+                "  two s {:7.3}°: {:+.1} %, ratio {points:+.1} points",
+                s.to_degrees(),
+                100.0 * (both / c_sum - 1.0)
+            );
+            assert!((both / c_sum - 1.0).abs() < 0.06, "{} at {s}: {both} for {c_sum}", set.name);
+            assert!(points.abs() < 3.0, "{} at {s}: {points}", set.name);
+        }
+    }
+}
+
+#[test]
+fn loads_and_displacements_of_any_gears_belong_to_each_other() {
+    let (mut seen, mut pairs) = (0, [0; 3]);
+    for spec in random_pairs(16).filter(buildable).take(60) {
+        let pair = Pair::new(&spec);
+        let Ok(free) = PairStiffness::new(&pair, &RootSpec { fillet: 0.3 }, STEEL.young, STEEL.poisson, LINE_LOAD)
+        else {
+            continue;
+        };
+        // bores of half the root circle at the toe
+        let bores = [0, 1].map(|i| Support::Bore(pair.inner_cone * pair.gears[i].root.sin()));
+        for supports in [
+            [Support::NearRoot; 2],
+            bores,
+            bores.map(|bore| match bore {
+                Support::Bore(diameter) => Support::FreeBore(diameter),
+                other => other,
+            }),
+        ] {
+            let mesh = MeshOnBodies::new(&pair, &free.teeth, supports, 1).expect("bodies");
+            let reference = LINE_LOAD / pair.mean_cone;
+            let [low, high] = free.range;
+            for k in 0..=8 {
+                let s = low + (high - low) * f64::from(k) / 8.1;
+                // the compliance of pairs on the path is positive
+                let places = [0.0, 1.0, 2.0].map(|k| s + k * pair.base_pitch);
+                let alone = places.map(|s| mesh.alone(s.min(high), reference).total());
+                let [near, far] = [1, 2].map(|further| mesh.coupling(s, further));
+                let next = mesh.coupling(places[1], 1);
+                let minor = alone[0] * alone[1] - near * near;
+                let determinant = alone[0] * (alone[1] * alone[2] - next * next)
+                    - near * (near * alone[2] - next * far)
+                    + far * (near * next - alone[1] * far);
+                let on_path = places.iter().filter(|&&s| s <= high).count();
+                pairs[on_path - 1] += 1;
+                let positive = [alone[0] > 0.0, minor > 0.0, determinant > 0.0];
+                assert!(positive[..on_path].iter().all(|&p| p), "{spec:?} {supports:?} at {s}");
+            }
+            for body in &mesh.bodies {
+                for angle in [0.0, 0.3, 1.0, 3.0] {
+                    let (there, back) = (body.between(angle), body.between(-angle));
+                    for i in 0..3 {
+                        for j in 0..3 {
+                            let scale = (body.between(0.0)[i][i] * body.between(0.0)[j][j]).sqrt();
+                            assert!((there[i][j] - back[j][i]).abs() < 1e-9 * scale, "{spec:?} at {angle}");
+                        }
+                    }
+                }
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen >= 90 && pairs[1] > 100, "{seen} {pairs:?}");
+}
+
+#[test]
+fn a_bore_that_leaves_no_body_is_refused_by_name() {
+    let pair = Pair::new(&GearSpec::default());
+    let teeth = stiffness(&GearSpec::default(), FILLET).teeth;
+    let problem = MeshOnBodies::new(&pair, &teeth, [Support::NearRoot, Support::Bore(0.06)], 1).expect_err("no body");
+    assert_eq!(problem.variable, "geometry.side_bore");
+    assert!(problem.to_string().contains("60.000 mm"), "{problem}");
+}
+
+#[test]
+fn a_deeper_hold_and_a_narrower_face_are_softer() {
+    let spec = GearSpec::default();
+    let reference = LINE_LOAD / Pair::new(&spec).mean_cone;
+    let soft = |spec: &GearSpec, supports: [Support; 2]| {
+        let mesh = MeshOnBodies::new(&Pair::new(spec), &stiffness(spec, FILLET).teeth, supports, 1).expect("bodies");
+        mesh.alone(0.0, reference).total()
+    };
+    let bores = [6e-3, 12e-3, 20e-3, 28e-3].map(|side| soft(&spec, [Support::NearRoot, Support::Bore(side)]));
+    assert!(bores.is_sorted_by(|a, b| a > b), "{bores:?}");
+    let faces = [20e-3, 12e-3, 6e-3].map(|face_width| soft(&GearSpec { face_width, ..spec }, [Support::NearRoot; 2]));
+    assert!(faces.is_sorted_by(|a, b| a < b), "{faces:?}");
+}

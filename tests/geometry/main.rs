@@ -1,0 +1,4 @@
+//! Geometry of a pair of gears against golden numbers, and its checks.
+
+mod checks;
+mod golden;

@@ -1,0 +1,19 @@
+//! The whole model in a simulation: motion, statics, balance of momentum, mirror images, what values are felt.
+
+mod angular_momentum;
+mod assembled_jacobian;
+mod body_compliance;
+#[path = "../common/mod.rs"]
+mod common;
+mod communication;
+mod felt;
+mod gear_parameters;
+mod kept;
+mod mesh_history;
+mod messages;
+mod mirror;
+mod momentum;
+mod motion;
+mod pair_lines;
+mod solid_loads;
+mod statics;

@@ -1,0 +1,60 @@
+//! Torque bias and locking value of a differential with friction that is driven in all senses.
+
+use bevel_differential::model::{CarrierDrive, Inputs, Parameters, SideDrive};
+
+use super::scene::{Course, Scene, Step, output};
+use super::teeth::View;
+
+/// Wheels held at different speeds, the carrier driven by torque; washers, pins and flanks with friction.
+fn held_apart(torque: f64, carrier: f64, apart: f64) -> Scene {
+    let mut p = Parameters::default();
+    p.scene.carrier_drive = CarrierDrive::Torque;
+    (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Speed, SideDrive::Speed);
+    p.effects.thrust_friction = true;
+    p.effects.tooth_friction = true;
+    let inputs = Inputs {
+        carrier_torque: torque,
+        carrier_speed: carrier,
+        side_speed: [carrier + apart, carrier - apart],
+        ..Inputs::default()
+    };
+    let steps = vec![Step { size: 4e-3, inputs, derivatives: None }; 100];
+    Scene::new(p, inputs, steps).expect("a scene")
+}
+
+fn readings(course: &Course, name: &str) -> Vec<f64> {
+    course.values.iter().map(|values| values[output(name)]).collect()
+}
+
+#[test]
+fn a_bias_by_friction_is_above_one_in_every_sense() {
+    // together 0.055 at the pitch point (theory.md, section 9), less some per cent over the path
+    let expected = (1.0 + 0.055) / (1.0 - 0.055) - 1.0;
+    for torque in [1670.0, -1670.0] {
+        for (carrier, apart) in [(50.0, 2.5), (-50.0, 2.5), (50.0, -2.5), (0.0, 2.5), (0.0, -2.5)] {
+            let course = held_apart(torque, carrier, apart).run().expect("a scene that starts");
+            assert_eq!(course.failure, None);
+            let ratio = readings(&course, "torque_bias_ratio");
+            // a tooth cycle takes 0.157 s; from then on its mean is read
+            let settled = &ratio[60..];
+            assert!(settled.iter().all(|ratio| *ratio >= 1.0), "{torque} {carrier} {apart}: {settled:?}");
+            let last = settled[settled.len() - 1];
+            assert!((last - 1.0 - expected).abs() < 0.1 * expected, "{torque} {carrier} {apart}: {last}");
+        }
+    }
+}
+
+#[test]
+fn the_means_of_a_mesh_cycle_are_the_same_forward_backward_and_from_side_to_side_at_every_instant() {
+    let scene = held_apart(1670.0, 50.0, 2.5);
+    let forward = scene.run().expect("a scene that starts");
+    for view in [View::Reversed, View::Swapped] {
+        let image = scene.image(view).run().expect("an image that starts");
+        for name in ["locking_value", "torque_bias_ratio"] {
+            let (one, other) = (readings(&forward, name), readings(&image, name));
+            for (k, (a, b)) in one.iter().zip(&other).enumerate() {
+                assert!((a - b).abs() < 1e-9, "{view:?} {name} at {} s: {a} and {b}", forward.times[k]);
+            }
+        }
+    }
+}

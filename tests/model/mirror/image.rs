@@ -1,0 +1,199 @@
+//! Images of a scene, by the table of symmetries: its parameters and inputs, its start, and where its outputs are found.
+
+use std::f64::consts::TAU;
+
+use bevel_differential::contact::errors::FaultyGear;
+use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Layout, State};
+use bevel_differential::variables::{Access, Variable, table};
+
+use super::scene::{Scene, output, outputs};
+use super::table::{Parity, line_of, lines};
+use super::teeth::{self, View};
+
+/// First planet and first wheel among the bodies that may stick; side gears come first.
+const PLANETS: usize = 2;
+const WHEELS: usize = 6;
+
+/// An output in an image: `factor` times its value plus `added`.
+#[derive(Clone, Copy)]
+pub struct Mapped {
+    pub output: usize,
+    pub factor: f64,
+    pub added: f64,
+    /// Whether only its magnitude is known.
+    pub magnitude: bool,
+}
+
+impl Scene {
+    /// The scene in the image `view`, by the table.
+    pub fn image(&self, view: View) -> Self {
+        let mut image = self.clone();
+        image.inputs = self.image_of_inputs(view, &self.inputs);
+        for step in &mut image.steps {
+            step.inputs = self.image_of_inputs(view, &step.inputs);
+            if let Some(derivatives) = &mut step.derivatives {
+                derivatives.rates = derivatives.rates.map(|rate| self.image_of_inputs(view, &rate));
+            }
+        }
+        let (mut from, to) = (self.parameters, &mut image.parameters);
+        for row in table().rows.iter().filter(|row| !matches!(row.access, Access::Output(_))) {
+            let there = same(&self.name(view, row.name));
+            let sign = self.sign(view, row.name);
+            match (row.access, there.access) {
+                (Access::Real(here), Access::Real(there)) => *there(to) = sign * *here(&mut from),
+                (Access::Integer(here), Access::Integer(there)) => *there(to) = *here(&mut from),
+                (Access::Boolean(here), Access::Boolean(there)) => *there(to) = *here(&mut from),
+                (Access::Enumeration(_, get, _), Access::Enumeration(_, _, set)) => set(to, get(&from)),
+                _ => {}
+            }
+        }
+        let spec = &self.parameters.geometry;
+        let fault = &mut image.parameters.specs.tooth_fault;
+        let (first, teeth) = match fault.gear {
+            FaultyGear::Planet => (2, spec.planet_teeth),
+            _ => (0, spec.side_teeth),
+        };
+        let broken = teeth::renumbered(view, spec, first + fault.index as usize);
+        fault.index = (broken.gear - first) as i32;
+        fault.tooth = broken.tooth(i64::from(fault.tooth)).rem_euclid(i64::from(teeth)) as i32;
+        image.teeth = self.teeth.as_ref().map(|teeth| teeth::image(view, spec, teeth));
+        image
+    }
+
+    /// Angles by which planets, left and right side gear stand further in the image [rad]: an image that starts in a cycle
+    /// of the teeth that is not the first.
+    pub fn ahead(&self, view: View) -> [f64; 3] {
+        let pitches = match view {
+            View::Swapped if self.parameters.geometry.planet_teeth % 2 == 1 => 0.5,
+            View::Shifted => 1.0,
+            _ => 0.0,
+        };
+        let [planet, side] = self.pair().gears.map(|gear| pitches * gear.tooth_pitch());
+        [planet, side, -side]
+    }
+
+    /// Where the image goes on from, if it does not start as a scene does.
+    pub fn image_of_start(&self, view: View, start: &State, layout: &Layout) -> Option<State> {
+        let ahead = self.ahead(view);
+        // of two equal wells a start takes the one of positive spin, which in a swapped image is the other one
+        if ahead == [0.0; 3] && view != View::Swapped {
+            return None;
+        }
+        let mut image = *start;
+        if view == View::Shifted {
+            // whole pitches are counted
+            for (i, pitches) in [(0, 1), (1, -1)].into_iter().chain((0..layout.groups).map(|g| (layout.planet(g), 1))) {
+                image.turns[i] += pitches;
+            }
+            return Some(image);
+        }
+        image.q.swap(0, 1);
+        image.v.swap(0, 1);
+        let [seats, ends] = [[layout.seat(0), layout.seat(1)], [layout.end(0), layout.end(1)]];
+        for ([left, right], _) in [(seats, layout.pins), (ends, layout.ends)].into_iter().filter(|(_, are)| *are) {
+            image.q.swap(left, right);
+            image.v.swap(left, right);
+        }
+        image.friction.swap(0, 1);
+        image.friction.swap(WHEELS, WHEELS + 1);
+        for g in 0..layout.groups {
+            let (i, friction) = (layout.planet(g), &mut image.friction[PLANETS + g]);
+            (image.q[i], image.v[i]) = (ahead[0] - image.q[i], -image.v[i]);
+            (friction.anchor, friction.mode) = (ahead[0] - friction.anchor, friction.mode.reversed());
+        }
+        for s in 0..2 {
+            image.q[s] += ahead[1 + s];
+            image.friction[s].anchor += ahead[1 + s];
+            image.friction[WHEELS + s].anchor += ahead[1 + s];
+        }
+        Some(image)
+    }
+
+    fn image_of_inputs(&self, view: View, inputs: &Inputs) -> Inputs {
+        let (mut from, mut image) = (*inputs, Inputs::ZERO);
+        for row in &table().rows {
+            let Access::Input(here) = row.access else { continue };
+            if let Access::Input(there) = same(&self.name(view, row.name)).access {
+                *there(&mut image) = self.sign(view, row.name) * *here(&mut from);
+            }
+        }
+        image
+    }
+
+    /// How a variable maps.
+    fn parity(&self, view: View, name: &str) -> Parity {
+        let line = &lines()[line_of(name).unwrap_or_else(|| panic!("{name} is in no table"))];
+        match view {
+            View::Reversed => line.parity[0],
+            View::Swapped => line.parity[1],
+            View::Renumbered | View::Shifted => Parity::Even,
+        }
+    }
+
+    /// Factor of a variable in the image.
+    fn sign(&self, view: View, name: &str) -> f64 {
+        let by_torque = self.parameters.scene.carrier_drive == CarrierDrive::Torque;
+        // two planets that change places stand half a turn further
+        if view == View::Renumbered && self.planets() == 2 && name == "tooth_errors.axis_offset" {
+            return -1.0;
+        }
+        match self.parity(view, name) {
+            Parity::Odd | Parity::Lash => -1.0,
+            Parity::Wave if by_torque => -1.0,
+            _ => 1.0,
+        }
+    }
+
+    /// Name of a variable in the image.
+    fn name(&self, view: View, name: &str) -> String {
+        let n = self.planets();
+        match (view, planet_of(name)) {
+            (View::Swapped, _) => name.replace("left", "LEFT").replace("right", "left").replace("LEFT", "right"),
+            (View::Reversed | View::Renumbered, Some(i)) if i <= n => {
+                let to = teeth::renumbered(view, &self.parameters.geometry, 1 + i).gear - 1;
+                name.replace(&format!("planet[{i}]"), &format!("planet[{to}]"))
+            }
+            _ => name.into(),
+        }
+    }
+
+    /// Where each output is found in the image, and what becomes of it there.
+    pub fn map(&self, view: View) -> Vec<Mapped> {
+        let pair = self.pair();
+        let (lash, [ahead, left, right]) = (pair.normal_backlash * pair.mean_cone, self.ahead(view));
+        outputs()
+            .iter()
+            .map(|row| {
+                // planets that there are not have no lash, nor have gears without teeth
+                let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
+                let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
+                let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
+                let image = self.name(view, row.name);
+                let added = match image.as_str() {
+                    "left.angle" | "left.wheel_angle" | "left.relative_angle" => left,
+                    "right.angle" | "right.wheel_angle" | "right.relative_angle" => right,
+                    name if name.ends_with(".spin_angle") && planet => ahead,
+                    _ => apart,
+                };
+                let mapped =
+                    Mapped { output: output(&image), factor: self.sign(view, row.name), added, magnitude: false };
+                if view == View::Renumbered && row.name == "mesh.frequency" {
+                    // the frequency is that of planet 1, which is planet 2 in the image
+                    let factor = TAU / f64::from(self.parameters.geometry.planet_teeth);
+                    return Mapped { output: output("planet[2].spin_speed"), factor, magnitude: true, ..mapped };
+                }
+                mapped
+            })
+            .collect()
+    }
+}
+
+/// Number of the planet in a name, from 1.
+fn planet_of(name: &str) -> Option<usize> {
+    let at = name.find("planet[")? + "planet[".len();
+    name[at..at + 1].parse().ok()
+}
+
+fn same(name: &str) -> &'static Variable {
+    table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}"))
+}

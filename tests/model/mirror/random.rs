@@ -1,0 +1,304 @@
+//! Random scenes of all kinds: gears, laws, drives, starts, inputs with derivatives, and all effects.
+
+use bevel_differential::contact::errors::FaultyGear;
+use bevel_differential::contact::{ContactLaw, DampingModel};
+use bevel_differential::friction::FrictionLaw;
+use bevel_differential::geometry::AddendumSystem;
+use bevel_differential::model::{
+    CarrierDrive, GearContact, InputDerivatives, Inputs, Method, Parameters, PlanetSpin, SideDrive, Start,
+};
+
+use super::scene::{Scene, Step};
+
+/// Communication steps of a scene.
+const STEPS: usize = 14;
+/// Module to which loads and sizes are given; others are similar [m].
+const MODULE: f64 = 4.5e-3;
+
+/// Tells generators of one scene apart.
+const LATER: u64 = 1 << 40;
+const ROLLING: u64 = 1 << 41;
+
+/// SplitMix64.
+pub struct Draw(u64);
+
+impl Draw {
+    pub fn new(seed: u64) -> Self {
+        let mut draw = Self(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        draw.unit();
+        draw
+    }
+
+    /// Evenly from 0 to 1.
+    pub fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + self.unit() * (high - low)
+    }
+
+    /// By logarithm, up to `factor` times more or less than `middle`.
+    fn about(&mut self, middle: f64, factor: f64) -> f64 {
+        middle * factor.powf(self.between(-1.0, 1.0))
+    }
+
+    pub fn chance(&mut self, share: f64) -> bool {
+        self.unit() < share
+    }
+
+    pub fn whole(&mut self, low: i32, high: i32) -> i32 {
+        low + (self.unit() * f64::from(high - low + 1)) as i32
+    }
+
+    fn of<T: Copy>(&mut self, choices: &[T]) -> T {
+        choices[(self.unit() * choices.len() as f64) as usize]
+    }
+}
+
+/// Scene number `index`; some cannot be built or loaded.
+pub fn scene(index: u64) -> Option<Scene> {
+    let d = &mut Draw::new(index);
+    let mut p = Parameters::default();
+    gears(d, &mut p);
+    contact(d, &mut p);
+    drives(d, &mut p);
+    effects(d, &mut p);
+    bodies(&mut Draw::new(!index), &mut p);
+    later(&mut Draw::new(index ^ LATER), &mut p);
+    solver(d, &mut p);
+    let inputs = inputs(d, &p);
+    let duration = d.between(3e-3, 8e-3);
+    let steps = steps(d, &p, inputs, duration);
+    Scene::new(p, inputs, steps).ok()
+}
+
+fn gears(d: &mut Draw, p: &mut Parameters) {
+    let g = &mut p.geometry;
+    g.module = d.about(MODULE, 2.0);
+    g.planet_teeth = d.whole(9, 15);
+    g.side_teeth = g.planet_teeth + d.whole(2, 14);
+    let fitting: Vec<i32> = (2..=4).filter(|n| 2 * g.side_teeth % n == 0).collect();
+    g.planet_count = d.of(&fitting);
+    g.pressure_angle = d.between(0.31, 0.42);
+    let ratio = f64::from(g.side_teeth) / f64::from(g.planet_teeth);
+    let cone = 0.5 * g.module * f64::from(g.planet_teeth) * (1.0 + ratio * ratio).sqrt();
+    g.face_width = cone * d.between(0.15, 0.33);
+    g.backlash = g.module * d.between(0.0, 0.04);
+    g.addendum_system =
+        d.of(&[AddendumSystem::Standard, AddendumSystem::Gleason, AddendumSystem::Iso23509, AddendumSystem::Explicit]);
+    g.root_fillet = d.between(0.1, 0.4);
+    p.effects.backlash = d.chance(0.9);
+    p.effects.corner_contact = d.chance(0.9);
+    let growth = (g.module / MODULE).powi(5);
+    p.inertia.carrier = growth * d.about(0.02, 3.0);
+    p.inertia.left_end = if d.chance(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
+    p.inertia.right_end = if d.chance(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
+}
+
+fn contact(d: &mut Draw, p: &mut Parameters) {
+    let c = &mut p.contact;
+    c.law = d.of(&[ContactLaw::Impact, ContactLaw::Line, ContactLaw::LineWeber]);
+    c.stiffness_from_hertz = d.chance(0.5);
+    c.stiffness *= d.between(0.3, 2.0);
+    c.damping *= d.between(0.2, 2.0);
+    c.damping_model = d.of(&[DampingModel::Step, DampingModel::Restitution]);
+    c.restitution = d.between(0.3, 0.95);
+    c.mesh_stiffness_from_geometry = d.chance(0.5);
+    p.scene.gear_contact = match d.unit() {
+        u if u < 0.08 => GearContact::Ideal,
+        u if u < 0.2 => GearContact::Lumped,
+        u if u < 0.26 => GearContact::Solid,
+        _ => GearContact::Tooth,
+    };
+    p.solid.facets = d.whole(8, 16);
+    if p.scene.gear_contact == GearContact::Solid {
+        c.law = ContactLaw::Impact;
+    }
+}
+
+fn drives(d: &mut Draw, p: &mut Parameters) {
+    let s = &mut p.scene;
+    let (speed, torque) = (SideDrive::Speed, SideDrive::Torque);
+    let (imposed, left, right, spin) = d.of(&[
+        (true, torque, torque, PlanetSpin::Free),
+        (true, torque, torque, PlanetSpin::Imposed),
+        (false, torque, torque, PlanetSpin::Free),
+        (false, speed, torque, PlanetSpin::Free),
+        (true, torque, speed, PlanetSpin::Free),
+        (false, speed, speed, PlanetSpin::Free),
+        (false, torque, torque, PlanetSpin::Imposed),
+    ]);
+    s.carrier_drive = if imposed { CarrierDrive::Speed } else { CarrierDrive::Torque };
+    (s.left_drive, s.right_drive, s.planet_spin) = (left, right, spin);
+    s.start = d.of(&[Start::Equilibrium, Start::Equilibrium, Start::Rolling, Start::Rest]);
+}
+
+fn effects(d: &mut Draw, p: &mut Parameters) {
+    let contact = p.scene.gear_contact;
+    let [tooth, elastic] = [contact == GearContact::Tooth, matches!(contact, GearContact::Tooth | GearContact::Lumped)];
+    let m = p.geometry.module;
+    let (e, s) = (&mut p.effects, &mut p.specs);
+    e.tooth_errors = (tooth || contact == GearContact::Solid) && d.chance(0.4);
+    let t = &mut s.tooth_errors;
+    t.seed = d.whole(0, 1000);
+    if tooth {
+        t.accuracy_grade = if d.chance(0.6) { d.whole(4, 10) } else { 0 };
+        t.runout_by_grade = t.accuracy_grade > 0 && d.chance(0.5);
+        (t.planet_runout, t.side_runout) = (m * d.between(0.0, 0.01), m * d.between(0.0, 0.01));
+        (t.planet_tip_relief, t.side_tip_relief) = (m * d.between(0.0, 0.01), m * d.between(0.0, 0.01));
+    }
+    t.crowning = if d.chance(0.5) { m * d.between(0.0, 0.01) } else { 0.0 };
+    t.shaft_angle_error = if d.chance(0.5) { d.between(-1e-3, 1e-3) } else { 0.0 };
+    t.planet_axial_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    t.side_axial_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    t.axis_offset = if d.chance(0.3) { m * d.between(-0.01, 0.01) } else { 0.0 };
+    e.tooth_fault = tooth && d.chance(0.25);
+    let f = &mut s.tooth_fault;
+    (f.gear, f.missing_fraction) = (d.of(&[FaultyGear::Planet, FaultyGear::Side]), d.between(0.55, 1.0));
+    // teeth that are in mesh at the start, or come into it soon
+    f.index = d.whole(0, 1);
+    let teeth = if f.gear == FaultyGear::Planet { p.geometry.planet_teeth } else { p.geometry.side_teeth };
+    f.tooth = d.whole(-2, 2).rem_euclid(teeth);
+    f.onset = if d.chance(0.5) { d.between(0.0, 6e-3) } else { 0.0 };
+    e.tooth_friction = tooth && d.chance(0.3);
+    s.tooth_friction.law = d.of(&[
+        FrictionLaw::CoulombStribeck,
+        FrictionLaw::BenedictKelley,
+        FrictionLaw::Iso14179,
+        FrictionLaw::XuKahraman,
+    ]);
+    e.thrust_friction = elastic && d.chance(0.3);
+    s.thrust_friction.radii_from_geometry = true;
+    s.thrust_friction.coefficient = d.between(0.0, 0.15);
+    s.thrust_friction.pin_coefficient = d.between(0.0, 0.15);
+    e.limited_slip = d.chance(0.25);
+    s.limited_slip.preload = d.between(0.0, 100.0);
+    s.limited_slip.torque_coefficient = if contact == GearContact::Ideal { 0.0 } else { d.between(0.0, 0.3) };
+    s.limited_slip.static_ratio = d.between(1.0, 1.5);
+    e.half_shaft = d.chance(0.4);
+    s.half_shaft.stiffness = [d.about(1e4, 4.0), d.about(1e4, 4.0)];
+    s.half_shaft.damping = [d.between(0.0, 10.0), d.between(0.0, 10.0)];
+    e.pin_compliance = elastic && d.chance(0.25);
+    s.pin_compliance.damping_time = d.between(0.0, 1e-4);
+    e.bearing_drag = d.chance(0.3);
+    e.final_drive = d.chance(0.2);
+    s.final_drive.ring_teeth = d.whole(20, 60);
+    e.strength = contact != GearContact::Ideal && d.chance(0.4);
+    // so weak that damage shows in a moment
+    s.strength.bending_cycles = 1e5;
+    s.strength.bending_strength = d.about(3e8, 2.0);
+    s.strength.contact_strength = d.about(5e8, 2.0);
+    e.wheel_brake = d.chance(0.3);
+}
+
+/// Gear bodies, drawn by a generator of their own.
+fn bodies(d: &mut Draw, p: &mut Parameters) {
+    let m = p.geometry.module;
+    p.effects.body_compliance =
+        p.scene.gear_contact == GearContact::Tooth && p.contact.law != ContactLaw::Impact && d.chance(0.5);
+    p.geometry.planet_bore = if d.chance(0.5) { m * d.between(0.5, 3.0) } else { 0.0 };
+    p.geometry.side_bore = if d.chance(0.5) { m * d.between(0.5, 5.0) } else { 0.0 };
+}
+
+/// Effects that were added later, drawn by a generator of their own, which leaves the scenes what they were.
+fn later(d: &mut Draw, p: &mut Parameters) {
+    p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.chance(0.5);
+}
+
+/// Scene number `index` with planets that roll over some teeth.
+pub fn rolling(index: u64) -> Option<Scene> {
+    let d = &mut Draw::new(index ^ ROLLING);
+    let Scene { parameters: mut p, mut inputs, mut steps, .. } = scene(index)?;
+    if p.scene.gear_contact == GearContact::Ideal {
+        return None;
+    }
+    p.effects.mesh_history = true;
+    p.scene.carrier_drive = CarrierDrive::Speed;
+    (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Torque, SideDrive::Torque);
+    p.scene.planet_spin = PlanetSpin::Imposed;
+    let spin = d.between(200.0, 300.0) * if d.chance(0.5) { 1.0 } else { -1.0 };
+    inputs.planet_spin = spin;
+    for step in &mut steps {
+        step.inputs.planet_spin = spin;
+        if let Some(derivatives) = &mut step.derivatives {
+            derivatives.rates.iter_mut().for_each(|rates| rates.planet_spin = 0.0);
+        }
+    }
+    Scene::new(p, inputs, steps).ok()
+}
+
+fn solver(d: &mut Draw, p: &mut Parameters) {
+    p.solver.method = d.of(&[
+        Method::Adaptive,
+        Method::Adaptive,
+        Method::Adaptive,
+        Method::Adaptive,
+        Method::Adaptive,
+        Method::FixedStep,
+        Method::Radau,
+        Method::Rodas4,
+    ]);
+    p.solver.relative_tolerance = 10f64.powf(d.between(-6.5, -4.5));
+    p.solver.fixed_step = 2e-5;
+    p.solver.merge_planets = d.chance(0.8);
+}
+
+fn inputs(d: &mut Draw, p: &Parameters) -> Inputs {
+    let load = 800.0 * (p.geometry.module / MODULE).powi(3);
+    let mut i = Inputs::ZERO;
+    i.carrier_speed = d.between(-120.0, 120.0);
+    i.planet_spin = d.between(-60.0, 60.0);
+    i.carrier_torque = 2.0 * load * d.between(-1.0, 1.0);
+    let common = load * d.between(-1.0, 1.0);
+    let difference = if d.chance(0.5) { 0.0 } else { 0.2 * load * d.between(-1.0, 1.0) };
+    i.load_torque = if d.chance(0.15) { [0.0; 2] } else { [common + difference, common - difference] };
+    i.side_speed = [i.carrier_speed + d.between(-10.0, 10.0), i.carrier_speed + d.between(-10.0, 10.0)];
+    i.brake_torque = if d.chance(0.5) { [0.0; 2] } else { [load * d.unit(), 0.5 * load * d.unit()] };
+    i.lock = if d.chance(0.15) { d.unit() } else { 0.0 };
+    i
+}
+
+/// Irregular steps; at some of them inputs jump, or begin to change with time.
+fn steps(d: &mut Draw, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<Step> {
+    let sizes: Vec<f64> = (0..STEPS).map(|_| d.between(0.2, 1.0)).collect();
+    let whole: f64 = sizes.iter().sum();
+    let mut steps = Vec::new();
+    for size in sizes {
+        let size = duration * size / whole;
+        if d.chance(0.1) {
+            inputs.load_torque[d.whole(0, 1) as usize] *= d.between(-0.5, 1.5);
+        }
+        if d.chance(0.1) {
+            inputs.carrier_torque *= d.between(-1.0, 1.0);
+        }
+        if d.chance(0.05) {
+            inputs.brake_torque = [inputs.brake_torque[1], 0.0];
+        }
+        if d.chance(0.05) {
+            inputs.lock = if inputs.lock > 0.0 { 0.0 } else { 1.0 };
+        }
+        if p.effects.tooth_fault && d.chance(0.1) {
+            inputs.fault = 1.0;
+        }
+        let derivatives = d.chance(0.15).then(|| {
+            let mut rate = Inputs::ZERO;
+            rate.load_torque = [inputs.load_torque[0] * d.between(-50.0, 50.0), 0.0];
+            rate.carrier_torque = inputs.carrier_torque * d.between(-50.0, 50.0);
+            rate.carrier_speed = inputs.carrier_speed * d.between(-5.0, 5.0);
+            rate.planet_spin = inputs.planet_spin * d.between(-5.0, 5.0);
+            rate.brake_torque = [0.0, inputs.brake_torque[1] * d.between(-50.0, 50.0)];
+            InputDerivatives { rates: [rate, Inputs::ZERO.plus(-40.0, &rate)] }
+        });
+        steps.push(Step { size, inputs, derivatives });
+        if let Some(derivatives) = derivatives {
+            // the next step begins where this one ends
+            inputs = derivatives.after(size, &inputs).0;
+        }
+    }
+    steps
+}

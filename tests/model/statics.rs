@@ -1,0 +1,267 @@
+//! Statics: preload, sharing of load, the cogging well of free planets and its threshold.
+
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::contact::impact::Impact;
+use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
+use bevel_differential::geometry::{GearSpec, Pair};
+use bevel_differential::model::{Forces, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start, readings};
+
+const LOAD: f64 = 835.0;
+
+fn started(parameters: &Parameters, inputs: &Inputs) -> Simulation {
+    Simulation::start(parameters, inputs, 0.0).unwrap()
+}
+
+fn teeth(planet: i32, side: i32, count: i32) -> Parameters {
+    let mut p = Parameters::default();
+    p.geometry.planet_teeth = planet;
+    p.geometry.side_teeth = side;
+    p.geometry.planet_count = count;
+    p
+}
+
+/// Normal force per mesh of rigid gears [N]: T / (N R_m sinδ_bs).
+fn rigid_force(pair: &Pair, count: f64) -> f64 {
+    LOAD / (count * pair.mean_cone * pair.sin_base()[1])
+}
+
+#[test]
+fn equilibrium_starts_with_balanced_torques_and_no_acceleration() {
+    for (z_p, z_s, n) in [(10, 16, 2), (10, 16, 4), (9, 14, 4), (11, 15, 2), (11, 15, 3), (10, 18, 3), (10, 18, 4)] {
+        let mut s = started(&teeth(z_p, z_s, n), &Inputs::default());
+        let inertia = s.inertias().side[0];
+        let f = *s.forces();
+        for side in 0..2 {
+            let torque = f.side_tangential[side] * 0.5 * 4.5e-3 * f64::from(z_s);
+            assert!((torque - LOAD).abs() < 1e-6, "{z_p}/{z_s}, {n} planets: {torque}");
+            assert!((f.side_acceleration[side] * inertia).abs() < 1e-6);
+        }
+        assert!((f.carrier_torque - 2.0 * LOAD).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn three_planets_that_differ_stay_in_the_equilibrium_they_start_in() {
+    for (planet, pins) in [(10, false), (11, false), (10, true), (11, true)] {
+        let mut p = teeth(planet, 15, 3);
+        (p.effects.tooth_errors, p.effects.pin_compliance) = (true, pins);
+        p.contact.law = ContactLaw::Line;
+        let errors = &mut p.specs.tooth_errors;
+        (errors.accuracy_grade, errors.axis_offset) = (5, -50e-6);
+        (errors.planet_tip_relief, errors.side_tip_relief) = (35e-6, 25e-6);
+        let inputs = Inputs { load_torque: [-300.0, -303.0], ..Inputs::default() };
+        let mut s = started(&p, &inputs);
+        let normals =
+            |s: &mut Simulation| s.forces().mesh[..3].iter().flatten().map(|m| m.normal).collect::<Vec<f64>>();
+        let begin = normals(&mut s);
+        for k in 1..=20 {
+            s.advance(f64::from(k) * 1e-5).unwrap();
+            let off =
+                normals(&mut s).iter().zip(&begin).map(|(now, then)| (now / then - 1.0).abs()).fold(0.0, f64::max);
+            // the gears turn by 0.5 degrees
+            assert!(off < 0.02, "{planet} teeth, pins {pins}: {off} after {k} steps");
+        }
+    }
+}
+
+#[test]
+fn four_planets_carry_half_the_force_of_two() {
+    for count in [2, 4] {
+        let mut s = started(&teeth(10, 16, count), &Inputs::default());
+        let expected = rigid_force(s.pair(), f64::from(count));
+        let f = *s.forces();
+        for i in 0..count as usize {
+            for side in 0..2 {
+                assert!((f.mesh[i][side].normal / expected - 1.0).abs() < 1e-9, "{}", f.mesh[i][side].normal);
+            }
+        }
+        assert_eq!(f.mesh[count as usize..].iter().map(|m| m[0].normal).sum::<f64>(), 0.0);
+    }
+}
+
+#[test]
+fn thrusts_follow_the_turning_normal() {
+    let mut s = started(&Parameters::default(), &Inputs::default());
+    let (pair, f) = (*s.pair(), *s.forces());
+    // in the straight state one pair stands at s = γ_p,pitch sinδ_bp: T(s) = cos s T₀ − sin s P₀
+    let at = pair.centred_position();
+    let (alpha, delta) = (pair.pressure_angle, pair.gears[1].pitch);
+    let side = alpha.sin() * delta.sin() * at.cos() - delta.cos() * at.sin();
+    let planet = alpha.sin() * delta.cos() * at.cos() + delta.sin() * at.sin();
+    let mesh = f.mesh[0][0];
+    assert_eq!(mesh.pairs, 1.0);
+    assert!((mesh.side_thrust / (mesh.normal * side) - 1.0).abs() < 1e-12);
+    assert!((mesh.planet_thrust / (mesh.normal * planet) - 1.0).abs() < 1e-12);
+    // what remains is tangential: with the arm of the contact point it is the torque on the carrier
+    let squares = mesh.side_thrust.powi(2) + mesh.planet_thrust.powi(2) + mesh.tangential.powi(2);
+    assert!((squares.sqrt() / mesh.normal - 1.0).abs() < 1e-12);
+    assert!((f.pin_force[0] / (2.0 * mesh.tangential) - 1.0).abs() < 1e-12, "thrusts of L and R cancel across the pin");
+}
+
+/// The default differential's mesh under the study's law, for statics by hand.
+struct Statics {
+    mesh: Mesh,
+    sin_base: [f64; 2],
+}
+
+impl Statics {
+    fn new() -> Self {
+        let pair = Pair::new(&GearSpec::default());
+        let law = Impact { stiffness: 5.77e5 * 1e3f64.powf(1.5), exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
+        Self { mesh: Mesh::new(&pair, Law::Impact(law), pair.mean_cone, true, 0.1), sin_base: pair.sin_base() }
+    }
+
+    /// Both planets alike: energy of the loaded mesh and torque on one planet, for side σ, spin ψ and load `torque`,
+    /// with the side gear where it carries the load.
+    fn side(&self, sigma: f64, psi: f64, torque: f64) -> (f64, f64) {
+        let x = sigma * self.sin_base[0] * psi;
+        let load = |q: f64| self.mesh.force(&MeshState { position: [q, x], rate: [0.0; 2], ..MeshState::default() });
+        let (mut lo, mut hi) = (-0.1, 0.0);
+        for _ in 0..100 {
+            let q = 0.5 * (lo + hi);
+            if 2.0 * self.sin_base[1] * load(q).force[0] > torque { lo = q } else { hi = q }
+        }
+        let alpha = (lo + x) / self.sin_base[1];
+        let [f_q, f_x] = load(lo).force;
+        (
+            2.0 * self.mesh.energy(&MeshState { position: [lo, x], ..MeshState::default() }) + torque * alpha,
+            sigma * self.sin_base[0] * (f_x - f_q),
+        )
+    }
+
+    /// Torque on both planets at spin ψ with `extra` on the left side.
+    fn spin_torque(&self, psi: f64, extra: f64) -> f64 {
+        2.0 * (self.side(1.0, psi, LOAD + extra).1 + self.side(-1.0, psi, LOAD).1)
+    }
+
+    /// Whether the planets can rest anywhere in a tooth cycle with `extra` on the left side.
+    fn rests(&self, extra: f64) -> bool {
+        let signs: Vec<bool> = (0..=400)
+            .map(|k| self.spin_torque(f64::from(k - 200) * std::f64::consts::PI / 2000.0, extra) > 0.0)
+            .collect();
+        signs.windows(2).any(|w| w[0] != w[1])
+    }
+
+    /// Steepest slope of the balanced well against the side gears' angle, max |dΠ/dα| with α = ψ z_p/z_s [N·m].
+    fn steepest(&self) -> f64 {
+        let ratio = self.sin_base[0] / self.sin_base[1];
+        (0..=400)
+            .map(|k| (self.spin_torque(f64::from(k - 200) * std::f64::consts::PI / 2000.0, 0.0) / ratio).abs())
+            .fold(0.0, f64::max)
+    }
+
+    fn threshold(&self) -> f64 {
+        let (mut lo, mut hi) = (0.0, 100.0);
+        while hi - lo > 0.01 {
+            let middle = 0.5 * (lo + hi);
+            if self.rests(middle) { lo = middle } else { hi = middle }
+        }
+        lo
+    }
+}
+
+#[test]
+fn the_cogging_well_has_the_depth_of_its_potential() {
+    let statics = Statics::new();
+    let energy = |psi: f64| statics.side(1.0, psi, LOAD).0 + statics.side(-1.0, psi, LOAD).0;
+    let levels: Vec<f64> = (0..=200).map(|k| energy(f64::from(k) * std::f64::consts::PI / 1000.0)).collect();
+    let highest = levels.iter().copied().fold(f64::MIN, f64::max);
+    assert!((highest - levels[0] - 1.32).abs() < 0.02, "depth {} J", highest - levels[0]);
+    assert!(levels.iter().all(|&e| e >= levels[0] - 1e-9), "ψ = 0 is the minimum");
+}
+
+#[test]
+fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() {
+    let statics = Statics::new();
+    // 27.35 N·m is the result of an independent computation of the same potential (tests/python/test_cogging.py)
+    assert!((statics.steepest() - 27.35).abs() < 0.02, "steepest slope {} N·m", statics.steepest());
+    let threshold = statics.threshold();
+    assert!((threshold / statics.steepest() - 1.0).abs() < 0.01, "threshold {threshold} N·m");
+    let run = |extra: f64, start: Start, time: f64| {
+        let mut p = Parameters::default();
+        p.scene.start = start;
+        let mut inputs = Inputs::default();
+        inputs.load_torque[0] += extra;
+        let mut s = started(&p, &inputs);
+        for k in 1..=(time / 1e-3) as u32 {
+            s.advance(f64::from(k) * 1e-3).unwrap();
+        }
+        s.motion()
+    };
+    let carrier = Inputs::default().carrier_speed;
+    // from the transient of a rolling start, small imbalances settle with both sides at carrier speed
+    for extra in [1.0, 20.0] {
+        let m = run(extra, Start::Rolling, 0.5);
+        for speed in m.side_speed {
+            assert!((speed / carrier - 1.0).abs() < 1e-5, "+{extra} N·m: {speed}");
+        }
+        assert!(m.spin_angle[0].abs() < 0.1, "+{extra} N·m rolled {} rad", m.spin_angle[0]);
+    }
+    // quasi-statically the program's threshold is that of its potential
+    assert!(run(0.97 * threshold, Start::Equilibrium, 0.2).spin_speed[0].abs() < 1e-3);
+    for extra in [1.03 * threshold, 60.0] {
+        let m = run(extra, Start::Equilibrium, 0.1);
+        assert!(
+            m.side_speed[1] > carrier + 10.0 && m.side_speed[0] < carrier - 10.0,
+            "the lighter side is faster: {m:?}"
+        );
+        assert!(m.spin_speed[0] < -10.0);
+    }
+}
+
+#[test]
+fn a_load_no_tooth_can_carry_is_an_error_with_a_hint() {
+    let mut inputs = Inputs::default();
+    inputs.load_torque[1] = 1e7;
+    let problems = Simulation::start(&Parameters::default(), &inputs, 0.0).unwrap_err();
+    assert_eq!(problems[0].variable, "right.load_torque");
+    assert!(problems[0].message.contains("tooth deflection exceeds half the base pitch"), "{}", problems[0]);
+    // during a run it is a step failure with time and cause, and the state stays valid
+    let mut s = started(&Parameters::default(), &Inputs::default());
+    s.advance(0.01).unwrap();
+    let before = s.clone();
+    s.set_inputs(&inputs);
+    let failure = s.advance(0.02).unwrap_err();
+    assert!(failure.message.contains("tooth deflection exceeds half the base pitch"), "{failure}");
+    assert!(failure.time >= 0.01 && failure.time < 0.02 && s.state().is_valid());
+    // from the state before the load the run continues
+    let mut s = before;
+    s.advance(0.03).unwrap();
+}
+
+#[test]
+fn an_imposed_spin_starts_quasi_statically() {
+    let mut p = Parameters::default();
+    p.scene.planet_spin = PlanetSpin::Imposed;
+    let inputs = Inputs { carrier_speed: 954f64.to_radians(), planet_spin: 200f64.to_radians(), ..Inputs::default() };
+    let m = started(&p, &inputs).motion();
+    let (expected_left, expected_right) = (1079f64.to_radians(), 829f64.to_radians());
+    assert!(
+        (m.side_speed[0] / expected_left - 1.0).abs() < 1e-9 && (m.side_speed[1] / expected_right - 1.0).abs() < 1e-9
+    );
+}
+
+#[test]
+fn half_shafts_start_wound_on_every_level_and_rest() {
+    for level in [GearContact::Ideal, GearContact::Lumped, GearContact::Tooth] {
+        let mut p = Parameters::default();
+        p.scene.gear_contact = level;
+        p.effects.half_shaft = true;
+        (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.5);
+        let mut s = started(&p, &Inputs::default());
+        let stiffness = p.specs.half_shaft.stiffness;
+        for k in 0..20 {
+            let f = *s.forces();
+            for side in 0..2 {
+                let twist = reading(&f, ["left.twist", "right.twist"][side]);
+                assert!((twist * stiffness[side] / LOAD - 1.0).abs() < 1e-6, "{level:?}: {twist}");
+            }
+            s.advance(1e-3 * f64::from(k + 1)).unwrap();
+        }
+    }
+}
+
+/// The reading `name` of an effect.
+fn reading(forces: &Forces, name: &str) -> f64 {
+    readings().zip(forces.readings).find(|(reading, _)| reading.name == name).expect("the reading exists").1
+}

@@ -1,0 +1,285 @@
+//! Damage and largest stresses along steps, against integrals and oscillations in closed form.
+
+use crate::common::{Host, assert_contains, reference};
+use bevel_differential::fmi2::{Status, fmi2SetRealInputDerivatives};
+use bevel_differential::geometry::{GearSpec, Pair};
+use bevel_differential::strength::{LoadCycle, Material, Rating, SnCurve, pulsating_range};
+use std::f64::consts::TAU;
+
+const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
+const DAMAGES: [&str; 4] = ["damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank"];
+const METHODS: [(&str, i32); 5] =
+    [("adaptive", 1), ("fixed_step", 2), ("radau", 3), ("rodas4", 4), ("dormand_prince", 5)];
+const PLANETS: f64 = 2.0;
+const SPIN: f64 = 20.0;
+
+fn close(program: f64, expected: f64, relative: f64) {
+    assert!((program / expected - 1.0).abs() <= relative, "program {program:e}, expected {expected:e}");
+}
+
+fn rating() -> Rating {
+    let pair = Pair::new(&GearSpec::default());
+    Rating::new(&pair, (2.07e11, 0.25), &Material::default(), 0.25).expect("sound teeth")
+}
+
+/// Normal force of a mesh under the torque on a side gear [N].
+fn force(torque: f64) -> f64 {
+    let pair = Pair::new(&GearSpec::default());
+    torque / (PLANETS * pair.mean_cone * pair.sin_base()[1])
+}
+
+/// The same where the force acts as a line law has it: its load per length grows with the cone distance R, so that the
+/// resultant is at ∫R² dR / ∫R dR.
+fn flank_force(torque: f64) -> f64 {
+    let pair = Pair::new(&GearSpec::default());
+    let [inner, outer] = [pair.inner_cone, pair.outer_cone];
+    let cone = 2.0 / 3.0 * (outer.powi(3) - inner.powi(3)) / (outer.powi(2) - inner.powi(2));
+    force(torque) * pair.mean_cone / cone
+}
+
+fn set_slopes(host: &Host, slope: f64) {
+    let references = LOADS.map(reference);
+    // SAFETY: a live component and arrays of two
+    let status =
+        unsafe { fmi2SetRealInputDerivatives(host.c, references.as_ptr(), 2, [1; 2].as_ptr(), [slope; 2].as_ptr()) };
+    assert_eq!(status, Status::Ok, "{:?}", host.log());
+}
+
+/// Gears on the level 2 (lumped) or 3 (tooth) with strength on, before their start in equilibrium.
+fn host(level: i32, integers: &[(&str, i32)], values: &[(&str, f64)]) -> Host {
+    let host = Host::new();
+    assert_eq!(host.set_boolean("effects.strength", 1), Status::Ok);
+    for &(name, value) in
+        [("scene.gear_contact", level), ("scene.planet_spin", 2), ("scene.start", 1)].iter().chain(integers)
+    {
+        assert_eq!(host.set_integer(name, value), Status::Ok, "{name}");
+    }
+    for &(name, value) in values {
+        assert_eq!(host.set(name, value), Status::Ok, "{name}");
+    }
+    host
+}
+
+/// Damage after one second at constant speed under loads that grow from `low` to `high` [N·m], in `steps` communication steps.
+fn ramp(level: i32, method: i32, sign: f64, [low, high]: [f64; 2], steps: usize) -> [f64; 4] {
+    let integers = [("solver.method", method)];
+    let values = [
+        ("carrier.speed_command", 50.0 * sign),
+        ("planet.spin_command", SPIN * sign),
+        (LOADS[0], low * sign),
+        (LOADS[1], low * sign),
+    ];
+    let host = host(level, &integers, &values);
+    set_slopes(&host, (high - low) * sign);
+    host.start();
+    let h = 1.0 / steps as f64;
+    for i in 0..steps {
+        set_slopes(&host, (high - low) * sign);
+        host.steps(i as f64 * h, h, 1);
+    }
+    DAMAGES.map(|name| host.get(name))
+}
+
+/// ∫ D₁(T(t)) dn over the same second: D₁ the damage of a cycle under the torque T, dn the cycles of a tooth; `on_flank` is the
+/// force that presses flanks. A play of one
+/// pitch is left out at the begin.
+fn integral([low, high]: [f64; 2], on_flank: fn(f64) -> f64) -> [f64; 4] {
+    let (rating, spec) = (rating(), GearSpec::default());
+    let speeds = [SPIN, SPIN * f64::from(spec.planet_teeth) / f64::from(spec.side_teeth)];
+    let meshes = [1.0, PLANETS];
+    // D₁ = (c Tᵐ)ᵏ/N
+    let of = |gear: usize, curve: &SnCurve, stress_at_one: f64, m: f64| {
+        let begin = 0.5 * rating.pitch[gear] / speeds[gear];
+        let exponent = m * curve.slope;
+        let at_one = (stress_at_one / curve.strength).powf(curve.slope) / curve.reference_cycles;
+        let torque = |t: f64| low + (high - low) * t;
+        let power = |t: f64| torque(t).powf(exponent + 1.0);
+        let sum = (power(1.0) - power(begin)) / ((exponent + 1.0) * (high - low));
+        meshes[gear] * speeds[gear] / TAU * at_one * sum
+    };
+    let root = |gear: usize| of(gear, &rating.bending[gear], rating.root[gear].stress(force(1.0)), 1.0);
+    let flank = |gear: usize| of(gear, &rating.pitting, rating.contact.rated_pressure(on_flank(1.0)).unwrap(), 0.5);
+    [root(0), root(1), flank(0), flank(1)]
+}
+
+#[test]
+fn damage_of_a_ramp_of_load_is_its_integral_in_one_step_and_in_steps_of_a_millisecond() {
+    let range = [80.0, 835.0];
+    let expected = integral(range, flank_force);
+    for (name, method) in METHODS {
+        for steps in [1, 1000] {
+            let found = ramp(2, method, 1.0, range, steps);
+            let off: Vec<f64> = found.iter().zip(expected).map(|(a, b)| a / b - 1.0).collect();
+            println!("{name}, {steps} steps: {off:?}");
+            for (found, expected) in found.into_iter().zip(expected) {
+                // the loads themselves are known to what makes the side gears follow
+                close(found, expected, 3e-4);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_mirrored_ramp_does_the_same_damage() {
+    for level in [2, 3] {
+        let range = [80.0, 835.0];
+        let (one, mirrored) = (ramp(level, 1, 1.0, range, 1), ramp(level, 1, -1.0, range, 1));
+        one.into_iter().zip(mirrored).for_each(|(a, b)| close(b, a, 1e-9));
+    }
+}
+
+#[test]
+fn damage_of_teeth_that_pass_does_not_depend_on_communication_steps() {
+    // teeth come and go along the path, the meshes ring
+    let range = [300.0, 835.0];
+    let (one, many) = (ramp(3, 1, 1.0, range, 1), ramp(3, 1, 1.0, range, 1000));
+    println!("{one:?} {many:?}");
+    one.into_iter().zip(many).for_each(|(a, b)| close(b, a, 1e-3));
+    // a force that is the moment of the load, but for what teeth add as they come and go; impact acts at the mean cone
+    one.into_iter().zip(integral(range, force)).for_each(|(a, b)| close(a, b, 0.05));
+}
+
+/// Standing gears without damping, whose loads jump from `low` to `high` [N·m] at the start: they swing between `low` and
+/// 2 `high` − `low` for ever. Returns them and the time of a swing to and fro [s].
+fn swinging(method: i32, [low, high]: [f64; 2]) -> (Host, f64) {
+    // the spring constant from two loads
+    let angle = |torque: f64| {
+        let still = host(2, &[], &[("planet.spin_command", 0.0), (LOADS[0], torque), (LOADS[1], torque)]);
+        still.start();
+        still.get("left.angle") - still.get("carrier.angle")
+    };
+    let stiffness = (high - low) / (angle(low) - angle(high));
+    let inertia = 2e-3;
+    let values = [
+        ("contact.damping", 0.0),
+        ("carrier.speed_command", 0.0),
+        ("planet.spin_command", 0.0),
+        ("inertia.side_gear", inertia),
+        ("inertia.left_end", 0.0),
+        ("inertia.right_end", 0.0),
+        (LOADS[0], low),
+        (LOADS[1], low),
+    ];
+    let host = host(2, &[("solver.method", method)], &values);
+    assert_eq!(host.set_boolean("inertia.from_geometry", 0), Status::Ok);
+    host.start();
+    assert_eq!(host.set_many(&LOADS, &[high; 2]), Status::Ok);
+    (host, TAU * (inertia / stiffness).sqrt())
+}
+
+#[test]
+fn standing_teeth_are_damaged_by_the_turns_of_their_load_between_the_ends_of_steps() {
+    let (rating, [low, high]) = (rating(), [300.0, 500.0]);
+    let peak = 2.0 * high - low;
+    let per_cycle = |gear: usize| {
+        let stress = |torque: f64| rating.root[gear].stress(force(torque));
+        let cycle = |sign: f64| LoadCycle { range: stress(peak - low), mean: sign * stress(high), count: 1.0 };
+        [1.0, -1.0].map(|sign| rating.bending[1].damage_per_cycle(pulsating_range(&cycle(sign), rating.sensitivity)))
+    };
+    for (name, method) in METHODS.into_iter().filter(|(_, method)| *method != 2) {
+        for steps in [1, 100] {
+            let (host, period) = swinging(method, [low, high]);
+            // ends halfway between the turns
+            let periods = 100.25;
+            let h = periods * period / steps as f64;
+            host.steps(0.0, h, steps);
+            // half a cycle for each half of a swing; the last one has come to the middle
+            let halves = (2.0 * periods).floor();
+            for (gear, damage) in ["damage.planet", "damage.side"].into_iter().enumerate() {
+                let [drive, coast] = per_cycle(gear);
+                let expected = 0.5 * halves * drive.max(coast);
+                println!("{name}, {steps} steps: {damage} {:+.1e} off", host.get(damage) / expected - 1.0);
+                close(host.get(damage), expected, 2e-3);
+            }
+            // the largest stress of all is that of the highest peak
+            let worst = (0..2).map(|gear| rating.root[gear].stress(force(peak))).fold(0.0, f64::max);
+            close(host.get("safety.root_min"), rating.bending[1].strength / worst, 2e-4);
+            let pressure = rating.contact.rated_pressure(flank_force(peak)).unwrap();
+            close(host.get("safety.flank_min"), rating.pitting.strength / pressure, 1e-4);
+        }
+    }
+}
+
+#[test]
+fn ratings_begin_at_their_time_and_what_was_before_is_left_out() {
+    let run = |from: f64, until: f64| {
+        let values = [("carrier.speed_command", 50.0), ("planet.spin_command", SPIN), ("strength.rate_from", from)];
+        let host = host(2, &[], &values);
+        host.start();
+        set_slopes(&host, -300.0);
+        host.steps(0.0, until, 1);
+        let [damage, safety] = [DAMAGES.to_vec(), vec!["safety.root_min", "safety.flank_min"]];
+        (
+            damage.into_iter().map(|name| host.get(name)).collect::<Vec<_>>(),
+            safety.into_iter().map(|name| host.get(name)).collect::<Vec<_>>(),
+        )
+    };
+    let (all, before, after) = (run(0.0, 1.0), run(0.0, 0.4), run(0.4, 1.0));
+    for i in 0..4 {
+        close(before.0[i] + after.0[i], all.0[i], 1e-4);
+    }
+    // the load falls: the smallest factor is that of the begin, of roots that of the begin of rolling
+    let rolls = 0.5 * rating().pitch[0] / SPIN;
+    for (i, exponent, begin) in [(0, 1.0, rolls), (1, 0.5, 0.0)] {
+        let [first, later] = [begin, 0.4].map(|t| 835.0 - 300.0 * t);
+        close(after.1[i] / all.1[i], f64::powf(first / later, exponent), 1e-3);
+    }
+    let nothing = run(2.0, 1.0);
+    assert_eq!((nothing.0, nothing.1), (vec![0.0; 4], vec![1e3; 2]));
+}
+
+#[test]
+fn a_run_that_counts_a_start_out_of_equilibrium_says_when_it_was_worst() {
+    // scene.start: equilibrium, rolling, rest
+    for (start, from, strength, told) in
+        [(3, 0.0, 1, true), (2, 0.0, 1, true), (1, 0.0, 1, false), (2, 0.05, 1, false), (2, 0.0, 0, false)]
+    {
+        let values = [("planet.spin_command", 3.5), ("strength.rate_from", from)];
+        let host = host(3, &[("scene.start", start)], &values);
+        assert_eq!(host.set_boolean("effects.strength", strength), Status::Ok);
+        host.start();
+        host.steps(0.0, 0.1, 1);
+        let safety = host.get("safety.root_min");
+        let about =
+            || host.log().into_iter().filter(|line| line.message.contains("strength.rate_from")).collect::<Vec<_>>();
+        assert!(about().is_empty());
+        assert_eq!(host.terminate(), Status::Ok);
+        assert_eq!(about().len(), usize::from(told), "start {start}, from {from}: {:?}", host.log());
+        if told {
+            assert_contains(
+                &about()[0].message,
+                &["not in equilibrium", &format!("roots was {safety:.3} at t = 0.00")],
+            );
+        }
+    }
+}
+
+#[test]
+fn a_pulse_between_two_communication_points_is_seen() {
+    // half a wave of load, which is 0 at both ends of one step
+    let host = host(2, &[], &[("planet.spin_command", 0.0), (LOADS[0], 300.0), (LOADS[1], 300.0)]);
+    set_slopes(&host, 0.0);
+    host.start();
+    let references = LOADS.map(reference);
+    // T = 300 + 2000 t − 2000 t²
+    for (order, value) in [(1, 2000.0), (2, -4000.0)] {
+        // SAFETY: a live component and arrays of two
+        let status = unsafe {
+            fmi2SetRealInputDerivatives(host.c, references.as_ptr(), 2, [order; 2].as_ptr(), [value; 2].as_ptr())
+        };
+        assert_eq!(status, Status::Ok, "{:?}", host.log());
+    }
+    host.steps(0.0, 1.0, 1);
+    let rating = rating();
+    let worst = (0..2).map(|gear| rating.root[gear].stress(force(800.0))).fold(0.0, f64::max);
+    close(host.get("safety.root_min"), rating.bending[1].strength / worst, 1e-3);
+    let cycle = |sign: f64, gear: usize| {
+        let stress = |torque: f64| rating.root[gear].stress(force(torque));
+        LoadCycle { range: stress(500.0), mean: sign * stress(550.0), count: 1.0 }
+    };
+    for (gear, damage) in ["damage.planet", "damage.side"].into_iter().enumerate() {
+        let of =
+            |sign: f64| rating.bending[1].damage_per_cycle(pulsating_range(&cycle(sign, gear), rating.sensitivity));
+        close(host.get(damage), of(1.0).max(of(-1.0)), 2e-3);
+    }
+}

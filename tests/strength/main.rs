@@ -1,0 +1,14 @@
+//! Strength: pressure, root stress, load over the face, damage along steps.
+
+mod along_steps;
+#[path = "../common/mod.rs"]
+mod common;
+mod face;
+mod fatigue;
+mod loads;
+#[path = "../common/mesh_laws.rs"]
+mod mesh_laws;
+mod rainflow;
+mod safety;
+mod slices;
+mod standing;

@@ -1,0 +1,174 @@
+//! Rainflow counting against ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole sequence.
+
+use bevel_differential::strength::{Damage, LoadCycle, Material, Rainflow, SnCurve, pulsating_range};
+use serde_json::Value;
+
+fn golden() -> Value {
+    serde_json::from_str(include_str!("../data/golden_fatigue.json")).expect("valid JSON")
+}
+
+fn close(program: f64, expected: f64, relative: f64) {
+    assert!((program / expected - 1.0).abs() <= relative, "program {program}, expected {expected}");
+}
+
+/// Rainflow counting of a whole sequence, word for word after ASTM E1049, 5.4.4, on a growing list.
+fn textbook(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
+    let mut turning: Vec<f64> = Vec::new();
+    for (i, &x) in sequence.iter().enumerate() {
+        let inner = i > 0 && i + 1 < sequence.len();
+        if !inner || (x - sequence[i - 1]) * (sequence[i + 1] - x) < 0.0 {
+            turning.push(x);
+        }
+    }
+    let (mut counted, mut kept) = (Vec::new(), Vec::new());
+    let mut count = |a: f64, b: f64, n: f64| counted.push(((a - b).abs(), (a + b) / 2.0, n));
+    for x in turning {
+        kept.push(x);
+        while let [.., a, b, c] = kept[..] {
+            if (c - b).abs() < (b - a).abs() {
+                break;
+            }
+            let start = kept.len() - 3;
+            if start == 0 {
+                count(a, b, 0.5);
+                kept.remove(0);
+            } else {
+                count(a, b, 1.0);
+                kept.drain(start..start + 2);
+            }
+        }
+    }
+    kept.windows(2).for_each(|p| count(p[0], p[1], 0.5));
+    counted.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    counted
+}
+
+fn streamed(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
+    let (mut history, mut counted) = (Rainflow::new(0.0), Vec::new());
+    for &x in sequence {
+        history.push(x, |c: LoadCycle| counted.push((c.range, c.mean, c.count)));
+    }
+    history.rest(|c| counted.push((c.range, c.mean, c.count)));
+    counted.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    counted
+}
+
+/// Pseudo-random numbers, the same on every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        self.0
+    }
+}
+
+#[test]
+fn rainflow_counts_the_example_of_the_standard() {
+    let example = &golden()["ASTM_E1049_example"];
+    let sequence: Vec<f64> = example["sequence"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    let counted = streamed(&sequence);
+    let expected = example["range_counts"].as_object().unwrap();
+    for (range, count) in expected {
+        let range: f64 = range.parse().unwrap();
+        let total: f64 = counted.iter().filter(|c| c.0 == range).map(|c| c.2).sum();
+        assert_eq!(total, count.as_f64().unwrap(), "range {range}");
+    }
+    assert_eq!(counted.iter().map(|c| c.2).sum::<f64>(), expected.values().map(|v| v.as_f64().unwrap()).sum::<f64>());
+}
+
+#[test]
+fn rainflow_streamed_equals_the_textbook_on_random_histories() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for run in 0..2000 {
+        let length = 2 + random.next() % 300;
+        // whole numbers, so that equal ranges occur; neighbours differ, so that the textbook sees every turn
+        let mut sequence: Vec<f64> = (0..length).map(|_| (random.next() % 41) as f64).collect();
+        sequence.dedup();
+        if sequence.len() > 1 {
+            assert_eq!(streamed(&sequence), textbook(&sequence), "run {run}");
+        }
+    }
+}
+
+#[test]
+fn a_decaying_oscillation_overflows_the_stack_on_the_safe_side_and_loses_only_its_smallest_ranges() {
+    let curve = SnCurve::through(100.0, 1e6, 2.0, 1e3);
+    let damage =
+        |counted: &[(f64, f64, f64)]| -> f64 { counted.iter().map(|c| c.2 * curve.damage_per_cycle(c.0)).sum() };
+    let mut random = Random(7);
+    for run in 0..200 {
+        let decay = 0.90 + 0.0004 * f64::from(run);
+        let wave = |i: i32| if i % 2 == 0 { 1.0 } else { -1.0 } * 50.0 * decay.powi(i);
+        let mut sequence: Vec<f64> = (0..120).map(wave).collect();
+        // and then it may grow again
+        sequence.extend((0..random.next() % 9).map(|i| wave(40 + 3 * i as i32)));
+        let (stream, book) = (streamed(&sequence), textbook(&sequence));
+        let (d_stream, d_book) = (damage(&stream), damage(&book));
+        assert!(d_stream >= d_book * (1.0 - 1e-12) && d_stream < 2.0 * d_book, "{d_stream} {d_book}");
+        // the 25 largest ranges are the textbook's
+        let largest = |c: &[(f64, f64, f64)]| -> Vec<f64> { c.iter().rev().take(25).map(|c| c.0).collect() };
+        assert_eq!(largest(&stream), largest(&book), "run {run}");
+    }
+}
+
+#[test]
+fn a_growing_oscillation_after_an_overflow_closes_exactly() {
+    let wave = |i: i32| if i % 2 == 0 { 1.0 } else { -1.0 } * 100.0 * 0.97f64.powi(i);
+    let mut sequence: Vec<f64> = (0..33).map(wave).collect();
+    sequence.push(wave(0) * 2.0);
+    assert_eq!(streamed(&sequence), textbook(&sequence));
+}
+
+#[test]
+fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_bytes() {
+    let mut history = Rainflow::new(1.0);
+    let mut seen = 0;
+    for i in 0..1000 {
+        history.push(100.0 + if i % 2 == 0 { 0.4 } else { -0.4 }, |_| seen += 1);
+        history.push(f64::NAN, |_| seen += 1);
+    }
+    history.rest(|_| seen += 1);
+    assert_eq!(seen, 0);
+    // what the gate hides takes nothing from the first range, upward or downward
+    for sign in [1.0, -1.0] {
+        let (mut start, mut ranges) = (Rainflow::new(1.0), Vec::new());
+        for x in [10.0, 9.3, 10.2, 50.0] {
+            start.push(sign * x, |_| unreachable!());
+        }
+        start.rest(|c| ranges.push((c.range, c.mean, c.count)));
+        assert_eq!(ranges, [(50.0 - 9.3, sign * (50.0 + 9.3) / 2.0, 0.5)]);
+    }
+    let mut text = serde_json::to_value(history).unwrap();
+    assert_eq!(serde_json::from_value::<Rainflow>(text.clone()).unwrap(), history);
+    for length in [0, 1, 31, 32, 1_000_000] {
+        for direction in [-128, -1, 0, 1, 127] {
+            text["length"] = length.into();
+            text["direction"] = direction.into();
+            let mut foreign: Rainflow = serde_json::from_value(text.clone()).unwrap();
+            (0..100).for_each(|i| foreign.push(f64::from(i * 37 % 11), |_| ()));
+            foreign.rest(|_| ());
+        }
+    }
+}
+
+#[test]
+fn a_standing_gear_s_cycles_become_damage_of_its_root() {
+    let material = Material::default();
+    let per_torque = 1e6;
+    let mut history = Rainflow::new(0.0);
+    let mut damage = Damage::default();
+    // drive and overrun in turn: purely alternating, the idler factor's case
+    for i in 0..=2000 {
+        let torque = if i % 2 == 0 { 500.0 } else { -500.0 };
+        history.push(torque, |c| {
+            let range = pulsating_range(&c, material.mean_stress_sensitivity());
+            damage.add(&material.bending, range * per_torque, c.count);
+        });
+    }
+    let life = 1.0 / material.idler_bending().damage_per_cycle(500e6);
+    close(damage.sum, damage.cycles / life, 1e-12);
+    assert!(damage.cycles > 998.0);
+}
