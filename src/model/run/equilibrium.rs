@@ -99,16 +99,16 @@ fn press(
 
 /// A minimum of the potential under `loads`, from teeth that are `pressed` as plain ones are.
 ///
-/// Errors may keep these apart, where nothing leads on: then, and where the search finds none, it begins from teeth that are
-/// pressed as they are.
+/// Errors may keep these apart, where nothing leads on, and bodies of gears may give way far beyond them: then, and where the
+/// search finds none, it begins from teeth that are pressed as they are.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
-    let is_open = equations.gaps().is_some();
+    let is_other = equations.gaps().is_some() || equations.bodies_of_gears().is_some();
     let touches = || {
         let sum = equations.statics(pressed).0;
         (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
     };
-    let found = if !is_open || touches() { minimum(equations, loads, pressed, false) } else { None };
-    if found.is_some() || !is_open { found } else { settle_as_they_are(equations, loads) }
+    let found = if !is_other || touches() { minimum(equations, loads, pressed, false) } else { None };
+    if found.is_some() || !is_other { found } else { settle_as_they_are(equations, loads) }
 }
 
 /// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
