@@ -12,7 +12,7 @@
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
 use super::power::Power;
-use super::sizes::Largest;
+use super::sizes::{EXACT, Largest};
 use super::state::State;
 use crate::contact::mesh::{Law, MeshForce, MeshState};
 use crate::integrate::{Matrix, Point, SecondOrder};
@@ -22,8 +22,9 @@ use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{InputDerivatives, Inputs};
 
-/// The equations under given inputs, and whether effects act. Plain teeth have exactly `N` degrees of freedom and `G` groups of
-/// planets; with effects these are the most there can be, and the layout tells how many there are.
+/// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
+/// degrees of freedom and `G` groups of planets; in larger ones these are the most there can be, and the layout tells how
+/// many there are.
 #[derive(Clone, Copy)]
 pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> {
     /// Constants.
@@ -42,6 +43,9 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
 }
 
 impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
+    /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins, seats and ends.
+    const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
+
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
         let mut offset = [[0.0; 2]; MAX_GROUPS];
@@ -65,7 +69,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Groups of planets.
     #[inline]
     pub(in crate::model) fn groups(&self) -> usize {
-        if WITH_EFFECTS { self.teeth.layout.groups.min(G) } else { G }
+        if Self::EXACT { G } else { self.teeth.layout.groups.min(G) }
     }
 
     /// Σ over the groups of planets.
@@ -87,19 +91,19 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Whether pins and seats move.
     #[inline]
     pub(in crate::model) fn pins(&self) -> bool {
-        WITH_EFFECTS && self.teeth.layout.pins
+        !Self::EXACT && self.teeth.layout.pins
     }
 
     /// Whether half-shafts have ends.
     #[inline]
     pub(in crate::model) fn ends(&self) -> bool {
-        WITH_EFFECTS && self.teeth.layout.ends
+        !Self::EXACT && self.teeth.layout.ends
     }
 
     /// Index of the planets of group `g`.
     #[inline]
     pub(in crate::model) fn planet(&self, g: usize) -> usize {
-        if WITH_EFFECTS { self.teeth.layout.planet(g) } else { PLANET + g }
+        if Self::EXACT { PLANET + g } else { self.teeth.layout.planet(g) }
     }
 
     /// Index of the pin of group `g`.
@@ -123,7 +127,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Degrees of freedom.
     #[inline]
     pub(in crate::model) fn count(&self) -> usize {
-        if WITH_EFFECTS { self.teeth.layout.count().min(N) } else { N }
+        if Self::EXACT { N } else { self.teeth.layout.count().min(N) }
     }
 
     /// Dry friction on all bodies.

@@ -15,7 +15,7 @@ use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid_equations::RigidEquations;
-use crate::model::dynamics::sizes::{LARGEST, LEAST};
+use crate::model::dynamics::sizes::{EXACT, LARGEST, LEAST};
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::scene::layout::MAX_GROUPS;
@@ -100,33 +100,34 @@ pub fn integrate_teeth(
     let method = model.parameters.solver.method;
     if method == Method::Adaptive && !teeth.additions.bodies.act_in(state) {
         return match teeth.layout.groups {
-            1 => plain::<LEAST, 1>(teeth, model, state, stretch, budget),
-            2 => plain::<5, 2>(teeth, model, state, stretch, budget),
-            _ => plain::<7, MAX_GROUPS>(teeth, model, state, stretch, budget),
+            1 => whole::<LEAST, 1, false>(teeth, model, state, stretch, budget),
+            2 => whole::<EXACT, 2, false>(teeth, model, state, stretch, budget),
+            _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, stretch, budget),
         };
     }
     let compares = !matches!(method, Method::Adaptive | Method::FixedStep);
     match teeth.layout.count() {
-        0..=LEAST if !compares => by_table::<LEAST, 1>(teeth, model, state, stretch, budget),
+        0..=LEAST if !compares => whole::<LEAST, 1, true>(teeth, model, state, stretch, budget),
+        EXACT if !compares => whole::<EXACT, 2, true>(teeth, model, state, stretch, budget),
         0..=MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
         _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
     }
 }
 
-/// Plain teeth: compiled as a whole for each size.
+/// Plain teeth, and effects on two planets: compiled as a whole for each size.
 #[inline(never)]
-fn plain<const N: usize, const G: usize>(
+fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
     teeth: &Teeth,
     model: &Model,
     state: &mut State,
     stretch: Stretch,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let equations = &mut Equations::<N, G, false>::new(teeth, stretch.inputs, state);
-    integrate_stretch::<N, false, _>(equations, model, state, stretch, budget)
+    let equations = &mut Equations::<N, G, WITH_EFFECTS>::new(teeth, stretch.inputs, state);
+    integrate_stretch::<N, WITH_EFFECTS, _>(equations, model, state, stretch, budget)
 }
 
-/// Teeth with any effects: the integration calls their forces through a table of functions.
+/// Teeth with any effects on more: the integration calls their forces through a table of functions.
 #[inline(never)]
 fn by_table<const N: usize, const G: usize>(
     teeth: &Teeth,
@@ -139,7 +140,7 @@ fn by_table<const N: usize, const G: usize>(
     integrate_stretch::<N, true, _>(equations, model, state, stretch, budget)
 }
 
-/// By any method, or by the default one alone. Those that are there to compare with are not compiled in the least size.
+/// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes.
 fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
@@ -185,13 +186,13 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
                 let observe = |step: Step<N, Power>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            Method::Radau if ANY_METHOD && N > LEAST => {
+            Method::Radau if ANY_METHOD && N > EXACT => {
                 compared(&Radau, system, &mut course, clock.now, context, &mut observe)
             }
-            Method::Rodas4 if ANY_METHOD && N > LEAST => {
+            Method::Rodas4 if ANY_METHOD && N > EXACT => {
                 compared(&Rodas4, system, &mut course, clock.now, context, &mut observe)
             }
-            Method::DormandPrince if ANY_METHOD && N > LEAST => {
+            Method::DormandPrince if ANY_METHOD && N > EXACT => {
                 compared(&DormandPrince, system, &mut course, clock.now, context, &mut observe)
             }
             _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
