@@ -176,3 +176,51 @@ fn a_deeper_hold_and_a_narrower_face_are_softer() {
     let faces = [20e-3, 12e-3, 6e-3].map(|face_width| soft(&GearSpec { face_width, ..spec }, [Support::NearRoot; 2]));
     assert!(faces.is_sorted_by(|a, b| a < b), "{faces:?}");
 }
+
+/// Compliance of gear `i` of the default pair alone under a load at the pitch point, held by `support` [1/Pa].
+fn held(i: usize, support: Support) -> f64 {
+    let (spec, mut supports) = (GearSpec::default(), [Support::NearRoot; 2]);
+    supports[i] = support;
+    let teeth = stiffness(&spec, FILLET).teeth;
+    MeshOnBodies::new(&Pair::new(&spec), &teeth, supports, 1).expect("bodies").gear(i, teeth.rolls(0.0)[i])
+}
+
+#[test]
+fn bores_of_all_widths_go_over_into_each_other_and_wider_ones_are_stiffer() {
+    let pair = Pair::new(&GearSpec::default());
+    for i in 0..2 {
+        let widest = Support::widest(&pair, i);
+        for support in [Support::Bore, Support::FreeBore] {
+            let mut last = f64::INFINITY;
+            for k in 1..=60 {
+                let d = widest * (f64::from(k) / 60.0 - 1e-6);
+                let [before, here] = [1.0 - 1e-6, 1.0].map(|part| held(i, support(part * d)));
+                assert!((before / here - 1.0).abs() < 1e-5, "gear {i} at {d}: {before:e} {here:e}");
+                // one that takes no torque hardly matters
+                let is_free = support(0.0) == Support::FreeBore(0.0);
+                assert!(is_free || here < last, "gear {i} at {d}: {here:e} after {last:e}");
+                last = here;
+            }
+        }
+    }
+}
+
+#[test]
+fn torque_through_a_bore_turns_the_gear_as_an_annulus_turns() {
+    // θ = T/(4πGb) (4/d² − …), T = ω sin δ_b ∫R²dR, and the arc of the flank is θ sin δ_b
+    let pair = Pair::new(&GearSpec::default());
+    let (width, shear) = (pair.outer_cone - pair.inner_cone, 0.5 * STEEL.young / (1.0 + STEEL.poisson));
+    let moment = (pair.outer_cone.powi(3) - pair.inner_cone.powi(3)) / 3.0;
+    for i in 0..2 {
+        let arm = pair.gears[i].base.sin();
+        let turned = |d: f64| arm * arm * moment / (std::f64::consts::PI * shear * width * d * d);
+        // what a bore that takes torque adds to one that takes none; elements are coarse about the narrowest
+        let by_torque = |d: f64| held(i, Support::Bore(d)) - held(i, Support::FreeBore(d));
+        for (part, within) in [(0.2, 0.05), (0.1, 0.1), (0.05, 0.2), (0.02, 0.2)] {
+            let [narrow, wide] = [0.75, 1.25].map(|share| share * part * pair.outer_cone);
+            let (found, expected) = (by_torque(narrow) - by_torque(wide), turned(narrow) - turned(wide));
+            println!("gear {i}, {:.2} and {:.2} mm: {:.3}", narrow * 1e3, wide * 1e3, found / expected);
+            assert!((found / expected - 1.0).abs() < within, "gear {i} at {part}: {found:e} {expected:e}");
+        }
+    }
+}

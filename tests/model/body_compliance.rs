@@ -189,3 +189,93 @@ fn what_it_cannot_work_with_is_refused_by_name() {
         assert!(problem.message.contains("leaves no body"), "{}", problem.message);
     }
 }
+
+#[test]
+fn what_is_assumed_of_bores_is_in_the_log_with_the_effect_alone() {
+    let log = |bodies: bool, [planet, side]: [f64; 2]| -> Vec<String> {
+        let (p, inputs) = turn(bodies, |p| (p.geometry.planet_bore, p.geometry.side_bore) = (planet, side));
+        let simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene that can be built");
+        let of_bores = simulation.warnings().iter().filter(|problem| problem.variable.ends_with("_bore"));
+        of_bores.map(|problem| format!("{}: {}", problem.variable, problem.message)).collect()
+    };
+    // thin rims are reported with and without the effect
+    let added = |bores: [f64; 2]| -> Vec<String> {
+        let without = log(false, bores);
+        log(true, bores).into_iter().filter(|message| !without.contains(message)).collect()
+    };
+    for bores in [[0.0, 0.0], [4e-3, 8e-3]] {
+        let without = log(false, bores);
+        assert!(without.is_empty(), "{without:?}");
+    }
+    assert!(added([16e-3, 30e-3]).is_empty());
+    let [planet, side] = &added([0.0, 0.0])[..] else { panic!("two bores of 0") };
+    assert!(planet.starts_with("geometry.planet_bore: 0 mm: the planet is taken as one piece with a pin"), "{planet}");
+    assert!(side.starts_with("geometry.side_bore: 0 mm: the side gear is taken as one piece with a shaft"), "{side}");
+    // the rim of a quarter module at the toe, whose root circle is 33.931 mm
+    assert!(side.contains("about as stiff as on the widest bore, 32.743 mm"), "{side}");
+    // a pin takes no torque, so that a thin one decides nothing
+    let [side] = &added([4e-3, 8e-3])[..] else { panic!("one bore that takes torque") };
+    assert!(side.starts_with("geometry.side_bore: 8.000 mm is less than half the root circle at the toe"), "{side}");
+}
+
+/// Straight ahead without backlash under a load that a shaft of half a millimetre carries: transmission error with a side bore [m].
+fn error_on(side_bore: f64) -> f64 {
+    let (p, mut inputs) = turn(true, |p| {
+        (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
+    });
+    (inputs.planet_spin, inputs.load_torque) = (0.0, [20.0; 2]);
+    let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene that can be built");
+    simulation.forces().mesh[0][0].transmission_error
+}
+
+#[test]
+fn transmission_error_falls_with_the_bore_and_without_one_is_about_that_of_the_widest() {
+    let widest = 32.743e-3;
+    let errors: Vec<f64> = (1..=40).map(|k| error_on(widest * f64::from(k) / 40.001)).collect();
+    assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
+    // narrow bores let the gear turn with 1/d²
+    let narrow = [0.5e-3, 1e-3, 2e-3].map(error_on);
+    for two in narrow.windows(2) {
+        let ratio = two[0] / two[1];
+        assert!(ratio > 3.5 && ratio < 4.0, "{narrow:?}");
+    }
+    let (none, widest) = (error_on(0.0), errors[39]);
+    println!("{none:e} without a bore, {widest:e} on the widest");
+    assert!((none / widest - 1.0).abs() < 0.1, "{none:e} {widest:e}");
+}
+
+/// Gears of many small teeth under `load`, over face width, module and Young's modulus; spin of the planets imposed [rad/s].
+fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, Inputs) {
+    let (p, mut inputs) = turn(true, |p| {
+        (p.geometry.planet_teeth, p.geometry.side_teeth, p.contact.law) = (teeth[0], teeth[1], law);
+        (p.geometry.planet_bore, p.geometry.side_bore) = (0.0, 0.0);
+    });
+    let radius = 0.5 * p.geometry.module * f64::from(teeth[1]);
+    let force = load * p.geometry.face_width * p.geometry.module * p.material.young_modulus;
+    inputs.load_torque = [f64::from(p.geometry.planet_count) * force * radius; 2];
+    inputs.planet_spin = spin;
+    (p, inputs)
+}
+
+#[test]
+fn many_small_teeth_carry_their_load_from_the_start_on() {
+    for teeth in [[200, 40], [40, 200], [100, 160], [160, 160], [200, 200]] {
+        for law in [ContactLaw::Line, ContactLaw::LineWeber] {
+            // 1e-3 is 19 kN on each tooth of a face of 20 mm
+            for load in [1e-4, 1e-3, 3e-3, 1e-2] {
+                let still = many(teeth, law, load, 0.0);
+                let mut simulation = Simulation::start(&still.0, &still.1, 0.0).expect("teeth that carry");
+                let (inertia, acceleration) = (simulation.inertias().side, simulation.forces().side_acceleration);
+                for s in 0..2 {
+                    let left = (inertia[s] * acceleration[s] / still.1.load_torque[s]).abs();
+                    assert!(left < 1e-6, "{teeth:?} {law:?} {load}: {left:e} of the load is not balanced");
+                }
+                // over a pitch, in which loads that jump took a hundred thousand steps
+                let scene = many(teeth, law, load, 2.0);
+                let pitch = std::f64::consts::TAU / f64::from(teeth[0]) / scene.1.planet_spin;
+                let ledger = ran(&scene, pitch).ledger();
+                assert!(ledger.steps < 5000.0, "{teeth:?} {law:?} {load}: {} steps", ledger.steps);
+            }
+        }
+    }
+}

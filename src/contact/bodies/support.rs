@@ -22,6 +22,12 @@ pub enum Support {
 }
 
 impl Support {
+    /// Diameter that a bore of gear `i` of `pair` must stay below [m].
+    pub fn widest(pair: &Pair, i: usize) -> f64 {
+        let rim = THINNEST * pair.module * pair.inner_cone / pair.outer_cone;
+        2.0 * (pair.inner_cone * sin(pair.gears[i].root) - rim)
+    }
+
     /// Where gear `i` of `pair` is held; `name` is what a problem names.
     pub fn held(self, pair: &Pair, i: usize, name: &'static str) -> Result<Held, Problem> {
         let root = pair.gears[i].root;
@@ -31,7 +37,7 @@ impl Support {
             }
             Self::Bore(diameter) | Self::FreeBore(diameter) => diameter,
         };
-        let thickest = 2.0 * (pair.inner_cone * sin(root) - THINNEST * pair.module * pair.inner_cone / pair.outer_cone);
+        let thickest = Self::widest(pair, i);
         if !(diameter > 0.0 && diameter < thickest) {
             return Err(Problem::new(
                 name,

@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::contact::ContactLaw;
+use crate::contact::bodies::Support;
 use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
@@ -27,27 +28,29 @@ impl Declare for BodyComplianceSpec {
     }
 }
 
-/// A bore narrower than this part of the root circle at the toe is one of which the gear's stiffness is that of its bore.
+/// A bore that takes torque and is narrower than this part of the root circle at the toe decides how far the gear gives way.
 const NARROW: f64 = 0.5;
 
 /// Names of the bores, gears and what holds them.
 const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
 
-/// What is assumed of the bore of gear `i`, where it is none or so narrow that it decides the deflection.
+/// What is assumed of the bore of gear `i`, where it is none, or a side gear's so narrow that it decides the deflection: pins take no
+/// torque.
 fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     let [name, gear, holder] = BORES[i];
     let bore = [setting.geometry.planet_bore, setting.geometry.side_bore][i];
     let toe = 2.0 * setting.pair.inner_cone * sin(setting.pair.gears[i].root);
     let text = if bore == 0.0 {
         format!(
-            "0: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two modules below \
-             the roots; that is stiffer than on any bore; give the diameter of the {holder} if it has one"
+            "0 mm: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two modules below \
+             the roots; that is about as stiff as on the widest bore, {:.3} mm; give the diameter of the {holder} if it has one",
+            Support::widest(setting.pair, i) * 1e3
         )
-    } else if bore < NARROW * toe {
+    } else if i == 1 && bore < NARROW * toe {
         format!(
-            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: the {gear} is held on a {holder} as thin as that, \
-             and its body gives way the more the thinner it is, without limit; for a mere hole through a gear in one piece \
-             with its {holder} set 0",
+            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: all torque of the {gear} goes through a {holder} as \
+             thin as that, and the gear turns on it with 1/diameter^2; if the gear is in one piece with its {holder}, or the bore \
+             is a mere hole in it, set 0",
             bore * 1e3,
             toe * 1e3
         )

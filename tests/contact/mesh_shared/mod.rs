@@ -2,5 +2,6 @@
 //! the compliance between them says.
 
 mod derivatives;
+mod many_teeth;
 mod pairs;
 mod setup;
