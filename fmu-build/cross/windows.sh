@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# usage: windows.sh FOLDER
+# usage: windows.sh FOLDER OLDEST_RUST
 #
 # Unpacks into FOLDER what builds the library for Windows and runs it there: Debian's Rust with the source of its standard
 # library, the MinGW linker, and wine. FOLDER/bin holds what is to be called.
 here=$(cd "$(dirname "$0")" && pwd)
 source "$here/debian.sh"
-begin "$1"
+begin "$1" "$2"
 rust_packages
 unpack "${rust[@]}" gcc-mingw-w64-x86-64-win32 gcc-mingw-w64-base gcc-mingw-w64-x86-64-win32-runtime mingw-w64-common \
     mingw-w64-x86-64-dev binutils-mingw-w64-x86-64 wine64 libwine libz-mingw-w64
@@ -21,7 +21,7 @@ script x86_64-w64-mingw32-gcc "'$root/usr/bin/x86_64-w64-mingw32-gcc-win32'"
 script x86_64-w64-mingw32-dlltool "'$root/usr/bin/x86_64-w64-mingw32-dlltool'"
 script wine64 env "WINEDLLPATH='$root/usr/lib/x86_64-linux-gnu/wine'" "WINEPREFIX='$folder/wine'" WINEDEBUG=-all \
     DISPLAY= "'$root/usr/lib/wine/wine64'"
-"$folder/bin/rustc" --version
+rust_runs
 "$folder/bin/x86_64-w64-mingw32-gcc" --version | head -n 1
 echo "preparing wine"
 if [ ! -e "$root/usr/lib/x86_64-linux-gnu/wine/x86_64-windows/bcryptprimitives.dll" ]; then

@@ -4,7 +4,8 @@ use std::fs::{self, File};
 use std::io::Read;
 
 use anyhow::Result;
-use fmu_build::fmu::{describe, libraries, package};
+use fmu_build::fmu::package::{self, Packing};
+use fmu_build::fmu::{describe, libraries};
 use fmu_build::tools::paths;
 use zip::ZipArchive;
 
@@ -20,9 +21,9 @@ fn packing_twice_gives_the_same_bytes_with_and_without_the_page() -> Result<()> 
     let libraries = libraries::build()?.built;
     let folder = paths::target().join("same-bytes");
     let archives = ["first.fmu", "second.fmu"].map(|name| folder.join(name));
-    for page in [None, Some(&b"<!DOCTYPE html>"[..])] {
+    for (page, packing) in [(None, Packing::Quick), (Some(&b"<!DOCTYPE html>"[..]), Packing::Small)] {
         for archive in &archives {
-            package::write_archive(&libraries, page, archive)?;
+            package::write_archive(&libraries, page, packing, archive)?;
         }
         assert!(fs::read(&archives[0])? == fs::read(&archives[1])?);
         let mut packed = ZipArchive::new(File::open(&archives[0])?)?;

@@ -5,7 +5,7 @@
 //!
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
-use super::linear::{Inverse, times};
+use super::linear::{Inverse, Shape, times};
 use super::system::{Linearisation, Matrix, Point, SecondOrder};
 
 /// I/s − J, inverted.
@@ -18,8 +18,12 @@ pub struct Block<const N: usize> {
 
 impl<const N: usize> Block<N> {
     /// Inverts I/s − J; `None` if it is singular.
-    #[inline]
-    pub fn new<E: SecondOrder<N>>(system: &E, lin: &Linearisation<N, E::Power>, s: f64) -> Option<Self> {
+    #[inline(always)]
+    pub fn new<E: SecondOrder<N> + ?Sized>(
+        (system, shape): (&E, Shape),
+        lin: &Linearisation<N, E::Power>,
+        s: f64,
+    ) -> Option<Self> {
         let mut matrix = lin.by_position;
         system.times_rates(&mut matrix);
         for i in 0..N {
@@ -28,7 +32,7 @@ impl<const N: usize> Block<N> {
             }
             matrix[i][i] += 1.0 / s;
         }
-        let inverse = Inverse::new::<E>(matrix)?;
+        let inverse = Inverse::new(shape, matrix)?;
         let mut stiffness = [[0.0; N]; N];
         for i in 0..N {
             for j in 0..N {
@@ -39,14 +43,14 @@ impl<const N: usize> Block<N> {
     }
 
     /// Solves for the right-hand side `r` in place.
-    #[inline]
-    pub fn solve<E: SecondOrder<N>>(&self, system: &E, r: &mut Point<N>) {
+    #[inline(always)]
+    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
         let s = self.s;
-        let pulled = times::<N, E>(&self.stiffness, &r.q);
+        let pulled = times(shape, &self.stiffness, &r.q);
         for i in 0..N {
             r.v[i] += pulled[i];
         }
-        self.inverse.solve::<E>(&mut r.v);
+        self.inverse.solve(shape, &mut r.v);
         let rate = system.rates(&r.v);
         for i in 0..N {
             r.q[i] = s * (r.q[i] + rate[i]);

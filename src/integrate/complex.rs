@@ -72,22 +72,22 @@ pub struct ComplexBlock<const N: usize> {
 impl<const N: usize> ComplexBlock<N> {
     /// Factorises a I − J; `None` if it is singular.
     #[inline]
-    pub fn new<E: SecondOrder<N>>(system: &E, lin: &Linearisation<N, E::Power>, a: Complex) -> Option<Self> {
-        let mut product = lin.by_position;
+    pub fn new<E: SecondOrder<N> + ?Sized>(system: &E, lin: &Linearisation<N, E::Power>, a: Complex) -> Option<Self> {
+        let (n, mut product) = (system.freedoms(), lin.by_position);
         system.times_rates(&mut product);
         let per_a = a.inverse();
         let mut m = [[Complex::ZERO; N]; N];
-        for i in 0..N {
-            for j in 0..N {
+        for i in 0..n {
+            for j in 0..n {
                 let k = product[i][j];
                 m[i][j] = Complex { re: -lin.by_velocity[i][j] - k * per_a.re, im: -k * per_a.im };
             }
             m[i][i] = m[i][i] + a;
         }
-        for k in (0..N).rev() {
+        for k in (0..n).rev() {
             let largest = m[k].iter().fold(0.0, |largest: f64, x| largest.max(x.size()));
             for j in 0..=k {
-                m[k][j] = (k + 1..N).fold(m[k][j], |rest, i| rest - m[k][i] * m[i][j]);
+                m[k][j] = (k + 1..n).fold(m[k][j], |rest, i| rest - m[k][i] * m[i][j]);
             }
             let pivot = m[k][k];
             // the comparison fails for NaN too
@@ -96,7 +96,7 @@ impl<const N: usize> ComplexBlock<N> {
             }
             let inverse = pivot.inverse();
             for i in 0..k {
-                m[i][k] = (k + 1..N).fold(m[i][k], |rest, j| rest - m[i][j] * m[j][k]) * inverse;
+                m[i][k] = (k + 1..n).fold(m[i][k], |rest, j| rest - m[i][j] * m[j][k]) * inverse;
             }
             m[k][k] = inverse;
         }
@@ -105,25 +105,25 @@ impl<const N: usize> ComplexBlock<N> {
 
     /// Solves for the right-hand side `re` + i `im` in place.
     #[inline]
-    pub fn solve<E: SecondOrder<N>>(&self, system: &E, k: &Matrix<N>, re: &mut Point<N>, im: &mut Point<N>) {
-        let (m, per_a) = (&self.m, self.per_a);
+    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: &E, k: &Matrix<N>, re: &mut Point<N>, im: &mut Point<N>) {
+        let (n, m, per_a) = (system.freedoms(), &self.m, self.per_a);
         let mut b = [Complex::ZERO; N];
-        for i in 0..N {
+        for i in 0..n {
             let mut pull = Complex::ZERO;
-            for j in 0..N {
+            for j in 0..n {
                 pull = pull + Complex { re: k[i][j] * re.q[j], im: k[i][j] * im.q[j] };
             }
             b[i] = Complex { re: re.v[i], im: im.v[i] } + per_a * pull;
         }
-        for i in (0..N).rev() {
-            b[i] = (i + 1..N).fold(b[i], |rest, j| rest - m[i][j] * b[j]);
+        for i in (0..n).rev() {
+            b[i] = (i + 1..n).fold(b[i], |rest, j| rest - m[i][j] * b[j]);
         }
-        for i in 0..N {
+        for i in 0..n {
             b[i] = (0..i).fold(b[i], |rest, j| rest - m[i][j] * b[j]) * m[i][i];
         }
         (re.v, im.v) = (b.map(|x| x.re), b.map(|x| x.im));
         let rate = [system.rates(&re.v), system.rates(&im.v)];
-        for i in 0..N {
+        for i in 0..n {
             let u = per_a * Complex { re: re.q[i] + rate[0][i], im: im.q[i] + rate[1][i] };
             (re.q[i], im.q[i]) = (u.re, u.im);
         }

@@ -52,7 +52,7 @@ impl Method for DormandPrince {
     const IMPLICIT: bool = false;
 
     #[inline]
-    fn step<const N: usize, S: SecondOrder<N>>(
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),

@@ -103,7 +103,7 @@ pub struct SolverContext<'a> {
 
 /// Integrates from `time` to `until` by `method`, calling `observe` after each completed step, which may end the
 /// integration early. Every attempt at a step is taken from the budget, so that the caller bounds the work.
-pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
+pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
     system: &S,
     point: &mut Point<N>,
@@ -124,7 +124,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N>, E>(
 /// Steps, their sizes and their counts do not depend on the times that are asked for. What lies beyond `until` is not
 /// completed, and thus leaves no trace.
 #[inline]
-pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>, E>(
+pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
     system: &S,
     course: &mut Course<N, S::Power>,
@@ -267,7 +267,7 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 
 /// The equations linearised, as far as the method asks for it, and the energies.
 #[inline(never)]
-fn linearise<const N: usize, M: Method, S: SecondOrder<N>>(
+fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
     system: &S,
     (point, time): (&Point<N>, f64),
     mut statistics: Option<&mut Statistics>,

@@ -15,7 +15,7 @@
 //! linearisation does not contain yet.
 
 use super::driver::{AfterStep, Failure, Step};
-use super::linear::Inverse;
+use super::linear::{Inverse, Shape};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
 
@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// Integrates from `time` to `until` in equal steps of at most `step` [s], calling `observe` after each, which may end
 /// the integration early. Every step is taken from the budget.
-pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
+pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     system: &S,
     point: &mut Point<N>,
     time: &mut f64,
@@ -69,7 +69,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N>, E>(
 }
 
 /// One step; `None` if a matrix is singular or a value not finite.
-fn sdirk<const N: usize, S: SecondOrder<N>>(
+fn sdirk<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     (start, time): (&Point<N>, f64),
     h: f64,
@@ -87,7 +87,7 @@ fn sdirk<const N: usize, S: SecondOrder<N>>(
 }
 
 /// Solves a stage at `time` from `base`, iterating from the velocities of `near`.
-fn stage<const N: usize, S: SecondOrder<N>>(
+fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     base: &Point<N>,
     near: &Point<N>,
@@ -105,7 +105,7 @@ fn stage<const N: usize, S: SecondOrder<N>>(
         counts.evaluations += 1;
         counts.jacobians += 1;
         let mut change: [f64; N] = std::array::from_fn(|i| base.v[i] + s * lin.acceleration[i] - y.v[i]);
-        factors::<N, S>(system, &lin, s)?.solve::<S>(&mut change);
+        factors(system, &lin, s)?.solve(Shape::of(system), &mut change);
         let full = at(std::array::from_fn(|i| y.v[i] + change[i]));
         let part = system.reach(&y, &full);
         y = if part < 1.0 { at(std::array::from_fn(|i| y.v[i] + part * change[i])) } else { full };
@@ -115,7 +115,7 @@ fn stage<const N: usize, S: SecondOrder<N>>(
 }
 
 /// Inverse of I − s D − s² K B.
-fn factors<const N: usize, S: SecondOrder<N>>(
+fn factors<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     lin: &Linearisation<N, S::Power>,
     s: f64,
@@ -128,5 +128,5 @@ fn factors<const N: usize, S: SecondOrder<N>>(
         }
         matrix[i][i] += 1.0;
     }
-    Inverse::new::<S>(matrix)
+    Inverse::new(Shape::of(system), matrix)
 }

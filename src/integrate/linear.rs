@@ -1,16 +1,18 @@
 //! Inverse of the small dense matrix of a step, which is applied once a stage.
 //!
-//! With the bodies that may be alike, p, apart from the others, c,
+//! With the inner degrees of freedom, p, apart from the others, c,
 //!
 //!   A = [C B; D P],   S = C − B P⁻¹ D,   x_c = S⁻¹ (b_c − B P⁻¹ b_p),   x_p = P⁻¹ b_p − P⁻¹ D x_c
 //!
-//! so that alike bodies never couple with each other and sums over them are formed in pairs. What is applied is kept as
+//! P is nearly diagonal: bodies such as planets act on each other through the others alone. What is applied is kept as
 //! columns, and a solution is a sum of them: that suits vectors of any width, as does eliminating by whole rows.
 //!
 //! No rows are exchanged: the matrix is that of a mechanical system, row-scaled by inertias, whose pivots are positive unless
 //! the step is far too long; a vanishing pivot is rejected and the step becomes shorter.
 
-use super::system::{Matrix, SecondOrder, in_pairs};
+use std::ops::Range;
+
+use super::system::{Matrix, SecondOrder};
 
 /// Least pivot over the element on the diagonal that it comes from.
 pub const LEAST_PIVOT: f64 = 1e-10;
@@ -21,15 +23,9 @@ pub struct Inverse<const N: usize> {
     columns: Matrix<N>,
 }
 
-/// Whether body `i` may be alike to others.
-#[inline]
-const fn is_alike<const N: usize, S: SecondOrder<N>>(i: usize) -> bool {
-    i >= S::ALIKE.0 && i < S::ALIKE.0 + S::ALIKE.1
-}
-
 /// Divides row `k` of `a` by its pivot, which once was `before`, and leaves the reciprocal in its place; `None` if the pivot
 /// vanishes or is not finite.
-#[inline]
+#[inline(always)]
 fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option<()> {
     let pivot = a[k][k];
     // the comparison fails for NaN too
@@ -45,7 +41,7 @@ fn normalise<const N: usize>(a: &mut Matrix<N>, k: usize, before: f64) -> Option
 }
 
 /// Takes so much of row `k` from row `i` that its element in column `k` vanishes; what the inverse has there takes its place.
-#[inline]
+#[inline(always)]
 fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
     let factor = a[i][k];
     a[i][k] = 0.0;
@@ -54,85 +50,127 @@ fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
     }
 }
 
+/// Which degrees of freedom there are: asked for once a step, as a system may be behind a table of functions, and passed on as
+/// a value, which is a constant where the system is known.
+#[derive(Clone, Copy)]
+pub struct Shape {
+    first: usize,
+    end: usize,
+    count: usize,
+}
+
+impl Shape {
+    /// That of `system`.
+    #[inline(always)]
+    pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
+        let Range { start, end } = system.inner();
+        Self { first: start, end, count: system.freedoms().min(N) }
+    }
+
+    /// The inner ones.
+    #[inline(always)]
+    fn inner(&self) -> Range<usize> {
+        self.first..self.end
+    }
+
+    /// The others.
+    #[inline(always)]
+    fn others(&self) -> impl Iterator<Item = usize> + use<> {
+        (0..self.first).chain(self.end..self.count)
+    }
+}
+
 impl<const N: usize> Inverse<N> {
-    /// Inverts `a` for the system `S`; `None` if a pivot vanishes or is not finite.
-    #[inline]
-    pub fn new<S: SecondOrder<N>>(mut a: Matrix<N>) -> Option<Self> {
-        let (first, count) = S::ALIKE;
+    /// Inverts `a`; `None` if a pivot vanishes or is not finite.
+    #[inline(always)]
+    pub fn new(shape: Shape, mut a: Matrix<N>) -> Option<Self> {
+        let inner = shape.inner();
         let mut diagonal = [0.0; N];
         for i in 0..N {
             diagonal[i] = a[i][i];
         }
         // [P⁻¹ D, P⁻¹]
-        for k in first..first + count {
+        for k in inner.clone() {
             normalise(&mut a, k, diagonal[k])?;
-            for i in first..first + count {
-                if i != k {
+            for i in inner.clone() {
+                if i != k && a[i][k] != 0.0 {
                     eliminate(&mut a, i, k);
                 }
             }
         }
         // [S, −B P⁻¹]
-        for i in (0..N).filter(|&i| !is_alike::<N, S>(i)) {
+        for i in shape.others() {
             let row = a[i];
+            let mut taken = [0.0; N];
+            add_in_pairs(&a, &inner, &row, &mut taken);
+            a[i][inner.clone()].fill(0.0);
             for j in 0..N {
-                let own = if is_alike::<N, S>(j) { 0.0 } else { row[j] };
-                a[i][j] = own - in_pairs(count, |k| row[first + k] * a[first + k][j]);
+                a[i][j] -= taken[j];
             }
         }
         let mut columns = [[0.0; N]; N];
-        for g in first..first + count {
+        for k in inner.clone() {
             for i in 0..N {
-                columns[g][i] = a[i][g];
+                columns[k][i] = a[i][k];
             }
         }
         // [S⁻¹, …] and [−P⁻¹ D S⁻¹, …]
-        for k in (0..N).filter(|&k| !is_alike::<N, S>(k)) {
+        for k in shape.others() {
             normalise(&mut a, k, diagonal[k])?;
-            for i in 0..N {
+            for i in 0..shape.count {
                 if i != k {
                     eliminate(&mut a, i, k);
                 }
             }
         }
-        for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
+        for k in shape.others() {
             for i in 0..N {
-                columns[j][i] = a[i][j];
+                columns[k][i] = a[i][k];
             }
         }
         Some(Self { columns })
     }
 
     /// Solves for the right-hand side `b` in place.
-    #[inline]
-    pub fn solve<S: SecondOrder<N>>(&self, b: &mut [f64; N]) {
-        let mut x = of_alike::<N, S>(&self.columns, b);
-        let mut left = *b;
-        for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
+    #[inline(always)]
+    pub fn solve(&self, shape: Shape, b: &mut [f64; N]) {
+        let (mut x, mut left) = ([0.0; N], *b);
+        add_in_pairs(&self.columns, &shape.inner(), b, &mut x);
+        for j in shape.others() {
             left[j] += x[j];
             x[j] = 0.0;
         }
-        add_others::<N, S>(&self.columns, &left, &mut x);
+        add(&self.columns, shape.others(), &left, &mut x);
         *b = x;
     }
 }
 
-/// Σ of those `columns` times `x` that belong to bodies that may be alike, in pairs.
-#[inline]
-fn of_alike<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
-    let (first, count) = S::ALIKE;
-    // plain loops: what they call is inlined, for vectors of any width
-    let mut sum = [0.0; N];
-    for i in 0..N {
-        sum[i] = in_pairs(count, |k| columns[first + k][i] * x[first + k]);
+/// Adds the `inner` columns of a matrix times `x`, in pairs: of bodies that are alike, two give exactly twice what one gives.
+#[inline(always)]
+fn add_in_pairs<const N: usize>(columns: &Matrix<N>, inner: &Range<usize>, x: &[f64; N], sum: &mut [f64; N]) {
+    let one = |k: usize, i: usize| columns[inner.start + k][i] * x[inner.start + k];
+    let two = |k: usize, i: usize| one(k, i) + one(k + 1, i);
+    let four = |k: usize, i: usize| two(k, i) + two(k + 2, i);
+    match inner.len() {
+        0 => {}
+        1 => add_each(sum, |i| one(0, i)),
+        2 => add_each(sum, |i| two(0, i)),
+        4 => add_each(sum, |i| four(0, i)),
+        _ => add_each(sum, |i| four(0, i) + four(4, i)),
     }
-    sum
 }
 
-/// Adds the other `columns` times `x`.
-#[inline]
-fn add_others<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N], sum: &mut [f64; N]) {
-    for j in (0..N).filter(|&j| !is_alike::<N, S>(j)) {
+#[inline(always)]
+fn add_each<const N: usize>(sum: &mut [f64; N], term: impl Fn(usize) -> f64) {
+    for i in 0..N {
+        sum[i] += term(i);
+    }
+}
+
+/// Adds those `columns` of a matrix times `x` that are `chosen`.
+#[inline(always)]
+fn add<const N: usize>(columns: &Matrix<N>, chosen: impl Iterator<Item = usize>, x: &[f64; N], sum: &mut [f64; N]) {
+    for j in chosen {
         for i in 0..N {
             sum[i] += columns[j][i] * x[j];
         }
@@ -140,10 +178,11 @@ fn add_others<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; 
 }
 
 /// Σ of `columns` times `x`.
-#[inline]
-pub fn times<const N: usize, S: SecondOrder<N>>(columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
-    let mut sum = of_alike::<N, S>(columns, x);
-    add_others::<N, S>(columns, x, &mut sum);
+#[inline(always)]
+pub fn times<const N: usize>(shape: Shape, columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
+    let mut sum = [0.0; N];
+    add_in_pairs(columns, &shape.inner(), x, &mut sum);
+    add(columns, shape.others(), x, &mut sum);
     sum
 }
 
@@ -155,7 +194,9 @@ mod tests {
     struct Some3;
     impl<const N: usize> SecondOrder<N> for Some3 {
         type Power = ();
-        const ALIKE: (usize, usize) = if N >= 5 { (N - 2, 2) } else { (N, 0) };
+        fn inner(&self) -> Range<usize> {
+            if N >= 5 { N - 2..N } else { N..N }
+        }
         fn evaluate(&self, _: &Point<N>) -> ([f64; N], ()) {
             ([0.0; N], ())
         }
@@ -174,7 +215,8 @@ mod tests {
         }
         let b: [f64; N] = std::array::from_fn(|_| random());
         let mut x = b;
-        Inverse::new::<Some3>(m).unwrap().solve::<Some3>(&mut x);
+        let shape = Shape::of::<N>(&Some3);
+        Inverse::new(shape, m).unwrap().solve(shape, &mut x);
         for i in 0..N {
             let residual: f64 = (0..N).map(|j| m[i][j] * x[j]).sum::<f64>() - b[i];
             assert!(residual.abs() < 1e-13, "order {N}: {residual}");
@@ -194,7 +236,7 @@ mod tests {
             solution_satisfies::<4>(&mut random);
             solution_satisfies::<7>(&mut random);
         }
-        assert!(Inverse::new::<Some3>([[0.0; 2]; 2]).is_none());
-        assert!(Inverse::new::<Some3>([[f64::NAN; 2]; 2]).is_none());
+        assert!(Inverse::new(Shape::of::<2>(&Some3), [[0.0; 2]; 2]).is_none());
+        assert!(Inverse::new(Shape::of::<2>(&Some3), [[f64::NAN; 2]; 2]).is_none());
     }
 }

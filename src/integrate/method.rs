@@ -35,7 +35,7 @@ impl<const N: usize, P: Copy> Trial<N, P> {
     /// the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
     /// part of h.
     #[inline]
-    pub fn looked_into<S: SecondOrder<N, Power = P>>(
+    pub fn looked_into<S: SecondOrder<N, Power = P> + ?Sized>(
         self,
         system: &S,
         (time, h): (f64, f64),
@@ -101,7 +101,7 @@ pub trait Method {
 
     /// One step of size `h` from `start`, a point and its time, where `lin` was taken; `None` if it fails (a singular
     /// matrix, an iteration that does not converge), upon which a shorter one is tried. Counts its evaluations.
-    fn step<const N: usize, S: SecondOrder<N>>(
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
         start: (&Point<N>, f64),

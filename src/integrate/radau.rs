@@ -17,6 +17,7 @@
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
 use super::course::Extension;
+use super::linear::Shape;
 use super::method::{ErrorNorm, Method, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -58,7 +59,7 @@ impl Method for Radau {
     const ESTIMATE: u32 = 3;
 
     #[inline]
-    fn step<const N: usize, S: SecondOrder<N>>(
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),
@@ -68,7 +69,8 @@ impl Method for Radau {
         counts: &mut Statistics,
     ) -> Option<Trial<N, S::Power>> {
         let per_h = 1.0 / h;
-        let real = Block::new(system, lin, h / GAMMA)?;
+        let shape = Shape::of(system);
+        let real = Block::new((system, shape), lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
         let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
 
@@ -93,7 +95,7 @@ impl Method for Radau {
             combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
             combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
             let [first, re, im] = &mut change;
-            real.solve(system, first);
+            real.solve((system, shape), first);
             complex.solve(system, &lin.by_position, re, im);
             for i in 0..3 {
                 combine(&mut w[i], &[1.0], 1.0, &change[i..]);
@@ -129,11 +131,11 @@ impl Method for Radau {
         let mut defect = Point::ZERO;
         combine(&mut defect, &ESTIMATE, per_h, &z);
         let mut error = shifted(&slope, &defect);
-        real.solve(system, &mut error);
+        real.solve((system, shape), &mut error);
         if norm.size(&error) > 1.0 {
             let at = shifted(start, &error);
             error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
-            real.solve(system, &mut error);
+            real.solve((system, shape), &mut error);
             counts.evaluations += 1;
         }
         let mut bends = [Point::ZERO; 3];
@@ -143,7 +145,7 @@ impl Method for Radau {
         let end = shifted(start, &z[2]);
         let size = norm.judge(&error, &end);
         let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
-        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve(system, defect)))
+        Some(trial.looked_into(system, (time, h), norm, counts, |defect| real.solve((system, shape), defect)))
     }
 }
 

@@ -16,7 +16,7 @@ impl Method for Rodas4 {
     const ESTIMATE: u32 = 3;
 
     #[inline]
-    fn step<const N: usize, S: SecondOrder<N>>(
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),

@@ -15,8 +15,8 @@ pub struct Rodas5P;
 impl Method for Rodas5P {
     const ESTIMATE: u32 = 4;
 
-    #[inline]
-    fn step<const N: usize, S: SecondOrder<N>>(
+    #[inline(always)]
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),

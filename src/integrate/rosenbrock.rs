@@ -11,6 +11,7 @@
 
 use super::block::Block;
 use super::course::Extension;
+use super::linear::Shape;
 use super::method::{ErrorNorm, Trial, combine};
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
@@ -47,8 +48,8 @@ impl<const S: usize> Tableau<S> {
 }
 
 /// One step of size `h` from `start` at `time`, where `lin` was taken. `None` if the matrix is singular. Counts its evaluations.
-#[inline]
-pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
+#[inline(always)]
+pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
     tableau: &Tableau<S>,
     system: &E,
     (start, time): (&Point<N>, f64),
@@ -57,7 +58,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     norm: &ErrorNorm<N>,
     counts: &mut Statistics,
 ) -> Option<Trial<N, E::Power>> {
-    let block = Block::new(system, lin, h * tableau.gamma)?;
+    let shape = Shape::of(system);
+    let block = Block::new((system, shape), lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
     let drift = system.is_driven().then(|| system.drift(start, time));
     let mut g = [0.0; S];
@@ -87,7 +89,7 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
                 r.v[i] += h * g[stage] * drift[i];
             }
         }
-        block.solve(system, &mut r);
+        block.solve((system, shape), &mut r);
         u[stage] = r;
     }
     let error = u[S - 1];
@@ -101,6 +103,6 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N>>(
     }
     let trial = Trial { extension: Extension { start: *start, end, bends }, error, size, halfway: None };
     counts.evaluations += tableau.c.len() as u64;
-    let solve = |defect: &mut Point<N>| block.solve(system, defect);
+    let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
     Some(trial.looked_into(system, (time, h), norm, counts, solve))
 }

@@ -1,5 +1,7 @@
 //! Interface of a mechanical system to the integrator.
 
+use std::ops::Range;
+
 /// Rows and columns per degree of freedom.
 pub type Matrix<const N: usize> = [[f64; N]; N];
 
@@ -16,6 +18,23 @@ pub struct Point<const N: usize> {
 impl<const N: usize> Point<N> {
     /// All zero.
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
+
+    /// From as many positions and velocities as fit; others are zero.
+    #[inline]
+    pub fn of<const M: usize>([q, v]: [&[f64; M]; 2]) -> Self {
+        let (mut point, n) = (Self::ZERO, N.min(M));
+        point.q[..n].copy_from_slice(&q[..n]);
+        point.v[..n].copy_from_slice(&v[..n]);
+        point
+    }
+
+    /// Writes as many positions and velocities as fit.
+    #[inline]
+    pub fn write<const M: usize>(&self, [q, v]: [&mut [f64; M]; 2]) {
+        let n = N.min(M);
+        q[..n].copy_from_slice(&self.q[..n]);
+        v[..n].copy_from_slice(&self.v[..n]);
+    }
 
     /// Positions and velocities in one row, which fills vectors better than two.
     #[inline]
@@ -52,14 +71,23 @@ pub struct Linearisation<const N: usize, P> {
 /// A system may be driven: then v̇ = a(q, v, t), with the time counted from the begin of the integration. One that is not
 /// leaves the three functions of time as they are here, and nothing is computed for them.
 ///
-/// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster.
+/// Sizes are known at compile time: the loops of these small systems unroll, which makes them several times faster. A system
+/// may be smaller than its type: what lies beyond [`Self::freedoms`] is zero and stays zero.
 pub trait SecondOrder<const N: usize> {
     /// Ledger rates: powers that are integrated along with the motion but do not act on it.
     type Power: Copy;
 
-    /// First and number (0, 1, 2, 4 or 8) of the degrees of freedom of bodies that may be alike. Sums over them are
-    /// formed apart and in pairs, so that twins give the same bits as one of them counted twice.
-    const ALIKE: (usize, usize) = (N, 0);
+    /// Degrees of freedom, `N` or less.
+    #[inline]
+    fn freedoms(&self) -> usize {
+        N
+    }
+
+    /// Degrees of freedom that depend on each other little and are eliminated first.
+    #[inline]
+    fn inner(&self) -> Range<usize> {
+        N..N
+    }
 
     /// B v.
     #[inline]
@@ -142,18 +170,5 @@ pub trait SecondOrder<const N: usize> {
     #[inline]
     fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
         None
-    }
-}
-
-/// Sum of `count` terms, 0, 1, 2, 4 or 8, in pairs.
-#[inline]
-pub fn in_pairs(count: usize, term: impl Fn(usize) -> f64) -> f64 {
-    let two = |i: usize| term(i) + term(i + 1);
-    match count {
-        0 => 0.0,
-        1 => term(0),
-        2 => two(0),
-        4 => two(0) + two(2),
-        _ => (two(0) + two(2)) + (two(4) + two(6)),
     }
 }

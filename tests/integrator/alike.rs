@@ -1,7 +1,7 @@
 //! Bodies that are alike may be simulated once and counted: the default method gives the same bits.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance, in_pairs,
+    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
 };
 
 /// One body with four alike ones around it, `N` − 1 of them simulated, each counted as often as makes four.
@@ -24,7 +24,10 @@ impl<const N: usize> Alike<N> {
 impl<const N: usize> SecondOrder<N> for Alike<N> {
     /// Power at the first body.
     type Power = f64;
-    const ALIKE: (usize, usize) = (1, N - 1);
+
+    fn inner(&self) -> std::ops::Range<usize> {
+        1..N
+    }
 
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], f64) {
         let lin = self.linearise(at);
@@ -33,7 +36,13 @@ impl<const N: usize> SecondOrder<N> for Alike<N> {
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, f64> {
         let (mut by_position, mut by_velocity, mut acceleration) = ([[0.0; N]; N], [[0.0; N]; N], [0.0; N]);
         let own = [-2.0 * at.q[0].sin(), -2.0 * at.q[0].cos()];
-        let total = |i: usize| in_pairs(N - 1, |j| Self::MEMBERS * Self::force(at, 1 + j)[i]);
+        let of = |j: usize, i: usize| Self::MEMBERS * Self::force(at, 1 + j)[i];
+        let two = |j: usize, i: usize| of(j, i) + of(j + 1, i);
+        let total = |i: usize| match N - 1 {
+            1 => of(0, i),
+            2 => two(0, i),
+            _ => two(0, i) + two(2, i),
+        };
         acceleration[0] = (own[0] - total(0)) / 3.0;
         by_position[0][0] = (own[1] + total(1)) / 3.0;
         by_velocity[0][0] = total(2) / 3.0;

@@ -6,7 +6,7 @@ use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
 
-use fmu_build::fmu::package;
+use fmu_build::fmu::own;
 use lab::check::fuzz::{self, Function, Tally};
 use lab::check::memcheck;
 
@@ -64,7 +64,7 @@ fn a_tally_survives_being_written() {
 #[test]
 #[cfg(target_os = "linux")]
 fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
-    let library = package::build_library("bevel-differential").unwrap();
+    let library = own::beside_program().unwrap();
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(&library).output().unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let listed = String::from_utf8(output.stdout).unwrap();
@@ -78,7 +78,7 @@ fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
 /// Runs a host in C on the library and returns what it printed.
 #[cfg(target_os = "linux")]
 fn host(name: &str, further: &[OsString]) -> String {
-    let library = package::build_library("bevel-differential").unwrap();
+    let library = own::beside_program().unwrap();
     let program = memcheck::compiled(name, &[]).unwrap();
     let output = Command::new(&program).args(memcheck::arguments(&library).unwrap()).args(further).output().unwrap();
     std::fs::remove_file(&program).unwrap();

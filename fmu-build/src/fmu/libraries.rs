@@ -6,9 +6,10 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
+use crate::fmu::own;
 use crate::fmu::toolchains::{self, GLIBC, UnpackedToolchain, WINDOWS, WINDOWS_TARGET};
-use crate::tools::paths;
 use crate::tools::python::Environment;
+use crate::tools::{paths, progress};
 
 /// The crate that is the FMU.
 pub const CRATE: &str = "bevel-differential";
@@ -58,29 +59,35 @@ pub struct Libraries {
     pub built: Vec<Library>,
     /// A sentence each.
     pub left_out: Vec<String>,
+    /// Whether one is for other machines.
+    pub ships: bool,
 }
 
 /// Builds the FMU's library with every tool chain that is installed.
 pub fn build() -> Result<Libraries> {
-    let (mut built, mut left_out) = (Vec::new(), Vec::new());
+    let (mut built, mut left_out, mut ships) = (Vec::new(), Vec::new(), true);
     match old_linux()? {
         Some(library) => built.push(library),
         None => {
             built.push(for_this_machine()?);
+            ships = false;
             if CROSS {
                 left_out.push(format!("linux64 is for systems as new as this one, not for glibc {GLIBC}"));
             }
         }
     }
     match windows()? {
-        Some(library) => built.push(library),
+        Some(library) => {
+            built.push(library);
+            ships = true;
+        }
         None if CROSS => left_out.push("win64 is left out".to_owned()),
         None => left_out.push(format!("the FMU holds {} alone", HOST.0)),
     }
     if CROSS && let Some(last) = left_out.last_mut() {
         last.push_str(&format!("; to get it: {}", toolchains::COMMAND));
     }
-    Ok(Libraries { built, left_out })
+    Ok(Libraries { built, left_out, ships })
 }
 
 /// The library for old Linux systems, if its tool chain is installed.
@@ -97,28 +104,27 @@ pub(super) fn windows() -> Result<Option<Library>> {
     }
 }
 
-/// The library as this machine's tools build it.
+/// The library as this machine's tools build it: as they built it along with this program, if it can be found.
 pub fn for_this_machine() -> Result<Library> {
     let needs = match HOST.0 {
         "linux64" => "Linux on x86-64 as new as the machine that the library was built on",
         "win64" => "Windows on x86-64",
         _ => "macOS",
     };
-    let mut command = Command::new(cargo());
-    command.arg("build");
-    Ok(Library {
-        platform: HOST.0,
-        ending: HOST.1,
-        file: distributable(command, "this-machine", HOST.1)?,
-        needs: needs.into(),
-        added: Vec::new(),
-    })
+    let file = own::packable().or_else(|why| {
+        progress::note(&format!("{why:#}: the library is compiled once more, which takes minutes"));
+        let mut command = Command::new(cargo());
+        command.arg("build");
+        distributable(command, "this-machine", HOST.1)
+    })?;
+    Ok(Library { platform: HOST.0, ending: HOST.1, file, needs: needs.into(), added: Vec::new() })
 }
 
-/// Builds the dynamic library of `package` for this machine with cargo and returns its path.
+/// Builds the dynamic library of `package`, which is not the FMU's, for this machine with cargo and returns its path.
 pub fn build_library(package: &str) -> Result<PathBuf> {
     let mut command = Command::new(cargo());
-    command.arg("build").arg("--target-dir").arg(paths::target());
+    // with the program, whose choice of features it shares: what both stand on is compiled once
+    command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
     built_by(command, package, HOST.1)
 }
 
@@ -160,9 +166,7 @@ fn for_windows(tools: &UnpackedToolchain) -> Result<Library> {
 
 /// Whether rustup's own target for Windows and the system's MinGW are installed.
 pub(super) fn rustup_has_windows() -> bool {
-    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", WINDOWS_TARGET]).output();
-    let has_target = output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir());
-    has_target && Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok()
+    toolchains::has_target(WINDOWS_TARGET) && Command::new("x86_64-w64-mingw32-gcc").arg("--version").output().is_ok()
 }
 
 /// The library for Windows by both.
@@ -191,21 +195,27 @@ fn windows_library(command: Command, root: &Path) -> Result<Library> {
     Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
 }
 
-/// Builds the library for an FMU: without the names of inner functions and without paths of this machine. It has a separate
+/// Builds the library for an FMU, without paths of this machine. It has a separate
 /// target folder, because the compiler may differ, and its options always do.
 fn distributable(mut command: Command, name: &str, ending: &str) -> Result<PathBuf> {
     command
         .arg("--target-dir")
         .arg(paths::target().join("cross").join(name))
-        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         // whatever the rest is built with: one unit inlines what matters
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", without_folders().join("\u{1f}"));
     built_by(command, CRATE, ending).with_context(|| format!("the library for {name}"))
 }
 
-/// Options that replace the folders of this machine in the locations of panics. Of several that match, the last one counts.
+/// Options that replace the folders of this machine in the locations of panics.
 pub(super) fn without_folders() -> Vec<String> {
+    // of several that match, the last one counts
+    let folders = folders().into_iter().rev();
+    folders.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()
+}
+
+/// Folders of this machine that compilers write into libraries, and what stands for them; the longest first.
+pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
     let home = env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = home.or_else(|| env::home_dir().map(|home| home.join(".cargo")));
     let folders = [
@@ -215,8 +225,9 @@ pub(super) fn without_folders() -> Vec<String> {
         (home.clone(), "cargo"),
         (home.map(|home| home.join("registry").join("src")), "crates"),
     ];
-    let known = folders.into_iter().filter_map(|(folder, name)| Some((folder?, name)));
-    known.map(|(folder, name)| format!("--remap-path-prefix={}={name}", folder.display())).collect()
+    let mut known: Vec<_> = folders.into_iter().filter_map(|(folder, name)| Some((folder?, name))).collect();
+    known.sort_by_key(|(folder, _)| std::cmp::Reverse(folder.as_os_str().len()));
+    known
 }
 
 /// The library that `command`, cargo with a target, builds of `package`.

@@ -8,6 +8,7 @@ pub mod documentation;
 pub mod effect_list;
 pub mod libraries;
 pub mod licences;
+pub mod own;
 pub mod package;
 pub mod page;
 pub mod plain_types;

@@ -22,6 +22,25 @@ pub use crate::fmu::libraries::build_library;
 const PLAIN: u32 = 0o644;
 const EXECUTABLE: u32 = 0o755;
 
+/// How an archive is compressed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packing {
+    /// In little time, for this machine.
+    Quick,
+    /// To little size, for shipping.
+    Small,
+}
+
+impl Packing {
+    /// The level of deflate.
+    fn level(self) -> i64 {
+        match self {
+            Self::Quick => 1,
+            Self::Small => 9,
+        }
+    }
+}
+
 /// A file of the archive.
 struct ArchiveFile {
     path: String,
@@ -72,7 +91,8 @@ pub fn packed() -> Result<PackedFmu> {
     let libraries = libraries::build()?;
     let fmu = paths::fmu();
     let page = Page::found()?;
-    write_archive(&libraries.built, page.text(), &fmu)?;
+    let packing = if libraries.ships { Packing::Small } else { Packing::Quick };
+    write_archive(&libraries.built, page.text(), packing, &fmu)?;
     effect_list::write_json(&fmu)?;
     let mut left_out = libraries.left_out;
     if page.text().is_none() {
@@ -82,8 +102,8 @@ pub fn packed() -> Result<PackedFmu> {
 }
 
 /// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
-pub fn write_archive(libraries: &[Library], page: Option<&[u8]>, target: &Path) -> Result<()> {
-    let bytes = archive(&entries(libraries, page)?).context("the archive cannot be created")?;
+pub fn write_archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing, target: &Path) -> Result<()> {
+    let bytes = archive(&entries(libraries, page)?, packing).context("the archive cannot be created")?;
     let folder = target.parent().unwrap_or(Path::new("."));
     paths::create_folder(folder)?;
     let partial = target.with_extension(format!("{}.part", std::process::id()));
@@ -119,12 +139,12 @@ fn entries(libraries: &[Library], page: Option<&[u8]>) -> Result<Vec<ArchiveFile
     Ok(entries)
 }
 
-fn archive(entries: &[ArchiveFile]) -> Result<Vec<u8>> {
+fn archive(entries: &[ArchiveFile], packing: Packing) -> Result<Vec<u8>> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for entry in entries {
         let options = SimpleFileOptions::default()
             .compression_method(CompressionMethod::Deflated)
-            .compression_level(Some(9))
+            .compression_level(Some(packing.level()))
             .last_modified_time(DateTime::default())
             .unix_permissions(entry.permissions);
         zip.start_file(entry.path.as_str(), options)?;

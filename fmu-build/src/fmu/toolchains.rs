@@ -21,8 +21,13 @@ pub const COMMAND: &str = "cargo run --release -- toolchains";
 /// Oldest glibc that the library for Linux is linked for.
 pub const GLIBC: &str = "2.17";
 
-/// Rust's name of the Windows target that is built for.
+/// Rust's names of the targets for Windows and for browsers.
 pub const WINDOWS_TARGET: &str = "x86_64-pc-windows-gnu";
+/// The second one.
+pub const WASM_TARGET: &str = "wasm32-unknown-unknown";
+
+/// Oldest Rust that compiles the library.
+const OLDEST_RUST: &str = env!("CARGO_PKG_RUST_VERSION");
 
 /// Installs the tool chains for old Linux systems, for Windows, with wine, and for browsers in target/toolchains
 ///
@@ -57,8 +62,11 @@ fn run(platform: Option<&str>) -> Result<()> {
         made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
     }
     if wanted("wasm") {
-        let wasm = WASM.made(&progress)?;
-        made.push(format!("browsers:              {}", paths::shown(&wasm.programs())));
+        let place = match Wasm::found() {
+            Some(Wasm::Rustup) => format!("rustup's target {WASM_TARGET}, nothing to install"),
+            _ => paths::shown(&WASM.made(&progress)?.programs()),
+        };
+        made.push(format!("browsers:              {place}"));
     }
     progress.finish();
     println!("{}", made.join("\n"));
@@ -83,7 +91,7 @@ pub struct DebianToolchain {
 pub const WINDOWS: DebianToolchain =
     DebianToolchain { name: "windows", what: "Rust, MinGW and wine for Windows (280 MB to download)" };
 /// Rust for WebAssembly and a linker.
-pub const WASM: DebianToolchain =
+const WASM: DebianToolchain =
     DebianToolchain { name: "wasm", what: "Rust and a linker for WebAssembly (150 MB to download)" };
 
 impl DebianToolchain {
@@ -103,6 +111,7 @@ impl DebianToolchain {
         let output = Command::new("bash")
             .arg(script(self.name))
             .arg(&unpacked.0)
+            .arg(OLDEST_RUST)
             .stdin(Stdio::null())
             .output()
             .context("bash, which unpacks tool chains, cannot be run")?;
@@ -118,15 +127,36 @@ impl DebianToolchain {
         UnpackedToolchain(paths::toolchains().join(self.name))
     }
 
-    /// Changes with the scripts.
+    /// Changes with the scripts, and with the oldest Rust that will do.
     fn wanted_stamp(&self) -> Result<String> {
-        let mut scripts = Vec::new();
+        let mut scripts = OLDEST_RUST.as_bytes().to_vec();
         for name in ["debian", self.name] {
             let script = script(name);
             scripts.extend(fs::read(&script).with_context(|| format!("{} cannot be read", paths::shown(&script)))?);
         }
         Ok(format!("{:016x}\n", variables::fnv1a(scripts.into_iter())))
     }
+}
+
+/// What compiles for browsers.
+pub enum Wasm {
+    /// rustup's own target, with its linker.
+    Rustup,
+    /// Debian's Rust.
+    Unpacked(UnpackedToolchain),
+}
+
+impl Wasm {
+    /// rustup's target if it is installed, otherwise what was unpacked.
+    pub fn found() -> Option<Self> {
+        if has_target(WASM_TARGET) { Some(Self::Rustup) } else { WASM.found().map(Self::Unpacked) }
+    }
+}
+
+/// Whether the Rust of this machine has the standard library of a target, as rustup installs it.
+pub fn has_target(target: &str) -> bool {
+    let output = Command::new("rustc").args(["--print", "target-libdir", "--target", target]).output();
+    output.is_ok_and(|output| Path::new(String::from_utf8_lossy(&output.stdout).trim()).is_dir())
 }
 
 /// A folder with an unpacked tool chain.

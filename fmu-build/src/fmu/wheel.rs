@@ -8,7 +8,7 @@ use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
 
 use crate::fmu::libraries::Library;
-use crate::fmu::package;
+use crate::fmu::package::{self, Packing};
 use crate::fmu::page::{self, Page};
 use crate::fmu::platforms::{self, Platform};
 use crate::gears::scene;
@@ -98,5 +98,5 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
         paths::create_folder(&folder)?;
         fs::write(folder.join(page::FILE), page).context("the page cannot be written")?;
     }
-    package::write_archive(libraries, None, &package.join(format!("{MODEL_NAME}.fmu")))
+    package::write_archive(libraries, None, Packing::Small, &package.join(format!("{MODEL_NAME}.fmu")))
 }

@@ -55,6 +55,7 @@ impl ReportCommand {
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         let order = Order { scene: self.scene.clone(), file: file.clone(), settings: self.set.clone() };
+        progress.begin_bar("writing the report");
         write(&environment, &fmu, &[order], self.quick, &progress)?;
         progress.finish();
         println!("{}", paths::shown(&file));
@@ -83,6 +84,5 @@ pub fn write(environment: &Environment, fmu: &Path, orders: &[Order], quick: boo
         arguments.extend(order.settings.iter().map(OsString::from));
     }
     let script = paths::workspace().join("fmu-build").join("python").join("scene_report.py");
-    progress.begin_bar("writing the report");
     script::run(environment, &script, &arguments, progress).map(drop)
 }

@@ -64,6 +64,12 @@ impl Environment {
         })
     }
 
+    /// Whether nothing is left to make for users' commands.
+    pub fn is_ready() -> bool {
+        Users::new()
+            .is_ok_and(|users| [&users.first_stamp, &users.all_stamp].iter().any(|stamp| users.environment.has(stamp)))
+    }
+
     /// The same with the packages of the tests, of all extras of the Python package, and of the wheel.
     pub fn complete(report: impl Fn(&str)) -> Result<Self> {
         let Users { environment, all, first_stamp, all_stamp, .. } = Users::new()?;
@@ -118,13 +124,13 @@ impl Environment {
         )
     }
 
-    /// Installs the packages of a list, in the versions that `pins` names where they are in another one.
+    /// Installs the packages of a list; if it has names alone, these and no others, in the versions that `pins` has.
     fn install(&self, list: &Path, pins: Option<&Path>, what: &str, report: impl Fn(&str)) -> Result<()> {
         report(&format!("installing {what}"));
         let mut pip = self.command();
         pip.args(["-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "-r"]).arg(list);
         if let Some(pins) = pins {
-            pip.arg("--constraint").arg(pins);
+            pip.arg("--no-deps").arg("--constraint").arg(pins);
         }
         finish(&mut pip, "the Python packages cannot be installed (check the network)")
     }

@@ -9,8 +9,8 @@ use super::ideal::Ideal;
 use crate::model::scene::layout::PLANET;
 use crate::model::scene::{Layout, Plan};
 
-/// Degrees of freedom with ends of half-shafts.
-pub const MOST: usize = 6;
+/// Most degrees of freedom, those with ends of half-shafts, in whole vectors of any width.
+pub const MOST: usize = 8;
 
 /// Motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
@@ -47,9 +47,9 @@ impl Rigid {
         let n = layout.count();
         let r = ideal.ratio;
         // columns of P
-        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
+        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         let end = |s: usize| std::array::from_fn(|i| f64::from(plan.shafts[s] && i == layout.end(s)));
-        let columns = [carrier, [r, -r, 0.0, 1.0, 0.0, 0.0], end(0), end(1)];
+        let columns = [carrier, [r, -r, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], end(0), end(1)];
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
         let moves = [true, true, plan.shafts[0], plan.shafts[1]];
         let free: Vec<[f64; MOST]> = (0..IMPOSED).filter(|&k| moves[k] && !imposed[k]).map(|k| columns[k]).collect();

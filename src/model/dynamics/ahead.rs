@@ -92,11 +92,10 @@ impl Ahead {
     }
 }
 
-fn store<const N: usize>(point: &Point<N>, motion: &mut Motion) {
-    motion[0][..N].copy_from_slice(&point.q);
-    motion[1][..N].copy_from_slice(&point.v);
+fn store<const N: usize>(point: &Point<N>, [q, v]: &mut Motion) {
+    point.write([q, v]);
 }
 
-fn restored<const N: usize>(motion: &Motion) -> Point<N> {
-    Point { q: std::array::from_fn(|i| motion[0][i]), v: std::array::from_fn(|i| motion[1][i]) }
+fn restored<const N: usize>([q, v]: &Motion) -> Point<N> {
+    Point::of([q, v])
 }

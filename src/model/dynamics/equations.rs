@@ -12,19 +12,21 @@
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
 use super::power::Power;
+use super::sizes::{EXACT, Largest};
 use super::state::State;
 use crate::contact::mesh::{Law, MeshForce, MeshState};
-use crate::integrate::{Matrix, Point, in_pairs};
+use crate::integrate::{Matrix, Point, SecondOrder};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
 use crate::model::effect_kinds::friction::Friction;
 use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS};
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{InputDerivatives, Inputs};
 
-/// The equations under given inputs, for `N` degrees of freedom with `G` groups of planets, `P` = 1 where pins and seats
-/// move, and whether effects act.
+/// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
+/// degrees of freedom and `G` groups of planets; in larger ones these are the most there can be, and the layout tells how
+/// many there are.
 #[derive(Clone, Copy)]
-pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> {
+pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> {
     /// Constants.
     pub teeth: &'a Teeth,
     pub(in crate::model) inputs: Inputs,
@@ -40,22 +42,16 @@ pub struct Equations<'a, const N: usize, const G: usize, const P: usize, const W
     wrapped: [i64; MAX_GROUPS],
 }
 
-impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>
-    Equations<'a, N, G, P, WITH_EFFECTS>
-{
-    /// Index of the first group of planets.
-    pub const PLANET: usize = CARRIER + 1 + 2 * P;
-    /// Index of the first pin.
-    pub const PIN: usize = Self::PLANET + G;
-    /// Whether ends of half-shafts move.
-    pub const ENDS: bool = N > Self::PLANET + (1 + P) * G;
+impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
+    /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins, seats and ends.
+    const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
 
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
         let mut offset = [[0.0; 2]; MAX_GROUPS];
         let mut wrapped = [0; MAX_GROUPS];
-        for g in 0..G {
-            wrapped[g] = state.turns[Self::PLANET + g];
+        for g in 0..teeth.layout.groups {
+            wrapped[g] = state.turns[teeth.layout.planet(g)];
             for s in 0..2 {
                 let spin = if s == 0 { wrapped[g] } else { -wrapped[g] };
                 offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
@@ -68,6 +64,70 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         let rubs = friction.as_ref().is_some_and(Friction::is_any);
         let (friction_state, fault) = (state.friction, state.fault);
         Self { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped }
+    }
+
+    /// Groups of planets.
+    #[inline]
+    pub(in crate::model) fn groups(&self) -> usize {
+        if Self::EXACT { G } else { self.teeth.layout.groups.min(G) }
+    }
+
+    /// Σ over the groups of planets.
+    #[inline]
+    pub(in crate::model) fn sum(&self, term: impl Fn(usize) -> f64) -> f64 {
+        over_groups(self.groups(), term)
+    }
+
+    /// What `of` gives for each group of planets.
+    #[inline]
+    pub(in crate::model) fn by_group<T: Copy + Default>(&self, of: impl Fn(usize) -> T) -> [T; G] {
+        let mut all = [T::default(); G];
+        for g in 0..self.groups() {
+            all[g] = of(g);
+        }
+        all
+    }
+
+    /// Whether pins and seats move.
+    #[inline]
+    pub(in crate::model) fn pins(&self) -> bool {
+        !Self::EXACT && self.teeth.layout.pins
+    }
+
+    /// Whether half-shafts have ends.
+    #[inline]
+    pub(in crate::model) fn ends(&self) -> bool {
+        !Self::EXACT && self.teeth.layout.ends
+    }
+
+    /// Index of the planets of group `g`.
+    #[inline]
+    pub(in crate::model) fn planet(&self, g: usize) -> usize {
+        if Self::EXACT { PLANET + g } else { self.teeth.layout.planet(g) }
+    }
+
+    /// Index of the pin of group `g`.
+    #[inline]
+    pub(in crate::model) fn pin(&self, g: usize) -> usize {
+        self.teeth.layout.pin(g)
+    }
+
+    /// Index of the axial seat of side gear `s`.
+    #[inline]
+    pub(in crate::model) fn seat(&self, s: usize) -> usize {
+        self.teeth.layout.seat(s)
+    }
+
+    /// Index of the end of the half-shaft of side `s`.
+    #[inline]
+    pub(in crate::model) fn end(&self, s: usize) -> usize {
+        self.teeth.layout.end(s)
+    }
+
+    /// Degrees of freedom.
+    #[inline]
+    pub(in crate::model) fn count(&self) -> usize {
+        if Self::EXACT { N } else { self.teeth.layout.count().min(N) }
     }
 
     /// Dry friction on all bodies.
@@ -99,16 +159,23 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         Self { inputs: *inputs, input_derivatives: *input_derivatives, ..*self }
     }
 
+    /// The same equations in the size that every scene fits in.
+    pub(in crate::model) fn largest(&self) -> Largest<'_> {
+        let Self { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped } =
+            *self;
+        Largest { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped }
+    }
+
     /// State of the mesh of group `g` with side `s`.
     #[inline]
     pub fn mesh_state(&self, at: &Point<N>, g: usize, s: usize) -> MeshState {
         let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
-        let (travel, travel_rate) = (turn * at.q[Self::PLANET + g], turn * at.v[Self::PLANET + g]);
-        let (angle, speed) = if P == 0 {
+        let (travel, travel_rate) = (turn * at.q[self.planet(g)], turn * at.v[self.planet(g)]);
+        let (angle, speed) = if !self.pins() {
             (at.q[s], at.v[s] - at.v[CARRIER])
         } else {
-            (at.q[s] - at.q[Self::PIN + g], at.v[s] - at.v[Self::PIN + g])
+            (at.q[s] - at.q[self.pin(g)], at.v[s] - at.v[self.pin(g)])
         };
         MeshState {
             position: [side * angle - travel + self.offset[g][s], travel + self.teeth.plan.group(g).phase[s]],
@@ -121,15 +188,15 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     /// Planets that are simulated one by one move together until something tells them apart, such as a tooth that breaks.
     #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
-        if G == 1 || matches!(self.teeth.mesh.law, Law::Solid(_)) {
+        if self.groups() == 1 || matches!(self.teeth.mesh.law, Law::Solid(_)) {
             return None;
         }
         let same = |i: usize, j: usize| at.q[i] == at.q[j] && at.v[i] == at.v[j];
         (0..g).find(|&h| {
             self.teeth.plan.group(g).phase == self.teeth.plan.group(h).phase
                 && self.offset[g] == self.offset[h]
-                && same(Self::PLANET + g, Self::PLANET + h)
-                && (P == 0 || same(Self::PIN + g, Self::PIN + h))
+                && same(self.planet(g), self.planet(h))
+                && (!self.pins() || same(self.pin(g), self.pin(h)))
         })
     }
 
@@ -148,19 +215,19 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     #[inline]
     pub(in crate::model) fn add_forces(&self, force: impl Fn(usize, usize) -> [f64; 2], sum: &mut [f64; N]) {
         let [planet, side] = self.teeth.sin_base;
-        let on = |s: usize| in_pairs(G, |g| self.members(g) * side * force(g, s)[0]);
+        let on = |s: usize| self.sum(|g| self.members(g) * side * force(g, s)[0]);
         let on_side = [on(0), on(1)];
         for s in 0..2 {
             sum[s] += on_side[s];
         }
-        if P == 0 {
+        if !self.pins() {
             sum[CARRIER] -= on_side[0] + on_side[1];
         }
-        for g in 0..G {
+        for g in 0..self.groups() {
             let (left, right) = (force(g, 0), force(g, 1));
-            sum[Self::PLANET + g] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
-            if P > 0 {
-                sum[Self::PIN + g] -= side * left[0] + side * right[0];
+            sum[self.planet(g)] += planet * ((left[1] - left[0]) - (right[1] - right[0]));
+            if self.pins() {
+                sum[self.pin(g)] -= side * left[0] + side * right[0];
             }
         }
     }
@@ -196,17 +263,17 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     /// Adds the blocks of all meshes to ∂(sums)/∂(positions) or ∂(sums)/∂(rates).
     #[inline]
     pub(in crate::model) fn add_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
-        for g in 0..G {
-            let (i, members) = (Self::PLANET + g, self.members(g));
+        for g in 0..self.groups() {
+            let (i, members) = (self.planet(g), self.members(g));
             for s in 0..2 {
                 let l = &blocks[g][s];
                 m[s][i] += members * l[0][1];
                 m[i][s] += l[1][0];
                 m[i][i] += l[1][1];
-                if P == 0 {
+                if !self.pins() {
                     m[CARRIER][i] -= members * l[0][1];
                 } else {
-                    let (pin, seat) = (Self::PIN + g, CARRIER + 1 + s);
+                    let (pin, seat) = (self.pin(g), CARRIER + 1 + s);
                     m[s][pin] -= members * l[0][0];
                     m[seat][pin] -= members * l[2][0];
                     m[seat][i] += members * l[2][1];
@@ -219,11 +286,11 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
                 }
             }
         }
-        let total = |s: usize, row: usize, c: usize| in_pairs(G, |g| self.members(g) * blocks[g][s][row][c]);
+        let total = |s: usize, row: usize, c: usize| self.sum(|g| self.members(g) * blocks[g][s][row][c]);
         for s in 0..2 {
             let diagonal = total(s, 0, 0);
             m[s][s] += diagonal;
-            if P == 0 {
+            if !self.pins() {
                 m[CARRIER][s] -= diagonal;
             } else {
                 let seat = CARRIER + 1 + s;
@@ -241,7 +308,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         let rates = &self.input_derivatives.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
-            let wheel = if WITH_EFFECTS && Self::ENDS && plan.shafts[s] { N - 2 + s } else { s };
+            let wheel = if WITH_EFFECTS && self.ends() && plan.shafts[s] { self.end(s) } else { s };
             if WITH_EFFECTS && plan.side_imposed[s] {
                 input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
@@ -257,21 +324,21 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
         if plan.spin_imposed {
-            let inertial = if WITH_EFFECTS { self.teeth.inertia[Self::PLANET] * rates.planet_spin } else { 0.0 };
-            input -= in_pairs(G, |g| self.members(g) * (sum[Self::PLANET + g] - inertial) * at.v[Self::PLANET + g]);
+            let inertial = if WITH_EFFECTS { self.teeth.inertia[self.planet(0)] * rates.planet_spin } else { 0.0 };
+            input -= self.sum(|g| self.members(g) * (sum[self.planet(g)] - inertial) * at.v[self.planet(g)]);
         }
-        for i in 0..N {
-            sum[i] *= inverse[i];
+        for (sum, inverse) in sum.iter_mut().zip(inverse) {
+            *sum *= inverse;
         }
         if WITH_EFFECTS && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
         }
         if self.is_driven_by_inputs() {
-            for g in (0..G).filter(|_| plan.spin_imposed) {
-                sum[Self::PLANET + g] = rates.planet_spin;
+            for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
+                sum[self.planet(g)] = rates.planet_spin;
             }
             for s in (0..2).filter(|&s| plan.side_imposed[s]) {
-                sum[N - 2 + s] = rates.side_speed[s];
+                sum[self.end(s)] = rates.side_speed[s];
             }
         }
         power.input += input;
@@ -282,7 +349,7 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
     pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
         let mut sum = [0.0; N];
         let mut load = [[MeshForce::default(); 2]; G];
-        for g in 0..G {
+        for g in 0..self.groups() {
             if let Some(twin) = self.twin(at, g) {
                 load[g] = load[twin];
                 continue;
@@ -296,13 +363,13 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
             }
         }
         self.add_forces(|g, s| load[g][s].force, &mut sum);
-        (sum, in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
+        (sum, self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
     }
 
     /// Elastic energy of all meshes [J].
     pub fn elastic_energy(&self, at: &Point<N>) -> f64 {
         let mut energy = [0.0; G];
-        for g in 0..G {
+        for g in 0..self.groups() {
             let of = |s| self.teeth.mesh.energy(&self.mesh_state(at, g, s));
             energy[g] = match (self.twin(at, g), self.bodies_of_gears()) {
                 (Some(twin), _) => energy[twin],
@@ -310,23 +377,24 @@ impl<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
                 (None, Some(bodies)) => self.energy_on_bodies(bodies, [at, at], g),
             };
         }
-        in_pairs(G, |g| self.members(g) * energy[g])
+        self.sum(|g| self.members(g) * energy[g])
     }
 
     /// Kinetic energy [J].
     pub fn kinetic_energy(&self, at: &Point<N>) -> f64 {
         let one = |i: usize| self.teeth.inertia[i] * at.v[i] * at.v[i];
         let planets =
-            in_pairs(G, |g| self.members(g) * (one(Self::PLANET + g) + if P > 0 { one(Self::PIN + g) } else { 0.0 }));
+            self.sum(|g| self.members(g) * (one(self.planet(g)) + if self.pins() { one(self.pin(g)) } else { 0.0 }));
         let others = |range: std::ops::Range<usize>| range.map(one).sum::<f64>();
-        0.5 * (others(0..Self::PLANET) + planets + others(Self::PLANET + (1 + P) * G..N))
+        let behind = self.inner().end;
+        0.5 * (others(0..self.planet(0)) + planets + others(behind..self.count()))
     }
 
     /// Largest approach of any flank pair [rad], negative inside the lash, with its group and side.
     #[inline]
     pub fn deepest(&self, at: &Point<N>) -> (f64, usize, usize) {
         let mut deepest = (f64::NEG_INFINITY, 0, 0);
-        for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
+        for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
             for s in 0..2 {
                 let approach = self.teeth.mesh.approach(self.mesh_state(at, g, s).position[0]);
                 if approach > deepest.0 {

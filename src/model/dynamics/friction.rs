@@ -6,7 +6,7 @@ use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::DetailedLoad;
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
-use crate::integrate::{Matrix, Point, in_pairs};
+use crate::integrate::{Matrix, Point};
 use crate::model::assembly::teeth::SIGMA;
 use crate::model::effect_kinds::dry_friction::DryFriction;
 use crate::model::effect_kinds::friction_state::Mode;
@@ -14,29 +14,29 @@ use crate::model::effect_kinds::slip::Slip;
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
-    fn bodies_that_stick() -> impl Iterator<Item = usize> {
-        (0..FRICTION_PLANETS + G).chain(FRICTION_WHEELS..FRICTION_WHEELS + 2)
+    fn bodies_that_stick(&self) -> impl Iterator<Item = usize> + use<N, G, WITH_EFFECTS> {
+        (0..FRICTION_PLANETS + self.groups()).chain(FRICTION_WHEELS..FRICTION_WHEELS + 2)
     }
 
     /// Those on which friction acts.
     fn bodies_with_friction(&self) -> impl Iterator<Item = usize> {
-        Self::bodies_that_stick().filter(|&i| self.friction().on(i).is_on())
+        self.bodies_that_stick().filter(|&i| self.friction().on(i).is_on())
     }
 
     /// Degree of freedom on which the friction of body `i` acts.
     fn freedom_of(&self, i: usize) -> usize {
         match i {
             0..FRICTION_PLANETS => i,
-            FRICTION_PLANETS..FRICTION_WHEELS => Self::PLANET + i - FRICTION_PLANETS,
+            FRICTION_PLANETS..FRICTION_WHEELS => self.planet(i - FRICTION_PLANETS),
             _ => self.wheel(i - FRICTION_WHEELS),
         }
     }
 
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
     fn wheel(&self, s: usize) -> usize {
-        if Self::ENDS && self.teeth.plan.shafts[s] { N - 2 + s } else { s }
+        if self.ends() && self.teeth.plan.shafts[s] { self.end(s) } else { s }
     }
 
     /// Motion of body `i` against the surface it rubs on: carrier, pin, or ground.
@@ -191,8 +191,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             if direction == 0.0 || !self.friction().side.is_on() {
                 continue;
             }
-            let torque = in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value());
-            let slopes: [[f64; WITH_OTHER]; G] = std::array::from_fn(|g| {
+            let torque = self.sum(|g| self.members(g) * side * loads[g][s].force[0].value());
+            let slopes: [[f64; WITH_OTHER]; G] = self.by_group(|g| {
                 let (axial, force) = (loads[g][s].side_axial.slopes(), loads[g][s].force[0].slopes());
                 std::array::from_fn(|k| {
                     self.members(g) * (of_side[0] * axial[k] + of_side[1] * torque.signum() * side * force[k])
@@ -202,7 +202,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 self.spread::<T>(row, sign, s, &slopes, j);
             }
         }
-        for g in 0..G {
+        for g in 0..self.groups() {
             let direction = self.friction_state[2 + g].mode.direction();
             if direction == 0.0 || !self.friction().planet.is_on() {
                 continue;
@@ -217,7 +217,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 let mut slopes = [[0.0; WITH_OTHER]; G];
                 slopes[g] =
                     std::array::from_fn(|k| of_planet[0] * p[k] + per * (across * t[k] + SIGMA[s] * along * a[k]));
-                self.spread::<T>(Self::PLANET + g, -direction, s, &slopes, j);
+                self.spread::<T>(self.planet(g), -direction, s, &slopes, j);
             }
         }
     }
@@ -225,9 +225,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Derivatives of the planets' dry friction by the speeds that throw them outward.
     pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<N>) {
         let per_thrust = self.friction().planet.limit_slopes()[0];
-        for g in 0..G {
+        for g in 0..self.groups() {
             let direction = self.friction_state[FRICTION_PLANETS + g].mode.direction();
-            j.by_velocity[Self::PLANET + g][Self::orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
+            j.by_velocity[self.planet(g)][self.orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
         }
     }
 
@@ -253,15 +253,15 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     ) {
         let [planet, side] = self.teeth.sin_base;
         let turn = SIGMA[s] * planet;
-        m[row][s] += sign * in_pairs(G, |g| side * slopes(g, 0));
-        for g in 0..G {
-            m[row][Self::PLANET + g] += sign * turn * (slopes(g, 1) - slopes(g, 0));
-            if P > 0 {
-                m[row][Self::PIN + g] -= sign * side * slopes(g, 0);
+        m[row][s] += sign * self.sum(|g| side * slopes(g, 0));
+        for g in 0..self.groups() {
+            m[row][self.planet(g)] += sign * turn * (slopes(g, 1) - slopes(g, 0));
+            if self.pins() {
+                m[row][self.pin(g)] -= sign * side * slopes(g, 0);
             }
         }
-        if P > 0 {
-            m[row][Self::SEAT + s] += sign * in_pairs(G, |g| slopes(g, 2));
+        if self.pins() {
+            m[row][self.seat(s)] += sign * self.sum(|g| slopes(g, 2));
         }
     }
 
@@ -271,7 +271,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             let (friction, count) = self.friction_on(i);
             count * friction.energy(&self.friction_state[i], self.slip(at, i).position)
         };
-        Self::bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0).map(energy).sum()
+        self.bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0).map(energy).sum()
     }
 
     /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
@@ -319,7 +319,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         if !self.rubs() {
             return;
         }
-        for i in Self::bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
+        for i in self.bodies_that_stick().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
             anchors[i] = self.friction().on(i).drag(anchors[i], self.slip(at, i).position, power.limit[i]);
         }
     }
@@ -334,7 +334,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         heat: &mut [f64],
     ) {
         let surface_loads = self.surface_loads(at, time);
-        for i in Self::bodies_that_stick().filter(|i| bodies.contains(i)) {
+        for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
             let (friction, count) = self.friction_on(i);
             let (friction, slip) = (*friction, self.slip(at, i));
             if friction.is_on() {
@@ -345,7 +345,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// Adapts friction to changed stiffnesses: it starts on bodies that were free, and ends on others.
     pub(in crate::model) fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64]) {
-        for i in Self::bodies_that_stick() {
+        for i in self.bodies_that_stick() {
             let (friction, count) = self.friction_on(i);
             let (friction, slip) = (*friction, self.slip(at, i));
             friction.adapt(&mut self.friction_state[i], &slip, heat, count);

@@ -10,7 +10,7 @@ use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::MeshState;
 use crate::contact::pairs::Flank;
 use crate::contact::shared::Moved;
-use crate::integrate::{Point, in_pairs};
+use crate::integrate::Point;
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
@@ -84,10 +84,7 @@ impl Local for Dual<WITH_OTHER> {
     }
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
-    /// Index of the first axial seat.
-    pub(super) const SEAT: usize = CARRIER + 1;
-
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
     #[inline]
     pub(in crate::model) fn in_detail(&self) -> bool {
@@ -103,7 +100,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     #[inline]
     pub(super) fn detailed_state(&self, at: &Point<N>, g: usize, s: usize) -> DetailedState {
         let MeshState { position: [q, x], rate: [dq, dx], .. } = self.mesh_state(at, g, s);
-        let [w, dw] = if P > 0 { [at.q[Self::SEAT + s], at.v[Self::SEAT + s]] } else { [0.0; 2] };
+        let [w, dw] = if self.pins() { [at.q[self.seat(s)], at.v[self.seat(s)]] } else { [0.0; 2] };
         DetailedState { position: [q, x, w], rate: [dq, dx, dw], wrapped: self.wrapped(g, s) }
     }
 
@@ -171,14 +168,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
-    pub(super) const fn orbit(g: usize) -> usize {
-        if P > 0 { Self::PIN + g } else { CARRIER }
+    pub(super) fn orbit(&self, g: usize) -> usize {
+        if self.pins() { self.pin(g) } else { CARRIER }
     }
 
     /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
     pub(super) fn centrifugal(&self, at: &Point<N>, g: usize) -> [f64; 2] {
-        let per_speed = self.teeth.additions.planet_moment * at.v[Self::orbit(g)];
-        [per_speed * at.v[Self::orbit(g)], 2.0 * per_speed]
+        let per_speed = self.teeth.additions.planet_moment * at.v[self.orbit(g)];
+        [per_speed * at.v[self.orbit(g)], 2.0 * per_speed]
     }
 
     /// Loads on the rubbing surfaces of side gears and planets, from the loads of all meshes and the planets' orbit.
@@ -189,10 +186,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     ) -> ([SurfaceLoad; 2], [SurfaceLoad; G]) {
         let side = self.teeth.sin_base[1];
         let sides = [0, 1].map(|s| SurfaceLoad {
-            thrust: in_pairs(G, |g| self.members(g) * loads[g][s].side_axial.value()),
-            load: in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0].value()).abs(),
+            thrust: self.sum(|g| self.members(g) * loads[g][s].side_axial.value()),
+            load: self.sum(|g| self.members(g) * side * loads[g][s].force[0].value()).abs(),
         });
-        let planets = std::array::from_fn(|g| {
+        let planets = self.by_group(|g| {
             let [l, r] = &loads[g];
             let across = l.tangential.value() + r.tangential.value();
             let along = l.side_axial.value() - r.side_axial.value();
@@ -206,54 +203,54 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     pub(in crate::model) fn all_loads<T: Local>(&self, at: &Point<N>) -> [[DetailedLoad<T>; 2]; G] {
         let mut loads = [[DetailedLoad::zero(); 2]; G];
-        for (g, sides) in loads.iter_mut().enumerate() {
-            *sides = self.planet_loads(at, g);
+        for g in 0..self.groups() {
+            loads[g] = self.planet_loads(at, g);
         }
         loads
     }
 
-    /// Meshes in detail, and the dry friction that their loads cause.
+    /// Meshes in detail under their `loads`, and the dry friction that these cause.
     pub(in crate::model) fn act_in_detail<T: Local>(
         &self,
         at: &Point<N>,
+        loads: &[[DetailedLoad<T>; 2]; G],
         sum: &mut [f64; N],
         power: &mut Power,
         slopes: Option<&mut Jacobian<N>>,
     ) {
-        let loads = self.all_loads::<T>(at);
         self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
-        if P > 0 {
+        if self.pins() {
             for s in 0..2 {
-                sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].value());
+                sum[self.seat(s)] += self.sum(|g| self.members(g) * loads[g][s].force[2].value());
             }
         }
         for (i, place) in [CONTACT_HEAT, self.teeth.additions.friction_heat].into_iter().enumerate() {
             if i == 0 || place != CONTACT_HEAT {
-                power.heat[place] = in_pairs(G, |g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
+                power.heat[place] = self.sum(|g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
         }
-        let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, &loads));
+        let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, loads));
         if let Some((sides, planets)) = &surfaces {
             self.add_friction(at, || self.surface_loads_of(sides, planets), sum, power);
         }
         if let Some(j) = slopes {
             let block = |part: usize| {
-                std::array::from_fn(|g| {
+                self.by_group(|g| {
                     [0, 1].map(|s| {
                         let force: [[f64; WITH_OTHER]; 3] = loads[g][s].force.map(|f| f.slopes());
                         self.local_block(s, &force.map(|d| [d[part], d[part + 1], d[part + 2]]))
                     })
                 })
             };
-            j.elastic_energy = in_pairs(G, |g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
+            j.elastic_energy = self.sum(|g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
             self.add_blocks(&block(0), &mut j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
             if T::BY_OTHER {
-                let cross = self.cross_blocks(&loads);
+                let cross = self.cross_blocks(loads);
                 self.add_cross_blocks(&cross, &mut j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
-                self.friction_slopes_by_loads(&loads, planets, j);
+                self.friction_slopes_by_loads(loads, planets, j);
                 self.friction_slopes_by_orbit(at, j);
             }
         }

@@ -4,11 +4,11 @@ use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::mesh::MeshForce;
-use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     fn divide_by_inertia(&self, m: &mut Matrix<N>) {
         for (row, inverse) in m.iter_mut().zip(&self.teeth.inverse_inertia) {
             row.iter_mut().for_each(|x| *x *= inverse);
@@ -21,11 +21,11 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let mut by = [[[[0.0; 3]; 3]; 2]; G];
         if let Some(bodies) = self.bodies_of_gears() {
             let still = Point { q: at.q, v: [0.0; N] };
-            let shared = std::array::from_fn(|g| self.linearised_on_bodies(bodies, &self.mesh_states(&still, g), g));
+            let shared = self.by_group(|g| self.linearised_on_bodies(bodies, &self.mesh_states(&still, g), g));
             self.add_shared_blocks(&shared, &mut m);
             return m;
         }
-        for g in 0..G {
+        for g in 0..self.groups() {
             for s in 0..2 {
                 let mut state = self.mesh_state(at, g, s);
                 state.rate = [0.0; 2];
@@ -50,7 +50,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let mut load = [[MeshForce::default(); 2]; G];
         let mut energy = [0.0; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
-        for g in 0..G {
+        for g in 0..self.groups() {
             if let Some(twin) = self.twin(at, g) {
                 (load[g], position[g], rate[g], energy[g]) = (load[twin], position[twin], rate[twin], energy[twin]);
                 continue;
@@ -66,13 +66,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         self.add_forces(|g, s| load[g][s].force, &mut acceleration);
         self.add_blocks(&position, &mut by_position);
         self.add_blocks(&rate, &mut by_velocity);
-        power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+        power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
         // α̇ = ω_s − ω_c
         self.times_rates(&mut by_velocity);
         self.divide_by_inertia(&mut by_position);
         self.divide_by_inertia(&mut by_velocity);
         self.finish(at, &mut acceleration, &[0.0; N], &mut power);
-        let energy = in_pairs(G, |g| self.members(g) * energy[g]);
+        let energy = self.sum(|g| self.members(g) * energy[g]);
         (Linearisation { acceleration, by_position, by_velocity, power }, energy)
     }
 

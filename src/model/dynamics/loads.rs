@@ -36,7 +36,7 @@ pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     [planet, side, if contact.flank == Flank::Drive { forward } else { -forward }]
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
     pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
         self.visit_loads(at, g, s, |contact| parts(pair, &self.teeth.mesh, contact), |load, _| visit(load));

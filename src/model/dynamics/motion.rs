@@ -1,8 +1,10 @@
 //! The equations with tooth contact as an integrator sees them: rates, natural magnitudes, energy, kinks and switches.
 
+use std::ops::Range;
+
 use super::equations::Equations;
 use super::power::Power;
-use crate::integrate::{Linearisation, Matrix, Point, SecondOrder, in_pairs};
+use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
@@ -18,11 +20,20 @@ const SPEED_FLOOR: f64 = 1.0;
 /// Twist below which that of a half-shaft is resolved absolutely [rad].
 const TWIST_FLOOR: f64 = 1e-3;
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> SecondOrder<N>
-    for Equations<'_, N, G, P, WITH_EFFECTS>
-{
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> for Equations<'_, N, G, WITH_EFFECTS> {
     type Power = Power;
-    const ALIKE: (usize, usize) = (Self::PLANET, (1 + P) * G);
+
+    #[inline]
+    fn freedoms(&self) -> usize {
+        self.count()
+    }
+
+    /// Planets and their pins.
+    #[inline]
+    fn inner(&self) -> Range<usize> {
+        let (first, pins) = (self.planet(0), if self.pins() { self.groups() } else { 0 });
+        first..first + self.groups() + pins
+    }
 
     #[inline]
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
@@ -30,14 +41,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        if P > 0 {
-            for g in 0..G {
-                rates[Self::PIN + g] -= v[CARRIER];
+        if self.pins() {
+            for g in 0..self.groups() {
+                rates[self.pin(g)] -= v[CARRIER];
             }
         }
-        if Self::ENDS {
+        if self.ends() {
             for s in 0..2 {
-                rates[N - 2 + s] = v[s] - v[N - 2 + s];
+                rates[self.end(s)] = v[s] - v[self.end(s)];
             }
         }
         rates
@@ -47,13 +58,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     fn times_rates(&self, m: &mut Matrix<N>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            if P > 0 {
-                row[CARRIER] -= in_pairs(G, |g| row[Self::PIN + g]);
+            if self.pins() {
+                row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
-            if Self::ENDS {
+            if self.ends() {
                 for s in 0..2 {
-                    row[s] += row[N - 2 + s];
-                    row[N - 2 + s] = -row[N - 2 + s];
+                    row[s] += row[self.end(s)];
+                    row[self.end(s)] = -row[self.end(s)];
                 }
             }
         }
@@ -108,26 +119,26 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
         // speeds by what the gears roll with: blows between teeth add to a gear's speed, not to the error it may have
         let carrier = SPEED_FLOOR + 2.0 * at.v[CARRIER].abs();
         let mut spin = 0.0f64;
-        for g in 0..G {
-            spin = spin.max(at.v[Self::PLANET + g].abs());
+        for g in 0..self.groups() {
+            spin = spin.max(at.v[self.planet(g)].abs());
         }
         let side_speed = 1.0 / (carrier + spin * self.teeth.sin_base[0] / self.teeth.sin_base[1]);
         let mut v = [1.0 / (carrier + spin); N];
         (v[0], v[1], v[CARRIER]) = (side_speed, side_speed, 1.0 / carrier);
-        if P > 0 {
+        if self.pins() {
             let per_length = per_approach / self.teeth.mesh.cone;
             for s in 0..2 {
                 q[CARRIER + 1 + s] = per_length;
                 v[CARRIER + 1 + s] = v[s] / self.teeth.mesh.cone;
             }
-            for g in 0..G {
-                (q[Self::PIN + g], v[Self::PIN + g]) = (side, v[CARRIER]);
+            for g in 0..self.groups() {
+                (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        if Self::ENDS {
+        if self.ends() {
             for s in 0..2 {
-                q[N - 2 + s] = 1.0 / (TWIST_FLOOR + at.q[N - 2 + s].abs());
-                v[N - 2 + s] = v[s];
+                q[self.end(s)] = 1.0 / (TWIST_FLOOR + at.q[self.end(s)].abs());
+                v[self.end(s)] = v[s];
             }
         }
         Point { q, v }
@@ -160,7 +171,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
         let mut part = 1.0f64;
-        for g in 0..G {
+        for g in 0..self.groups() {
             for s in 0..2 {
                 let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[0]);
                 let most = self.teeth.mesh.half_backlash()
@@ -176,7 +187,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> S
     #[inline]
     fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         let mut first: Option<f64> = None;
-        for g in (0..G).filter(|&g| self.twin(at, g).is_none()) {
+        for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
             let moved = self.bodies_of_gears().map(|bodies| self.moved_pairs(bodies, at, g));
             for s in 0..2 {
                 let found = self.mesh_kink(at, h, (g, s), moved.as_ref());

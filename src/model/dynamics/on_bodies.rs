@@ -10,7 +10,7 @@ use crate::contact::impact::Force;
 use crate::contact::mesh::{Law, MeshForce, MeshState};
 use crate::contact::pairs::{Flank, ToothPair};
 use crate::contact::shared::{Moved, SharedForce, SharedMeshes};
-use crate::integrate::{Matrix, Point, in_pairs};
+use crate::integrate::{Matrix, Point};
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
@@ -25,7 +25,7 @@ macro_rules! with_teeth {
     };
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// The bodies that pairs share, where they are elastic.
     #[inline]
     pub(in crate::model) fn bodies_of_gears(&self) -> Option<&SharedBodies> {
@@ -164,12 +164,12 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     pub(super) fn add_cross_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
         for s in 0..2 {
             let (other, [seat, other_seat]) = (1 - s, [s, 1 - s].map(|s| CARRIER + 1 + s));
-            for g in 0..G {
-                let (i, pin, members, by) = (Self::PLANET + g, Self::PIN + g, self.members(g), &blocks[g][s]);
+            for g in 0..self.groups() {
+                let (i, pin, members, by) = (self.planet(g), self.pin(g), self.members(g), &blocks[g][s]);
                 m[s][i] += members * by[0][1];
                 m[i][other] += by[1][0];
                 m[i][i] += by[1][1];
-                if P == 0 {
+                if !self.pins() {
                     m[CARRIER][i] -= members * by[0][1];
                 } else {
                     m[s][pin] -= members * by[0][0];
@@ -183,10 +183,10 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     m[i][other_seat] += by[1][2];
                 }
             }
-            let total = |row: usize, c: usize| in_pairs(G, |g| self.members(g) * blocks[g][s][row][c]);
+            let total = |row: usize, c: usize| self.sum(|g| self.members(g) * blocks[g][s][row][c]);
             let across = total(0, 0);
             m[s][other] += across;
-            if P == 0 {
+            if !self.pins() {
                 m[CARRIER][other] -= across;
             } else {
                 m[s][other_seat] += total(0, 2);
@@ -198,7 +198,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
 
     /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w of the planet's other mesh) of all meshes in detail.
     pub(super) fn cross_blocks<T: Local>(&self, loads: &[[DetailedLoad<T>; 2]; G]) -> [[[[f64; 3]; 3]; 2]; G] {
-        std::array::from_fn(|g| {
+        self.by_group(|g| {
             [0, 1].map(|s| {
                 let by = loads[g][s].force.map(|force| {
                     let slopes = force.slopes();
@@ -221,7 +221,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         power: &mut Power,
     ) -> f64 {
         let mut shared = [SharedForce::default(); G];
-        for g in 0..G {
+        for g in 0..self.groups() {
             shared[g] = match self.twin(at, g) {
                 Some(twin) => shared[twin],
                 None => self.linearised_on_bodies(bodies, &self.mesh_states(at, g), g),
@@ -229,18 +229,17 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         }
         self.add_forces(|g, s| shared[g].force[s].force, sum);
         self.add_shared_blocks(&shared, by_position);
-        let rates = std::array::from_fn(|g| [0, 1].map(|s| self.block(s, &shared[g].by_rate[s])));
+        let rates = self.by_group(|g| [0, 1].map(|s| self.block(s, &shared[g].by_rate[s])));
         self.add_blocks(&rates, by_rate);
-        power.heat[CONTACT_HEAT] =
-            in_pairs(G, |g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
-        in_pairs(G, |g| self.members(g) * shared[g].energy)
+        power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
+        self.sum(|g| self.members(g) * shared[g].energy)
     }
 
     /// Adds the derivatives of the forces of both plain meshes of all groups by position.
     pub(super) fn add_shared_blocks(&self, shared: &[SharedForce; G], m: &mut Matrix<N>) {
-        let own = std::array::from_fn(|g| [0, 1].map(|s| self.block(s, &shared[g].by_position[s][s])));
+        let own = self.by_group(|g| [0, 1].map(|s| self.block(s, &shared[g].by_position[s][s])));
         self.add_blocks(&own, m);
-        let cross = std::array::from_fn(|g| {
+        let cross = self.by_group(|g| {
             [0, 1].map(|s| {
                 let [[qq, qx], [xq, xx]] = shared[g].by_position[s][1 - s];
                 self.block_between(s, 1 - s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])

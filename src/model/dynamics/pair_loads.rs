@@ -10,7 +10,7 @@ use crate::integrate::Point;
 use crate::model::dynamics::equations::Equations;
 use crate::numeric::{cos, sin};
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
     pub fn pair_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&PairLoad)) {
         // slices of a pair come one after the other
@@ -63,9 +63,9 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let [planet_tooth, side_tooth] = slice.teeth;
         let teeth = PairId { planet_tooth, side_tooth, flank: slice.flank };
         let mut opening = self.gaps().map_or(Opening::NONE, |gaps| gaps.of(mesh, teeth, slice.s));
-        if P > 0 {
+        if self.pins() {
             let axial = cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - slice.s);
-            opening.even.v += at.q[Self::SEAT + slice.side] * axial;
+            opening.even.v += at.q[self.seat(slice.side)] * axial;
         }
         let known = KnownSlice { cone: slice.cone, arc: slice.depth / slice.cone, s: slice.s };
         additions.detailed.face_load_factor(&known, &opening)

@@ -4,7 +4,7 @@
 //! constraint, λ_s = J_s ω̇_s − Q_s.
 
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
-use crate::model::assembly::rigid::{IMPOSED, Rigid};
+use crate::model::assembly::rigid::{IMPOSED, MOST, Rigid};
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
@@ -26,7 +26,7 @@ pub struct RigidTorques {
 
 /// The equations under given inputs.
 #[derive(Clone, Copy)]
-pub struct RigidEquations<'a, const N: usize> {
+pub struct RigidEquations<'a> {
     /// Constants.
     pub rigid: &'a Rigid,
     pub(super) inputs: Inputs,
@@ -37,9 +37,21 @@ pub struct RigidEquations<'a, const N: usize> {
     pub(super) friction: Friction,
 }
 
-impl<'a, const N: usize> RigidEquations<'a, N> {
+impl<'a> RigidEquations<'a> {
     /// Whether half-shafts have ends.
-    const ENDS: bool = N > PLANET + 1;
+    fn ends(&self) -> bool {
+        self.rigid.layout.ends
+    }
+
+    /// Index of the end of the half-shaft of side `s`.
+    fn end(&self, s: usize) -> usize {
+        self.rigid.layout.end(s)
+    }
+
+    /// Degrees of freedom.
+    fn count(&self) -> usize {
+        self.rigid.layout.count()
+    }
 
     /// Equations under `inputs` at `state`.
     pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
@@ -50,13 +62,13 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         Self { rigid, inputs, input_derivatives, driven, friction_state: state.friction, friction }
     }
 
-    fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
+    fn bodies<'b>(&'b self, at: &'b Point<MOST>) -> Bodies<'b> {
         let Self { inputs, input_derivatives, .. } = self;
         Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &input_derivatives.rates[0] }
     }
 
     pub(super) fn wheel(&self, s: usize) -> usize {
-        if Self::ENDS && self.rigid.plan.shafts[s] { N - 2 + s } else { s }
+        if self.ends() && self.rigid.plan.shafts[s] { self.end(s) } else { s }
     }
 
     /// The equations `time` [s] later, as far as inputs go.
@@ -71,9 +83,9 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
-    fn forces(&self, at: &Point<N>, power: &mut Power) -> ([f64; N], [f64; IMPOSED]) {
+    fn forces(&self, at: &Point<MOST>, power: &mut Power) -> ([f64; MOST], [f64; IMPOSED]) {
         let rates = &self.input_derivatives.rates[0];
-        let (mut sum, mut imposed) = ([0.0; N], rates.carrier_speed);
+        let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
         let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.rigid.bodies.forces.iter() {
             effect.act(&self.bodies(at), &mut out);
@@ -91,8 +103,8 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         }
         for s in 0..2 {
             power.shaft[s] = self.inputs.load_torque[s];
-            if Self::ENDS && plan.shafts[s] {
-                let end = N - 2 + s;
+            if self.ends() && plan.shafts[s] {
+                let end = self.end(s);
                 power.shaft[s] = self.rigid.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
             }
             let wheel = self.wheel(s);
@@ -112,10 +124,10 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
-    fn accelerations(&self, sum: &[f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
+    fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
         let rigid = self.rigid;
         std::array::from_fn(|i| {
-            let free: f64 = (0..N).map(|j| rigid.mobility[i][j] * sum[j]).sum();
+            let free: f64 = (0..self.count()).map(|j| rigid.mobility[i][j] * sum[j]).sum();
             free + (0..IMPOSED).map(|k| rigid.follow[k][i] * imposed[k]).sum::<f64>()
         })
     }
@@ -123,10 +135,10 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
     pub(in crate::model) fn forced(
         &self,
-        at: &Point<N>,
+        at: &Point<MOST>,
         inputs: &Inputs,
         input_derivatives: &InputDerivatives,
-    ) -> [f64; N] {
+    ) -> [f64; MOST] {
         let part = |inputs: &Inputs, input_derivatives: &InputDerivatives| {
             let these = self.under(inputs, input_derivatives);
             let (sum, imposed) = these.forces(at, &mut Power::default());
@@ -136,9 +148,9 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
         std::array::from_fn(|i| with[i] - without[i])
     }
 
-    fn torques_of(&self, sum: &[f64; N], a: &[f64; N], excess: f64) -> RigidTorques {
+    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], excess: f64) -> RigidTorques {
         let rigid = self.rigid;
-        let lack: [f64; N] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
+        let lack: [f64; MOST] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
         let plan = &rigid.plan;
         RigidTorques {
             carrier: if plan.carrier_imposed {
@@ -152,14 +164,14 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     }
 
     /// Torques that follow from the constraint.
-    pub fn torques(&self, at: &Point<N>) -> RigidTorques {
+    pub fn torques(&self, at: &Point<MOST>) -> RigidTorques {
         let mut power = Power::default();
         let (sum, imposed) = self.forces(at, &mut power);
         self.torques_of(&sum, &self.accelerations(&sum, &imposed), power.drive)
     }
 
     /// Energy of half-shafts and stuck friction [J].
-    fn stored(&self, at: &Point<N>) -> f64 {
+    fn stored(&self, at: &Point<MOST>) -> f64 {
         let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
         let energy = |i: usize| self.friction.on(i).energy(&self.friction_state[i], self.slip(at, i).position);
         let held = Self::bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0);
@@ -167,11 +179,15 @@ impl<'a, const N: usize> RigidEquations<'a, N> {
     }
 }
 
-impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
+impl SecondOrder<MOST> for RigidEquations<'_> {
     type Power = Power;
 
-    fn energy(&self, at: &Point<N>) -> [f64; 2] {
-        let kinetic: f64 = (0..N).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
+    fn freedoms(&self) -> usize {
+        self.count()
+    }
+
+    fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
+        let kinetic: f64 = (0..self.count()).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
         [0.5 * kinetic, self.stored(at)]
     }
 
@@ -179,30 +195,30 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         Power::imbalance::<true>(energies, h, power)
     }
 
-    fn rates(&self, v: &[f64; N]) -> [f64; N] {
+    fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
-            if Self::ENDS {
-                rates[N - 2 + s] = v[s] - v[N - 2 + s];
+            if self.ends() {
+                rates[self.end(s)] = v[s] - v[self.end(s)];
             }
         }
         rates
     }
 
-    fn times_rates(&self, m: &mut Matrix<N>) {
+    fn times_rates(&self, m: &mut Matrix<MOST>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            if Self::ENDS {
+            if self.ends() {
                 for s in 0..2 {
-                    row[s] += row[N - 2 + s];
-                    row[N - 2 + s] = -row[N - 2 + s];
+                    row[s] += row[self.end(s)];
+                    row[self.end(s)] = -row[self.end(s)];
                 }
             }
         }
     }
 
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
+    fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], Power) {
         let mut power = Power::default();
         let (sum, imposed) = self.forces(at, &mut power);
         let a = self.accelerations(&sum, &imposed);
@@ -214,12 +230,13 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         (a, power)
     }
 
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
+    fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, Power> {
         let (acceleration, power) = self.evaluate(at);
-        let (mut by_position, mut by_velocity, mut by_rate) = ([[0.0; N]; N], [[0.0; N]; N], [[0.0; N]; N]);
-        let mut imposed = [[0.0; N]; 2];
+        let (mut by_position, mut by_velocity, mut by_rate) =
+            ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
+        let mut imposed = [[0.0; MOST]; 2];
         let mut out = Slopes {
-            n: N,
+            n: MOST,
             by_position: by_position.as_flattened_mut(),
             by_velocity: by_velocity.as_flattened_mut(),
             imposed: imposed.each_mut().map(|row| row.as_mut_slice()),
@@ -249,15 +266,15 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         self.times_rates(&mut by_rate);
         let rigid = self.rigid;
         let follow = rigid.follow[0];
-        let moved = |m: &Matrix<N>, imposed: &[f64; N]| -> Matrix<N> {
+        let moved = |m: &Matrix<MOST>, imposed: &[f64; MOST]| -> Matrix<MOST> {
             std::array::from_fn(|i| {
                 std::array::from_fn(|j| {
-                    (0..N).map(|k| rigid.mobility[i][k] * m[k][j]).sum::<f64>() + follow[i] * imposed[j]
+                    (0..self.count()).map(|k| rigid.mobility[i][k] * m[k][j]).sum::<f64>() + follow[i] * imposed[j]
                 })
             })
         };
-        for i in 0..N {
-            for j in 0..N {
+        for i in 0..MOST {
+            for j in 0..MOST {
                 by_velocity[i][j] += by_rate[i][j];
             }
         }
@@ -273,35 +290,35 @@ impl<const N: usize> SecondOrder<N> for RigidEquations<'_, N> {
         self.driven
     }
 
-    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+    fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], Power) {
         if self.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
     }
 
-    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+    fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, Power> {
         if self.driven { self.later(time).linearise(at) } else { self.linearise(at) }
     }
 
-    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
+    fn drift(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
         let [first, second] = self.later(time).input_derivatives.rates;
         self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
-    fn weights(&self, at: &Point<N>) -> Point<N> {
+    fn weights(&self, at: &Point<MOST>) -> Point<MOST> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
-        let mut weights = Point { q: [1.0; N], v: [1.0 / (carrier + at.v[PLANET].abs()); N] };
+        let mut weights = Point { q: [1.0; MOST], v: [1.0 / (carrier + at.v[PLANET].abs()); MOST] };
         if self.friction.is_any() {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
-        if Self::ENDS {
+        if self.ends() {
             for s in 0..2 {
-                weights.q[N - 2 + s] = 1.0 / (1e-3 + at.q[N - 2 + s].abs());
+                weights.q[self.end(s)] = 1.0 / (1e-3 + at.q[self.end(s)].abs());
             }
         }
         weights
     }
 
-    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+    fn crossing(&self, start: (&Point<MOST>, f64), end: (&Point<MOST>, f64)) -> Option<f64> {
         let surface_loads = [start, end].map(|(_, time)| self.surface_loads(time));
         self.bodies_with_friction()
             .filter_map(|i| {

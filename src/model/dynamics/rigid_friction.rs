@@ -3,13 +3,14 @@
 use super::power::Power;
 use super::rigid_equations::RigidEquations;
 use crate::integrate::Point;
+use crate::model::assembly::rigid::MOST;
 use crate::model::effect_kinds::friction_state::Mode;
 use crate::model::effect_kinds::slip::Slip;
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS};
 use crate::model::setup::effect_outputs::HEATS;
 
-impl<const N: usize> RigidEquations<'_, N> {
+impl RigidEquations<'_> {
     /// Bodies that may stick, by their number: side gears, wheels. Planets stick with the side gears here.
     pub(super) fn bodies_that_stick() -> impl Iterator<Item = usize> {
         [0, 1, FRICTION_WHEELS, FRICTION_WHEELS + 1].into_iter()
@@ -26,7 +27,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     }
 
     /// Motion of body `i` against the surface it rubs on: carrier, or ground.
-    pub(super) fn slip(&self, at: &Point<N>, i: usize) -> Slip {
+    pub(super) fn slip(&self, at: &Point<MOST>, i: usize) -> Slip {
         let body = self.freedom_of(i);
         if i < FRICTION_WHEELS {
             return Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] };
@@ -49,7 +50,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     }
 
     /// Torques of the friction on the wheels [N·m].
-    pub fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
+    pub fn brake_torques(&self, at: &Point<MOST>) -> [f64; 2] {
         let surface_loads = self.surface_loads(0.0);
         [FRICTION_WHEELS, FRICTION_WHEELS + 1].map(|i| {
             let friction = self.friction.on(i);
@@ -59,7 +60,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     }
 
     /// Distance of each friction from its switch, where it acts.
-    pub(in crate::model) fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES] {
+    pub(in crate::model) fn friction_margins(&self, at: &Point<MOST>) -> [Option<f64>; FRICTION_BODIES] {
         let surface_loads = self.surface_loads(0.0);
         let mut margins = [None; FRICTION_BODIES];
         for i in self.bodies_with_friction() {
@@ -70,14 +71,14 @@ impl<const N: usize> RigidEquations<'_, N> {
     }
 
     /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
-    pub fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
+    pub fn is_friction_due(&self, at: &Point<MOST>, time: f64) -> bool {
         let surface_loads = self.surface_loads(time);
         let due = |i: usize| self.friction.on(i).is_due(&self.friction_state[i], &self.slip(at, i), &surface_loads[i]);
         self.bodies_with_friction().any(due)
     }
 
     /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
-    pub fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+    pub fn drag_anchors(&self, at: &Point<MOST>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         for i in self.bodies_with_friction().filter(|&i| self.friction_state[i].mode != Mode::Stuck) {
             anchors[i] = self.friction.on(i).drag(anchors[i], self.slip(at, i).position, power.limit[i]);
         }
@@ -87,7 +88,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     /// lose is heat.
     pub fn settle_friction(
         &mut self,
-        at: &Point<N>,
+        at: &Point<MOST>,
         time: f64,
         bodies: std::ops::Range<usize>,
         heat: &mut [f64; HEATS],
@@ -102,7 +103,7 @@ impl<const N: usize> RigidEquations<'_, N> {
     }
 
     /// Takes friction over from another stiffness.
-    pub fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64; HEATS]) {
+    pub fn adapt_friction(&mut self, at: &Point<MOST>, heat: &mut [f64; HEATS]) {
         for i in Self::bodies_that_stick() {
             let (friction, slip) = (*self.friction.on(i), self.slip(at, i));
             friction.adapt(&mut self.friction_state[i], &slip, heat, 1.0);

@@ -115,15 +115,14 @@ impl State {
         true
     }
 
-    /// The first `N` degrees of freedom.
+    /// The first `N` degrees of freedom, or all.
     pub fn point<const N: usize>(&self) -> Point<N> {
-        Point { q: std::array::from_fn(|i| self.q[i]), v: std::array::from_fn(|i| self.v[i]) }
+        Point::of([&self.q, &self.v])
     }
 
-    /// Takes over the first `N` degrees of freedom.
+    /// Takes over the first `N` degrees of freedom, or all.
     pub fn set_point<const N: usize>(&mut self, point: &Point<N>) {
-        self.q[..N].copy_from_slice(&point.q);
-        self.v[..N].copy_from_slice(&point.v);
+        point.write([&mut self.q, &mut self.v]);
     }
 
     /// Whether all planets of `layout` move as the one of `teeth`, which has them together, and nothing acts on it beside

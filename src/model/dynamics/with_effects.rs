@@ -5,14 +5,14 @@ use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::contact::mesh::MeshForce;
-use crate::integrate::{Matrix, Point, in_pairs};
+use crate::integrate::{Matrix, Point};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
 use crate::model::scene::layout::CARRIER;
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::Dual;
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// All positions and velocities as effects see them.
     pub(in crate::model) fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
         let Self { inputs, input_derivatives, .. } = self;
@@ -31,21 +31,14 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     ) {
         match slopes {
             None => {
-                if self.in_detail() {
-                    self.act_in_detail::<f64>(at, sum, power, None);
-                } else {
-                    let (forces, heat) = self.tooth_torques(at);
-                    *sum = forces;
-                    power.heat[CONTACT_HEAT] = heat;
-                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
-                }
+                self.act_of_teeth(at, sum, power);
                 self.act_on_bodies(at, sum, imposed, power);
             }
             Some(j) => {
                 if self.in_detail() && self.bodies_of_gears().is_some() {
-                    self.act_in_detail::<Dual<WITH_OTHER>>(at, sum, power, Some(j));
+                    self.act_in_detail(at, &self.all_loads::<Dual<WITH_OTHER>>(at), sum, power, Some(j));
                 } else if self.in_detail() {
-                    self.act_in_detail::<Dual<LOCAL>>(at, sum, power, Some(j));
+                    self.act_in_detail(at, &self.all_loads::<Dual<LOCAL>>(at), sum, power, Some(j));
                 } else if let Some(bodies) = self.bodies_of_gears() {
                     j.elastic_energy =
                         self.add_shared_forces(bodies, at, sum, [&mut j.by_position, &mut j.by_rate], power);
@@ -54,7 +47,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     let mut load = [[MeshForce::default(); 2]; G];
                     let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
                     let mut energy = [0.0; G];
-                    for g in 0..G {
+                    for g in 0..self.groups() {
                         if let Some(twin) = self.twin(at, g) {
                             (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
                             energy[g] = energy[twin];
@@ -71,8 +64,8 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                     self.add_forces(|g, s| load[g][s].force, sum);
                     self.add_blocks(&position, &mut j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
-                    j.elastic_energy = in_pairs(G, |g| self.members(g) * energy[g]);
-                    power.heat[CONTACT_HEAT] = in_pairs(G, |g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+                    j.elastic_energy = self.sum(|g| self.members(g) * energy[g]);
+                    power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
                     self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 }
                 self.friction_slopes(j);
@@ -90,6 +83,21 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
                 j.of_imposed = imposed_by;
             }
         }
+    }
+
+    /// Forces of meshes, and the dry friction that these cause; the torques of the meshes on the side gears alone.
+    #[inline]
+    pub(in crate::model) fn act_of_teeth(&self, at: &Point<N>, sum: &mut [f64; N], power: &mut Power) -> [f64; 2] {
+        if self.in_detail() {
+            let loads = self.all_loads::<f64>(at);
+            self.act_in_detail(at, &loads, sum, power, None);
+            let side = self.teeth.sin_base[1];
+            return [0, 1].map(|s| self.sum(|g| self.members(g) * side * loads[g][s].force[0]));
+        }
+        (*sum, power.heat[CONTACT_HEAT]) = self.tooth_torques(at);
+        let gears = [sum[0], sum[1]];
+        self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
+        gears
     }
 
     /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
@@ -112,7 +120,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     }
 
     /// Effects on bodies.
-    fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &mut [f64; N], power: &mut Power) {
+    pub(in crate::model) fn act_on_bodies(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        imposed: &mut [f64; N],
+        power: &mut Power,
+    ) {
         let bodies = self.bodies(at);
         imposed[CARRIER] += bodies.input_rates.carrier_speed;
         let mut out =
@@ -120,17 +134,17 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         for effect in self.teeth.additions.bodies.forces.iter() {
             effect.act(&bodies, &mut out);
         }
-        if Self::ENDS {
+        if self.ends() {
             power.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
         }
     }
 
     /// Torque that the half-shaft of side `s` delivers to the wheel, where it twists [N·m].
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
-        if !Self::ENDS || !self.teeth.plan.shafts[s] {
+        if !self.ends() || !self.teeth.plan.shafts[s] {
             return self.inputs.load_torque[s];
         }
-        let end = N - 2 + s;
+        let end = self.end(s);
         self.teeth.additions.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
@@ -141,14 +155,13 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
         self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
-        if P > 0 {
+        if self.pins() {
             for s in 0..2 {
-                sum[Self::SEAT + s] += in_pairs(G, |g| self.members(g) * loads[g][s].force[2].v);
+                sum[self.seat(s)] += self.sum(|g| self.members(g) * loads[g][s].force[2].v);
             }
         }
-        let blocks = std::array::from_fn(|g| {
-            [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]])))
-        });
+        let blocks = self
+            .by_group(|g| [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]]))));
         self.add_blocks(&blocks, &mut j.by_position);
         if self.bodies_of_gears().is_some() {
             self.add_cross_blocks(&self.cross_blocks(&loads), &mut j.by_position);
@@ -174,7 +187,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
     /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].
     pub(in crate::model) fn stored(&self, at: &Point<N>, all: bool) -> f64 {
         let teeth = if self.in_detail() {
-            in_pairs(G, |g| self.members(g) * self.planet_energy(at, g))
+            self.sum(|g| self.members(g) * self.planet_energy(at, g))
         } else {
             self.elastic_energy(at)
         };

@@ -8,10 +8,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, real};
-use crate::integrate::in_pairs;
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::scene::layout::over_groups;
 use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;
 use crate::problem::Problem;
@@ -116,8 +116,8 @@ impl BodyEffect for Springs {
             pins[g] = layout.members[g] * torque;
             heat[g] = layout.members[g] * self.pin * self.time * rate * rate;
         }
-        out.force[carrier] += in_pairs(layout.groups, |g| pins[g]);
-        out.heat[self.heat] += in_pairs(layout.groups, |g| heat[g]);
+        out.force[carrier] += over_groups(layout.groups, |g| pins[g]);
+        out.heat[self.heat] += over_groups(layout.groups, |g| heat[g]);
         for s in 0..2 {
             let i = layout.seat(s);
             out.force[i] -= self.case * (at.q[i] + self.time * at.v[i]);
@@ -136,7 +136,7 @@ impl BodyEffect for Springs {
             out.position(carrier, i, m * self.pin);
             out.velocity(carrier, i, m * c);
         }
-        out.velocity(carrier, carrier, -in_pairs(layout.groups, |g| layout.members[g] * c));
+        out.velocity(carrier, carrier, -over_groups(layout.groups, |g| layout.members[g] * c));
         for s in 0..2 {
             let i = layout.seat(s);
             out.position(i, i, -self.case);
@@ -151,7 +151,7 @@ impl BodyEffect for Springs {
     fn energy(&self, at: &Bodies) -> f64 {
         let layout = at.layout;
         let square = |i: usize| at.q[i] * at.q[i];
-        let pins = in_pairs(layout.groups, |g| layout.members[g] * self.pin * square(layout.pin(g)));
+        let pins = over_groups(layout.groups, |g| layout.members[g] * self.pin * square(layout.pin(g)));
         0.5 * (pins + self.case * (square(layout.seat(0)) + square(layout.seat(1))))
     }
 }

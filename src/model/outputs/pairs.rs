@@ -14,7 +14,7 @@ use crate::contact::pairs::{Flank, Spot};
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::equations::Equations;
+use crate::model::dynamics::sizes::{LARGEST, Largest};
 use crate::strength::LineContact;
 
 /// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.
@@ -145,10 +145,10 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
 }
 
 /// Pairs of the mesh of group `g` with side `s` under the contact of `contact`; none where one spring stands for all teeth.
-pub fn pair_lines<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+pub fn pair_lines(
     (pair, contact): (&Pair, &LineContact),
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    at: &Point<N>,
+    equations: &Largest,
+    at: &Point<LARGEST>,
     [g, s]: [usize; 2],
 ) -> PairLines {
     let mesh = &equations.teeth.mesh;

@@ -4,20 +4,20 @@ use super::forces::{Forces, bias};
 use super::mesh_forces::MeshForces;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
-use crate::integrate::{Point, SecondOrder, in_pairs};
+use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::dynamics::sizes::{LARGEST, Largest};
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body_effect::Bodies;
 use crate::model::effect_kinds::effect::{Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
-use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS, heats_within, places_of};
+use crate::model::setup::effect_outputs::{HEATS, heats_within, places_of};
 use crate::model::setup::scene_effects;
 use crate::numeric::{sin, sqrt};
 
@@ -78,18 +78,13 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
 }
 
 /// Forces of the differential with teeth.
-pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    model: &Model,
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    inputs: &Inputs,
-    state: &State,
-) -> Forces {
+pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, state: &State) -> Forces {
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
     let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
     let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
-    let brakes = if WITH_EFFECTS { equations.brake_torques(point) } else { [0.0; 2] };
+    let brakes = equations.brake_torques(point);
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
             equations.shaft_torque(point, s)
@@ -128,8 +123,8 @@ pub fn teeth_forces<const N: usize, const G: usize, const P: usize, const WITH_E
 }
 
 /// Accelerations and torques at an instant, of one evaluation.
-struct ForcesAtInstant<const N: usize> {
-    acceleration: [f64; N],
+struct ForcesAtInstant {
+    acceleration: [f64; LARGEST],
     /// Torques of the meshes on the side gears, alone [N·m].
     gears: [f64; 2],
     /// Torque of the carrier's drive [N·m].
@@ -139,40 +134,22 @@ struct ForcesAtInstant<const N: usize> {
     power: Power,
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
-    fn instant(&self, at: &Point<N>) -> ForcesAtInstant<N> {
+impl Largest<'_> {
+    fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
-        let gears;
-        if WITH_EFFECTS {
-            self.act(at, &mut sum, &mut imposed, &mut power, None);
-            gears = self.gear_torques(at);
-        } else {
-            (sum, power.heat[CONTACT_HEAT]) = self.tooth_torques(at);
-            gears = [sum[0], sum[1]];
-        }
+        let (mut sum, mut imposed, mut power) = ([0.0; LARGEST], [0.0; LARGEST], Power::default());
+        let gears = self.act_of_teeth(at, &mut sum, &mut power);
+        self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
             self.inputs.carrier_torque + power.drive
         };
-        let inertial = self.teeth.inertia[Self::PLANET] * self.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * self.input_derivatives.rates[0].planet_spin;
         let spin_torque =
-            if plan.spin_imposed { in_pairs(G, |g| self.members(g) * (inertial - sum[Self::PLANET + g])) } else { 0.0 };
+            if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);
         ForcesAtInstant { acceleration: sum, gears, carrier_torque, spin_torque, power }
-    }
-
-    /// Torques of the meshes on side gears, where other torques act on them too.
-    fn gear_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let side = self.teeth.sin_base[1];
-        if self.in_detail() {
-            let loads = self.all_loads::<f64>(at);
-            let torque = |s: usize| in_pairs(G, |g| self.members(g) * side * loads[g][s].force[0]);
-            return [torque(0), torque(1)];
-        }
-        let sum = self.tooth_torques(at).0;
-        [sum[0], sum[1]]
     }
 }
 
@@ -220,13 +197,8 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
 }
 
 /// Forces of the ideal differential with effects on bodies.
-pub fn rigid_forces<const N: usize>(
-    model: &Model,
-    equations: &RigidEquations<N>,
-    inputs: &Inputs,
-    state: &State,
-) -> Forces {
-    let (plan, point) = (&model.ideal.plan, &state.point::<N>());
+pub fn rigid_forces(model: &Model, equations: &RigidEquations, inputs: &Inputs, state: &State) -> Forces {
+    let (plan, point) = (&model.ideal.plan, &state.point());
     let (a, power) = equations.evaluate(point);
     let torques = equations.torques(point);
     let mut out = Forces {

@@ -2,18 +2,34 @@
 
 use crate::integrate::{Extension, Pending, Point, SecondOrder, Step};
 use crate::model::dynamics::power::Power;
+use crate::model::dynamics::sizes::LARGEST;
 
 /// A completed step, and the same while it was pending.
 pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, Power>, Option<&'a Pending<N, Power>>);
 
-/// The motion in a step, and the part of it that was taken.
-pub fn extension<const N: usize>(
-    equations: &impl SecondOrder<N>,
-    (step, pending): CompletedStep<N>,
-) -> (Extension<N>, f64) {
-    match pending {
-        Some(pending) => (pending.extension, pending.part),
-        None => (cubic(equations, step), 1.0),
+/// A completed step of equations of any size, for what looks at its motion.
+pub struct Passed {
+    /// Size of the step [s].
+    pub h: f64,
+    /// Time at its begin [s].
+    pub begin: f64,
+    /// The motion in it.
+    pub way: Extension<LARGEST>,
+    /// The part of that which was taken.
+    pub part: f64,
+}
+
+impl Passed {
+    /// The step `completed`, whose times count from `begin` [s].
+    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, pending): CompletedStep<N>, begin: f64) -> Self {
+        let (way, part) = match pending {
+            Some(pending) => (pending.extension, pending.part),
+            None => (cubic(equations, step), 1.0),
+        };
+        let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
+        let way =
+            Extension { start: largest(&way.start), end: largest(&way.end), bends: way.bends.each_ref().map(largest) };
+        Self { h: step.h, begin: begin + step.time - step.h, way, part }
     }
 }
 

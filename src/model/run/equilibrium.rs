@@ -6,10 +6,11 @@ use super::carried::Carried;
 use super::excessive_deflection::limit_name;
 use super::hints;
 use crate::contact::gaps::FlankGaps;
-use crate::integrate::{Matrix, Point, in_pairs};
+use crate::integrate::{Matrix, Point};
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::equations::Equations;
+use crate::model::dynamics::sizes::{LARGEST, Largest};
+use crate::model::scene::layout::MAX_GROUPS;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
@@ -23,39 +24,39 @@ pub const ROUNDS: usize = 12;
 /// Loads below this are none [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl Largest<'_> {
     /// Forces of meshes and structure at rest, with their derivatives by position.
-    pub(super) fn statics(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
-        if WITH_EFFECTS && (self.in_detail() || P > 0) {
+    pub(super) fn statics(&self, at: &Point<LARGEST>) -> ([f64; LARGEST], Matrix<LARGEST>) {
+        if self.in_detail() || self.pins() {
             return self.structure(at);
         }
-        let still = Point { q: at.q, v: [0.0; N] };
+        let still = Point { q: at.q, v: [0.0; LARGEST] };
         (self.tooth_torques(&still).0, self.tooth_stiffness(at))
     }
 
     /// Torque that plain teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.
-    fn plain(&self, s: usize, at: &Point<N>) -> [f64; 2] {
-        let mut mesh = [[0.0; 2]; G];
-        for g in 0..G {
+    fn plain(&self, s: usize, at: &Point<LARGEST>) -> [f64; 2] {
+        let mut mesh = [[0.0; 2]; MAX_GROUPS];
+        for g in 0..self.groups() {
             let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
             mesh[g] = [force.force[0], by.by_position[0][0]];
         }
         let arm = self.teeth.sin_base[1];
-        [in_pairs(G, |g| self.members(g) * arm * mesh[g][0]), in_pairs(G, |g| self.members(g) * arm * arm * mesh[g][1])]
+        [self.sum(|g| self.members(g) * arm * mesh[g][0]), self.sum(|g| self.members(g) * arm * arm * mesh[g][1])]
     }
 
     /// Energy that belongs to [`Self::statics`].
-    fn static_energy(&self, at: &Point<N>) -> f64 {
-        if WITH_EFFECTS && (self.in_detail() || P > 0) { self.stored(at, false) } else { self.elastic_energy(at) }
+    fn static_energy(&self, at: &Point<LARGEST>) -> f64 {
+        if self.in_detail() || self.pins() { self.stored(at, false) } else { self.elastic_energy(at) }
     }
 }
 
 /// Turns each side gear with planets held at their spin until plain teeth carry `torque`; unloaded sides stay in mid-gap.
-pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
+pub fn press_sides(
     model: &Model,
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
+    equations: &Largest,
     torque: [f64; 2],
-    point: &mut Point<N>,
+    point: &mut Point<LARGEST>,
 ) -> Result<(), Problem> {
     press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
         let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
@@ -73,11 +74,11 @@ pub fn press_sides<const N: usize, const G: usize, const P: usize, const WITH_EF
 
 /// The same with teeth that `carry` torque on a side at a point, with its derivative by the side's angle. On failure the side
 /// that cannot be pressed.
-fn press<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
+fn press(
+    equations: &Largest,
     torque: [f64; 2],
-    point: &mut Point<N>,
-    carry: impl Fn(usize, &Point<N>) -> [f64; 2],
+    point: &mut Point<LARGEST>,
+    carry: impl Fn(usize, &Point<LARGEST>) -> [f64; 2],
 ) -> Result<(), usize> {
     let teeth = equations.teeth;
     let largest = (teeth.deflection_limit + teeth.mesh.half_backlash()) / teeth.sin_base[1];
@@ -102,12 +103,8 @@ fn press<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: boo
 ///
 /// Errors may keep these apart, where nothing leads on, and bodies of gears may give way far beyond them: then, and where the
 /// search finds none, it begins from teeth that are pressed as they are.
-pub fn settle<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    loads: &Carried,
-    pressed: &Point<N>,
-) -> Option<Point<N>> {
-    let is_other = WITH_EFFECTS && (equations.gaps().is_some() || equations.bodies_of_gears().is_some());
+pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
+    let is_other = equations.gaps().is_some() || equations.bodies_of_gears().is_some();
     let touches = || {
         let sum = equations.statics(pressed).0;
         (0..2).all(|s| loads.teeth[s] == 0.0 || sum[s] != 0.0)
@@ -118,22 +115,15 @@ pub fn settle<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS
 
 /// A minimum of the potential under `loads`, from teeth that are pressed as they are. Planets that carry nothing roll with
 /// the others.
-pub fn settle_as_they_are<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    loads: &Carried,
-) -> Option<Point<N>> {
+pub fn settle_as_they_are(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
     minimum(equations, loads, &pressed_as_they_are(equations, loads, 1)?, true)
 }
 
 /// Each side gear turned until teeth as they are carry `loads`, planets held at their spin; `rounds` times, as bodies of planets
 /// join both sides.
-pub fn pressed_as_they_are<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    loads: &Carried,
-    rounds: usize,
-) -> Option<Point<N>> {
+pub fn pressed_as_they_are(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
     let mut pressed = Point::ZERO;
-    let carry = |s: usize, at: &Point<N>| {
+    let carry = |s: usize, at: &Point<LARGEST>| {
         let (sum, by_position) = equations.statics(at);
         [sum[s], by_position[s][s]]
     };
@@ -149,18 +139,13 @@ pub fn pressed_as_they_are<const N: usize, const G: usize, const P: usize, const
 ///
 /// Straight ahead V alone decides, and mirror images of a minimum are as good: the planets then stand at positive angles
 /// under loads that drive forward, at negative ones under the mirrored loads.
-fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    loads: &Carried,
-    point: &Point<N>,
-    along_valley: bool,
-) -> Option<Point<N>> {
+fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_valley: bool) -> Option<Point<LARGEST>> {
     let (teeth, torque) = (equations.teeth, loads.teeth);
-    let mut against = [0.0; N];
+    let mut against = [0.0; LARGEST];
     against[..2].copy_from_slice(&torque);
-    for g in 0..G {
+    for g in 0..equations.groups() {
         against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin;
-        if P > 0 {
+        if equations.pins() {
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier;
         }
     }
@@ -188,50 +173,48 @@ fn minimum<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: b
 }
 
 /// Places of the unknown positions, and how many bodies each stands for; a group without members has nothing to find.
-fn unknowns<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-) -> Vec<(usize, f64)> {
+fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
     let teeth = equations.teeth;
     let layout = &teeth.layout;
     let mut unknowns = vec![(0, 1.0), (1, 1.0)];
-    for g in (0..G).filter(|&g| layout.members[g] > 0.0) {
+    for g in (0..equations.groups()).filter(|&g| layout.members[g] > 0.0) {
         if !teeth.plan.spin_imposed {
             unknowns.push((layout.planet(g), layout.members[g]));
         }
-        if P > 0 {
+        if equations.pins() {
             unknowns.push((layout.pin(g), layout.members[g]));
         }
     }
-    if P > 0 {
+    if equations.pins() {
         unknowns.extend([(layout.seat(0), 1.0), (layout.seat(1), 1.0)]);
     }
     unknowns
 }
 
 /// The potential V + Σ T_i q_i around `point` as a function of the unknown positions.
-struct Well<'a, const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> {
-    equations: &'a Equations<'a, N, G, P, WITH_EFFECTS>,
+struct Well<'a> {
+    equations: &'a Largest<'a>,
     /// T, on each body.
-    against: [f64; N],
-    point: &'a Point<N>,
+    against: [f64; LARGEST],
+    point: &'a Point<LARGEST>,
     unknowns: Vec<(usize, f64)>,
     /// Farthest spin that a planet may have [rad].
     near: f64,
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Well<'_, N, G, P, WITH_EFFECTS> {
+impl Well<'_> {
     fn unknowns_from(&self, value: impl Fn(usize) -> f64) -> DVector<f64> {
         DVector::from_iterator(self.unknowns.len(), self.unknowns.iter().map(|&(i, _)| value(i)))
     }
 
-    fn at(&self, x: &DVector<f64>) -> Point<N> {
+    fn at(&self, x: &DVector<f64>) -> Point<LARGEST> {
         let mut point = *self.point;
         self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
         // a group without members stands as the first, whose twin it is
         let layout = &self.equations.teeth.layout;
-        for g in (1..G).filter(|&g| layout.members[g] == 0.0) {
+        for g in (1..layout.groups).filter(|&g| layout.members[g] == 0.0) {
             point.q[layout.planet(g)] = point.q[layout.planet(0)];
-            if P > 0 {
+            if layout.pins {
                 point.q[layout.pin(g)] = point.q[layout.pin(0)];
             }
         }
@@ -239,9 +222,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> W
     }
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Landscape
-    for Well<'_, N, G, P, WITH_EFFECTS>
-{
+impl Landscape for Well<'_> {
     fn value(&self, x: &DVector<f64>) -> f64 {
         let energy = self.equations.static_energy(&self.at(x));
         self.unknowns.iter().zip(x.iter()).fold(energy, |sum, (&(i, members), q)| sum + members * self.against[i] * q)

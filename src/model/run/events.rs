@@ -3,8 +3,8 @@
 use super::imposed;
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
-use crate::model::assembly::model::{Gears, Model};
-use crate::model::dynamics::sizes::{by_rigid_size, by_size, with_equations};
+use crate::model::assembly::model::Model;
+use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
 use crate::model::scene::{InputDerivatives, Inputs};
@@ -36,20 +36,11 @@ pub fn update_friction(model: &Model, inputs: &Inputs, state: &mut State) {
 
 /// Lets friction start and end on bodies, and the wheels slide that are held by more than their brakes hold.
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
-    match &model.gears {
-        Gears::Rigid(rigid) => by_rigid_size!(model, {
-            let mut equations = E::new(rigid, inputs, state);
-            equations.adapt_friction(&state.point(), &mut state.heat);
-            equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
-            state.friction = equations.friction_state;
-        }),
-        Gears::Teeth(teeth) => by_size!(teeth, true, {
-            let mut equations = E::new(teeth, inputs, state);
-            equations.adapt_friction(&state.point(), &mut state.heat);
-            equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
-            state.friction = equations.friction_state;
-        }),
-    }
+    with_equations!(model, state, inputs, |equations| {
+        equations.adapt_friction(&state.point(), &mut state.heat);
+        equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
+        state.friction = equations.friction_state;
+    });
 }
 
 /// Whether brakes were put on or released since friction was last updated.

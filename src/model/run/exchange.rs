@@ -11,10 +11,10 @@ use super::ledger::{Recorded, Records};
 use super::progress::complete;
 use super::simulation::Simulation;
 use super::timeline::{breaks_tooth, next_change};
-use crate::integrate::{DynSystem, Point, SecondOrder, Step};
+use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::accepted::Accepted;
-use crate::model::dynamics::sizes::{by_size, with_equations};
+use crate::model::dynamics::sizes::{Largest, with_equations};
 use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
 use crate::model::scene::{InputDerivatives, Inputs, Plan};
@@ -191,10 +191,9 @@ impl Simulation {
             // the energy of a jump of imposed speeds is impulsive work of the input
             state.work += energy(model, inputs, &begin) - before;
             let outcome = with_equations!(model, state, inputs, |equations| {
-                let mut equations = equations;
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = DynSystem(&equations.under(&from.inputs, &InputDerivatives::ZERO)).evaluate(&start);
-                let (_, last) = DynSystem(&equations).evaluate(&end);
+                let (_, first) = equations.under(&from.inputs, &InputDerivatives::ZERO).evaluate(&start);
+                let (_, last) = equations.evaluate(&end);
                 // the motion in between is the host's: for stiff teeth no curve through both ends describes it
                 let power = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, power };
@@ -244,7 +243,6 @@ impl Simulation {
         state.work += energy(model, inputs, state) - energy(model, inputs, &before);
         update_friction(model, inputs, state);
         with_equations!(model, state, inputs, |equations| {
-            let mut equations = equations;
             if equations.is_due(&state.point(), 0.0) {
                 equations.settle(&state.point(), 0.0, &mut state.heat);
                 state.friction = *equations.friction_state();
@@ -264,18 +262,16 @@ impl Simulation {
         let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);
         let plan = &model.ideal.plan;
         if let Gears::Teeth(teeth) = &model.gears {
-            by_size!(teeth, teeth.additions.bodies.act_in(state), {
-                let (equations, point) = (E::new(teeth, inputs, state), state.point());
-                for i in 0..plan.planets {
-                    for s in 0..2 {
-                        let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
-                        let drive = teeth.mesh.drive_approach(position);
-                        let coast = -2.0 * teeth.mesh.half_backlash() - drive;
-                        indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
-                        indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
-                    }
+            let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+            for i in 0..plan.planets {
+                for s in 0..2 {
+                    let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
+                    let drive = teeth.mesh.drive_approach(position);
+                    let coast = -2.0 * teeth.mesh.half_backlash() - drive;
+                    indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
+                    indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
                 }
-            });
+            }
         }
         with_equations!(model, state, inputs, |equations| {
             let margins = equations.friction_margins(&state.point());

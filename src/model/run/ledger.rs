@@ -1,10 +1,11 @@
 //! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
-use super::completed_step::CompletedStep;
+use super::completed_step::{CompletedStep, Passed};
 use super::excessive_deflection::ExcessiveDeflection;
 use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
+use crate::model::assembly::rigid::MOST;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::equations::Equations;
@@ -47,9 +48,7 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
     fn record(&self, model: &Model, step: CompletedStep<N>, records: &mut Records);
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Recorded<N>
-    for Equations<'_, N, G, P, WITH_EFFECTS>
-{
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for Equations<'_, N, G, WITH_EFFECTS> {
     fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
         &self.friction_state
     }
@@ -89,27 +88,28 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> R
         if !self.teeth.mesh.engagement.corner_contact() {
             records.heat[CONTACT_HEAT] -= self.energy_of_jumps(step);
         }
-        if WITH_EFFECTS && Self::ENDS {
+        if WITH_EFFECTS && self.ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             Cycle { pitch: model.periods[LEFT] }.add(records.bias, turned, step.h, torque);
         }
         if let (true, Some(watch)) = (WITH_EFFECTS, &model.watch) {
-            watch_step(self, (model, watch), (step, pending), (records.begin, records.watched));
+            let passed = Passed::new(self, (step, pending), records.begin);
+            watch_step(&self.largest(), (model, watch), &passed, records.watched);
         }
     }
 }
 
-impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
+impl Recorded<MOST> for RigidEquations<'_> {
     fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
         &self.friction_state
     }
 
-    fn is_due(&self, at: &Point<N>, time: f64) -> bool {
+    fn is_due(&self, at: &Point<MOST>, time: f64) -> bool {
         self.is_friction_due(at, time)
     }
 
-    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag(&self, at: &Point<MOST>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
         self.drag_anchors(at, power, anchors);
     }
 
@@ -117,20 +117,20 @@ impl<const N: usize> Recorded<N> for RigidEquations<'_, N> {
         self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
     }
 
-    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
+    fn settle(&mut self, at: &Point<MOST>, time: f64, heat: &mut [f64; HEATS]) {
         self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
     }
 
-    fn admit(&self, _: &Point<N>) -> Result<(), ExcessiveDeflection> {
+    fn admit(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
         Ok(())
     }
 
-    fn record(&self, _: &Model, (step, _): CompletedStep<N>, records: &mut Records) {
+    fn record(&self, _: &Model, (step, _): CompletedStep<MOST>, records: &mut Records) {
         add_to_ledger(step, records.work, records.heat, true);
     }
 }
 
-impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, P, WITH_EFFECTS> {
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
     #[inline(never)]
     fn energy_of_jumps(&self, step: &Step<N, Power>) -> f64 {
@@ -139,7 +139,7 @@ impl<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool> E
             v: std::array::from_fn(|i| step.start.v[i] + t * (step.end.v[i] - step.start.v[i])),
         };
         let mut energy = 0.0;
-        for g in 0..G {
+        for g in 0..self.groups() {
             for s in 0..2 {
                 let [start, end] = [step.start, step.end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [end[0] - start[0], end[1] - start[1]];

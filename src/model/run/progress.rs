@@ -11,8 +11,6 @@ use super::stretch::{self, Stretch};
 use super::timeline::{self, Stop};
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::dynamics::clock::Clock;
-use crate::model::dynamics::equations::Equations;
-use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::scene::{Inputs, Method};
@@ -36,10 +34,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     let mut budget = stretch::budget(model);
     let begin = state.time() - clock.now;
     let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
-    let outcome = with_equations!(model, state, &inputs, |equations| {
-        let mut equations = equations;
-        stretch::integrate::<N, _>(&mut equations, model, state, stretch, &mut budget)
-    });
+    let outcome = stretch::integrate(model, state, stretch, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
         // what was shown holds; the ledger tells what it lacks
         *state = before;
@@ -133,15 +128,11 @@ fn one_stretch(
 ) -> Result<(), StepFailure> {
     let stretch = Stretch { clock, begin, is_shown: false, inputs, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.is_together(teeth, &model.layout)) {
-        let mut equations = Equations::<4, 1, 0, false>::new(teeth, inputs, state);
-        let outcome = stretch::integrate::<4, _>(&mut equations, model, state, stretch, budget);
+        let outcome = stretch::integrate_teeth(teeth, model, state, stretch, budget);
         state.let_others_follow(&model.layout);
         return outcome;
     }
-    with_equations!(model, state, inputs, |equations| {
-        let mut equations = equations;
-        stretch::integrate::<N, _>(&mut equations, model, state, stretch, budget)
-    })
+    stretch::integrate(model, state, stretch, budget)
 }
 
 /// Wraps positions unless a step leads on from them, and lets gears without teeth turn together to the last bit.

@@ -9,7 +9,8 @@ use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::inertias::Inertias;
 use crate::model::assembly::model::Gears;
-use crate::model::dynamics::sizes::{by_rigid_size, by_size};
+use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::dynamics::sizes::Largest;
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::effect_kinds::effect::Changes;
@@ -104,12 +105,9 @@ impl Simulation {
         match &model.gears {
             Gears::Rigid(rigid) if !rigid.bodies.act_in(state) => resultants::ideal_forces(model, inputs, state),
             Gears::Rigid(rigid) => {
-                by_rigid_size!(model, resultants::rigid_forces(model, &E::new(rigid, inputs, state), inputs, state))
+                resultants::rigid_forces(model, &RigidEquations::new(rigid, inputs, state), inputs, state)
             }
-            Gears::Teeth(teeth) => {
-                let full = teeth.additions.bodies.act_in(state);
-                by_size!(teeth, full, resultants::teeth_forces(model, &E::new(teeth, inputs, state), inputs, state))
-            }
+            Gears::Teeth(teeth) => resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, state),
         }
     }
 
@@ -121,28 +119,23 @@ impl Simulation {
     pub(super) fn pair_lines_of_state(&self) -> PairLines {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return PairLines::default() };
-        let full = teeth.additions.bodies.act_in(state);
         let material = &model.parameters.material;
         let contact = LineContact::new(&model.pair, material.young_modulus, material.poisson_ratio);
         let first = model.ideal.plan.group_of[0];
-        by_size!(teeth, full, {
-            pair_lines((&model.pair, &contact), &E::new(teeth, inputs, state), &state.point(), [first, 0])
-        })
+        let equations = Largest::new(teeth, inputs, state);
+        pair_lines((&model.pair, &contact), &equations, &state.point(), [first, 0])
     }
 
     /// Visits the load of every tooth pair, of one planet of each group; none where there are no teeth.
     pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let Gears::Teeth(teeth) = &model.gears else { return };
-        let full = teeth.additions.bodies.act_in(state);
-        by_size!(teeth, full, {
-            let (equations, point) = (E::new(teeth, inputs, state), state.point());
-            for g in 0..model.ideal.plan.groups().len() {
-                for s in 0..2 {
-                    equations.tooth_loads(&model.pair, &point, g, s, &mut visit);
-                }
+        let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        for g in 0..model.ideal.plan.groups().len() {
+            for s in 0..2 {
+                equations.tooth_loads(&model.pair, &point, g, s, &mut visit);
             }
-        });
+        }
     }
 
     /// State and what is watched with the step ahead completed up to the present.

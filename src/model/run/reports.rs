@@ -3,7 +3,7 @@
 use super::simulation::Simulation;
 use crate::friction::FrictionLaw;
 use crate::model::assembly::model::Gears;
-use crate::model::dynamics::sizes::by_size;
+use crate::model::dynamics::sizes::Largest;
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::problem::Problem;
 
@@ -69,18 +69,16 @@ impl Simulation {
         let Gears::Teeth(teeth) = &model.gears else { return None };
         let friction = teeth.additions.detailed.friction.as_ref()?;
         let mut found = None;
-        by_size!(teeth, true, {
-            let (equations, point) = (E::new(teeth, inputs, state), state.point());
-            for g in 0..model.ideal.plan.groups().len() {
-                for s in 0..2 {
-                    equations.detail(&point, g, s, |slice| {
-                        if found.is_none() {
-                            found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
-                        }
-                    });
-                }
+        let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        for g in 0..model.ideal.plan.groups().len() {
+            for s in 0..2 {
+                equations.detail(&point, g, s, |slice| {
+                    if found.is_none() {
+                        found = slice.sliding.as_ref().and_then(|sliding| friction.outside(sliding));
+                    }
+                });
             }
-        });
+        }
         found.map(|what| {
             Problem::new("tooth_friction.law", format!("{what} at t = {:.6} s; reported once", state.time()))
         })

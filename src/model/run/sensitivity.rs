@@ -7,7 +7,7 @@
 use super::exchange::STATES;
 use super::imposed::{add_impulse, body_effects, imposed_speeds};
 use super::simulation::Simulation;
-use crate::integrate::{DynSystem, Point, SecondOrder};
+use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::outputs::forces::Forces;
@@ -21,6 +21,14 @@ use crate::model::scene::{InputDerivatives, Inputs};
 const APART: f64 = 3e-4;
 /// Central differences of order 4: points, in the distance of neighbours, and their weights.
 pub const STENCIL: [(f64, f64); 4] = [(-2.0, 1.0 / 12.0), (-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (2.0, -1.0 / 12.0)];
+
+/// The point of the first `n` of positions `q` and velocities `v`.
+fn first<const N: usize>(n: usize, q: &[f64], v: &[f64]) -> Point<N> {
+    let mut point = Point::ZERO;
+    point.q[..n].copy_from_slice(&q[..n]);
+    point.v[..n].copy_from_slice(&v[..n]);
+    point
+}
 
 /// A change of everything that motion and forces depend on.
 #[derive(Clone, Copy, Debug)]
@@ -70,10 +78,10 @@ impl Simulation {
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let (acceleration, _) = DynSystem(&equations).evaluate(&at);
-            dq[..N].copy_from_slice(&equations.rates(&at.v));
-            dv[..N].copy_from_slice(&acceleration);
+            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let (acceleration, _) = equations.evaluate(&at);
+            dq[..n].copy_from_slice(&equations.rates(&at.v)[..n]);
+            dv[..n].copy_from_slice(&acceleration[..n]);
         });
     }
 
@@ -82,18 +90,18 @@ impl Simulation {
     pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let at = Point { q: std::array::from_fn(|i| q[i]), v: std::array::from_fn(|i| v[i]) };
-            let linearisation = DynSystem(&equations).linearise(&at);
+            let (n, at) = (equations.freedoms(), first::<N>(equations.freedoms(), q, v));
+            let linearisation = equations.linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);
-            for (i, row) in rows.chunks_exact_mut(2 * N).enumerate().take(2 * N) {
-                let (by_position, by_velocity) = row.split_at_mut(N);
-                if i < N {
+            for (i, row) in rows.chunks_exact_mut(2 * n).enumerate().take(2 * n) {
+                let (by_position, by_velocity) = row.split_at_mut(n);
+                if i < n {
                     by_position.fill(0.0);
-                    by_velocity.copy_from_slice(&rates[i]);
+                    by_velocity.copy_from_slice(&rates[i][..n]);
                 } else {
-                    by_position.copy_from_slice(&linearisation.by_position[i - N]);
-                    by_velocity.copy_from_slice(&linearisation.by_velocity[i - N]);
+                    by_position.copy_from_slice(&linearisation.by_position[i - n][..n]);
+                    by_velocity.copy_from_slice(&linearisation.by_velocity[i - n][..n]);
                 }
             }
         });
@@ -133,7 +141,8 @@ impl Simulation {
         let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
         let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
         with_equations!(self.model, state, inputs, |equations| {
-            forced[..N].copy_from_slice(&equations.forced(&state.point::<N>(), &change, &input_derivatives));
+            let by_inputs = equations.forced(&state.point(), &change, &input_derivatives);
+            forced.iter_mut().zip(by_inputs).for_each(|(forced, by_inputs)| *forced = by_inputs);
         });
         forced
     }
@@ -179,10 +188,7 @@ impl Simulation {
     /// Rates of the ledger.
     pub fn ledger_rates(&self) -> LedgerReadings {
         let (inputs, state) = (&self.inputs, &self.state);
-        let heat = with_equations!(self.model, state, inputs, |equations| DynSystem(&equations)
-            .evaluate(&state.point::<N>())
-            .1
-            .heat);
+        let heat = with_equations!(self.model, state, inputs, |equations| equations.evaluate(&state.point()).1.heat);
         LedgerReadings { heat, ..LedgerReadings::default() }
     }
 
@@ -207,8 +213,8 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut largest = 0.0f64;
         with_equations!(self.model, state, inputs, |equations| {
-            let weights = DynSystem(&equations).weights(&state.point::<N>());
-            for i in 0..N {
+            let weights = equations.weights(&state.point());
+            for i in 0..equations.freedoms() {
                 largest = largest.max((weights.q[i] * direction.q[i]).abs());
                 largest = largest.max((weights.v[i] * direction.v[i]).abs());
             }

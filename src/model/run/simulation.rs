@@ -8,7 +8,7 @@ use super::progress::{self, begin_anew};
 use super::{imposed, start, start_report, timeline};
 use crate::model::assembly::model::{Gears, Given, Model};
 use crate::model::dynamics::accepted::Accepted;
-use crate::model::dynamics::sizes::by_size;
+use crate::model::dynamics::sizes::Largest;
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::effects::strength::Fatigue;
@@ -58,9 +58,8 @@ impl Simulation {
             match &model.gears {
                 Gears::Rigid(rigid) => start::wind(model, &rigid.bodies.half_shafts, inputs, state),
                 Gears::Teeth(teeth) => {
-                    let full = teeth.additions.bodies.act_in(state);
-                    let pressed =
-                        by_size!(teeth, full, start::preload(&E::new(teeth, inputs, state), model, inputs, state));
+                    let equations = Largest::new(teeth, inputs, state);
+                    let pressed = start::preload(&equations, model, inputs, state);
                     preload = Some(pressed.map_err(|problem| vec![problem])?);
                 }
             }

@@ -7,7 +7,7 @@ use crate::integrate::Point;
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::equations::Equations;
+use crate::model::dynamics::sizes::{LARGEST, Largest};
 use crate::model::dynamics::state::State;
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::layout::CARRIER;
@@ -82,12 +82,7 @@ pub struct Preload {
 /// First without rolling of the planets, as a minimum of the potential V + Σ T α near ψ = 0 (stiffness that varies along
 /// the path holds small imbalances). Where there is none, the planets roll: then with the accelerations of the ideal
 /// differential, plain teeth at ψ = 0 and others at the minimum under the loads of these accelerations.
-pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECTS: bool>(
-    equations: &Equations<N, G, P, WITH_EFFECTS>,
-    model: &Model,
-    inputs: &Inputs,
-    state: &mut State,
-) -> Result<Preload, Problem> {
+pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;
     let held = Ideal { plan: plan.with_spin_held(), ..*ideal };
@@ -95,7 +90,7 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     let mut point = Point::ZERO;
     press_sides(model, equations, carried.teeth, &mut point)?;
     // pairs that move each other, or slices of the face, carry the loads otherwise than each mesh alone
-    let otherwise = WITH_EFFECTS && (equations.in_detail() || P > 0 || equations.bodies_of_gears().is_some());
+    let otherwise = equations.in_detail() || equations.pins() || equations.bodies_of_gears().is_some();
     let mut settled = true;
     if !plan.spin_imposed || otherwise {
         let found = settle(equations, &carried, &point);
@@ -113,10 +108,11 @@ pub fn preload<const N: usize, const G: usize, const P: usize, const WITH_EFFECT
     }
     let (_, stiffness) = equations.statics(&point);
     let speeds = state.v;
-    point.v = state.point::<N>().v;
+    point.v = state.point::<LARGEST>().v;
     // quasi-static: while the planets spin, α follows the changing stiffness
     let spin = |g: usize| teeth.layout.planet(g);
-    let by_spins = [0, 1].map(|s| (0..G).map(|g| stiffness[s][spin(g)] * speeds[spin(g)]).sum::<f64>());
+    let by_spins =
+        [0, 1].map(|s| (0..equations.groups()).map(|g| stiffness[s][spin(g)] * speeds[spin(g)]).sum::<f64>());
     let follows = [0, 1].map(|s| stiffness[s][s] != 0.0 && !(plan.shafts[s] && plan.side_imposed[s]));
     for s in 0..2 {
         if follows[s] {

@@ -4,7 +4,7 @@ use super::start::Preload;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::assembly::teeth::Teeth;
-use crate::model::dynamics::sizes::by_size;
+use crate::model::dynamics::sizes::Largest;
 use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{CARRIER, MAX_DOF, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
@@ -35,13 +35,11 @@ pub struct Outcome {
 pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
     let Gears::Teeth(teeth) = &model.gears else { return Outcome { in_equilibrium: true, warnings: Vec::new() } };
     let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
-    by_size!(teeth, teeth.additions.bodies.act_in(state), {
-        let (equations, point) = (E::new(teeth, inputs, state), state.point::<N>());
-        found.acceleration[..N].copy_from_slice(&equations.evaluate(&point).0);
-        for g in 0..teeth.plan.groups().len() {
-            found.torque[g] = equations.planet_torques(&point, g);
-        }
-    });
+    let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+    found.acceleration.copy_from_slice(&equations.evaluate(&point).0[..MAX_DOF]);
+    for g in 0..teeth.plan.groups().len() {
+        found.torque[g] = equations.planet_torques(&point, g);
+    }
     let rolls = !preload.settled && preload.carried.spin != 0.0;
     let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
     let in_equilibrium = balance.is_none();

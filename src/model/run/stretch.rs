@@ -6,16 +6,20 @@ use super::hints;
 use super::ledger::{Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
-    self, AfterStep, Course, DormandPrince, DynSecondOrder, DynSystem, Failure, Pending, Radau, Rodas4, Rodas5P,
-    SolverContext, Step,
+    self, AfterStep, Course, DormandPrince, Failure, Pending, Radau, Rodas4, Rodas5P, SecondOrder, SolverContext, Step,
 };
 use crate::model::assembly::model::{Gears, Model};
+use crate::model::assembly::rigid::MOST;
+use crate::model::assembly::teeth::Teeth;
 use crate::model::dynamics::clock::Clock;
+use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
+use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::dynamics::sizes::{EXACT, LARGEST, LEAST};
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
-use crate::model::scene::{Inputs, Method, SolverSpec};
-use crate::numeric::lanes::{Task, in_lanes};
+use crate::model::scene::layout::MAX_GROUPS;
+use crate::model::scene::{Inputs, Method};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;
@@ -74,39 +78,70 @@ pub struct Stretch<'a> {
 }
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
-/// be set back. Compiled once for each size and width of vectors, whoever calls it.
-#[inline(never)]
-pub fn integrate<const N: usize, E: Recorded<N>>(
-    equations: &mut E,
+/// be set back.
+pub fn integrate(model: &Model, state: &mut State, stretch: Stretch, budget: &mut u64) -> Result<(), StepFailure> {
+    match &model.gears {
+        Gears::Rigid(rigid) => {
+            let equations: &mut dyn Recorded<MOST> = &mut RigidEquations::new(rigid, stretch.inputs, state);
+            integrate_stretch::<MOST, true, _>(equations, model, state, stretch, budget)
+        }
+        Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, stretch, budget),
+    }
+}
+
+/// The same with `teeth`, which may have planets together that the model has apart.
+pub fn integrate_teeth(
+    teeth: &Teeth,
     model: &Model,
     state: &mut State,
     stretch: Stretch,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    in_lanes(Integration::<N, E> { equations, model, state, stretch, budget })
-}
-
-/// The integration of a stretch, as a task for vectors of any width.
-struct Integration<'a, const N: usize, E> {
-    equations: &'a mut E,
-    model: &'a Model,
-    state: &'a mut State,
-    stretch: Stretch<'a>,
-    budget: &'a mut u64,
-}
-
-impl<const N: usize, E: Recorded<N>> Task for Integration<'_, N, E> {
-    type Output = Result<(), StepFailure>;
-
-    #[inline]
-    fn run(self) -> Self::Output {
-        let Self { equations, model, state, stretch, budget } = self;
-        integrate_stretch(equations, model, state, stretch, budget)
+    let method = model.parameters.solver.method;
+    if method == Method::Adaptive && !teeth.additions.bodies.act_in(state) {
+        return match teeth.layout.groups {
+            1 => whole::<LEAST, 1, false>(teeth, model, state, stretch, budget),
+            2 => whole::<EXACT, 2, false>(teeth, model, state, stretch, budget),
+            _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, stretch, budget),
+        };
+    }
+    let compares = !matches!(method, Method::Adaptive | Method::FixedStep);
+    match teeth.layout.count() {
+        0..=LEAST if !compares => whole::<LEAST, 1, true>(teeth, model, state, stretch, budget),
+        EXACT if !compares => whole::<EXACT, 2, true>(teeth, model, state, stretch, budget),
+        0..=MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
+        _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
     }
 }
 
-#[inline]
-fn integrate_stretch<const N: usize, E: Recorded<N>>(
+/// Plain teeth, and effects on two planets: compiled as a whole for each size.
+#[inline(never)]
+fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
+    teeth: &Teeth,
+    model: &Model,
+    state: &mut State,
+    stretch: Stretch,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
+    let equations = &mut Equations::<N, G, WITH_EFFECTS>::new(teeth, stretch.inputs, state);
+    integrate_stretch::<N, WITH_EFFECTS, _>(equations, model, state, stretch, budget)
+}
+
+/// Teeth with any effects on more: the integration calls their forces through a table of functions.
+#[inline(never)]
+fn by_table<const N: usize, const G: usize>(
+    teeth: &Teeth,
+    model: &Model,
+    state: &mut State,
+    stretch: Stretch,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
+    let equations: &mut dyn Recorded<N> = &mut Equations::<N, G, true>::new(teeth, stretch.inputs, state);
+    integrate_stretch::<N, true, _>(equations, model, state, stretch, budget)
+}
+
+/// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes.
+fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
     state: &mut State,
@@ -144,12 +179,25 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
             Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
-        outcome = if solver.method == Method::Adaptive {
-            integrate::proceed(&Rodas5P, &*equations, &mut course, clock.now, context, |step, pending| {
+        let system = &*equations;
+        outcome = match solver.method {
+            Method::FixedStep if ANY_METHOD => {
+                let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
+                let observe = |step: Step<N, Power>| observe(step, None);
+                integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
+            }
+            Method::Radau if ANY_METHOD && N > EXACT => {
+                compared(&Radau, system, &mut course, clock.now, context, &mut observe)
+            }
+            Method::Rodas4 if ANY_METHOD && N > EXACT => {
+                compared(&Rodas4, system, &mut course, clock.now, context, &mut observe)
+            }
+            Method::DormandPrince if ANY_METHOD && N > EXACT => {
+                compared(&DormandPrince, system, &mut course, clock.now, context, &mut observe)
+            }
+            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
                 observe(step, Some(pending))
-            })
-        } else {
-            otherwise(solver, &*equations, &mut course, clock.now, context, &mut observe)
+            }),
         };
         equations.anchor(&anchors);
         if switched {
@@ -174,29 +222,17 @@ fn integrate_stretch<const N: usize, E: Recorded<N>>(
 type Observer<'a, const N: usize> =
     &'a mut dyn FnMut(Step<N, Power>, Option<&Pending<N, Power>>) -> Result<AfterStep, ExcessiveDeflection>;
 
-/// Integrates by another method than the default.
+/// Integrates by another method of variable steps than the default.
 #[inline(never)]
-fn otherwise<const N: usize>(
-    solver: &SolverSpec,
-    system: &dyn DynSecondOrder<N, Power>,
+fn compared<const N: usize, M: integrate::Method>(
+    method: &M,
+    system: &(impl SecondOrder<N, Power = Power> + ?Sized),
     course: &mut Course<N, Power>,
     until: f64,
     context: SolverContext,
     observe: Observer<N>,
 ) -> Result<(), Failure<ExcessiveDeflection>> {
-    let system = &DynSystem(system);
-    let extended = |step: Step<N, Power>, pending: &Pending<N, Power>| observe(step, Some(pending));
-    match solver.method {
-        Method::Adaptive => integrate::proceed(&Rodas5P, system, course, until, context, extended),
-        Method::Radau => integrate::proceed(&Radau, system, course, until, context, extended),
-        Method::Rodas4 => integrate::proceed(&Rodas4, system, course, until, context, extended),
-        Method::DormandPrince => integrate::proceed(&DormandPrince, system, course, until, context, extended),
-        Method::FixedStep => {
-            let counts = (context.statistics, context.budget);
-            let Course { point, time, end, .. } = course;
-            integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, |step| observe(step, None))
-        }
-    }
+    integrate::proceed(method, system, course, until, context, |step, pending| observe(step, Some(pending)))
 }
 
 fn explain(failure: Failure<ExcessiveDeflection>, time: f64, model: &Model) -> StepFailure {

@@ -36,27 +36,43 @@ pub struct Layout {
 
 impl Layout {
     /// Index of the carrier.
+    #[inline]
     pub fn carrier(&self) -> usize {
         CARRIER
     }
     /// Index of the axial seat of side gear `s`.
+    #[inline]
     pub fn seat(&self, s: usize) -> usize {
         CARRIER + 1 + s
     }
     /// Index of the planets of group `g`.
+    #[inline]
     pub fn planet(&self, g: usize) -> usize {
         CARRIER + 1 + if self.pins { 2 } else { 0 } + g
     }
     /// Index of the pin of group `g`.
+    #[inline]
     pub fn pin(&self, g: usize) -> usize {
         self.planet(self.groups + g)
     }
     /// Index of the end of the half-shaft of side `s`.
+    #[inline]
     pub fn end(&self, s: usize) -> usize {
         self.planet(self.groups * if self.pins { 2 } else { 1 } + s)
     }
     /// Degrees of freedom.
+    #[inline]
     pub fn count(&self) -> usize {
         self.end(if self.ends { 2 } else { 0 })
+    }
+}
+
+/// Σ over 1, 2 or 4 groups of planets, in twos: opposite planets, which are adjacent, may be alike.
+#[inline]
+pub fn over_groups(groups: usize, term: impl Fn(usize) -> f64) -> f64 {
+    match groups {
+        1 => term(0),
+        2 => term(0) + term(1),
+        _ => (term(0) + term(1)) + (term(2) + term(3)),
     }
 }

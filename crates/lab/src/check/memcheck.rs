@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::check::fuzz;
 use crate::tools::places;
-use fmu_build::fmu::package;
+use fmu_build::fmu::own;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::table::Table;
@@ -74,7 +74,7 @@ impl MemcheckCommand {
 
 fn run() -> Result<()> {
     let progress = Progress::start("building the library and the host");
-    let library = package::build_library("bevel-differential")?;
+    let library = own::beside_program()?;
     let life = compiled("life", &[])?;
     let mut host_arguments = arguments(&library)?;
     host_arguments.push(CALLS[0].to_string().into());
@@ -129,7 +129,8 @@ fn between<'a>(said: &'a str, before: &str, after: &str) -> Option<&'a str> {
 fn success(program: &str, output: &Output) -> Result<String> {
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     if !output.status.success() {
-        bail!("{program} ({}):\n{}", output.status, said.trim_end());
+        let names = "with CARGO_PROFILE_RELEASE_STRIP=none in the environment, functions have their names";
+        bail!("{program} ({}):\n{}\n{names}", output.status, said.trim_end());
     }
     Ok(said)
 }

@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::tools::places;
 use fmu_build::fmu::libraries::{self, Library};
-use fmu_build::fmu::package;
+use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
@@ -52,7 +52,7 @@ fn run(write: bool) -> Result<()> {
     let mut arguments: Vec<OsString> = vec![paths::scenes().into(), wine.into()];
     for (index, (name, library)) in named.into_iter().enumerate() {
         let fmu = paths::target().join("platforms").join(format!("{index}.fmu"));
-        package::write_archive(&[library], None, &fmu)?;
+        package::write_archive(&[library], None, Packing::Quick, &fmu)?;
         let mut pair = OsString::from(format!("{name}="));
         pair.push(fmu);
         arguments.push(pair);

@@ -19,8 +19,9 @@ pub fn build(effects: bool, name: &str) -> Result<PathBuf> {
         .args(["--message-format", "json"])
         .arg("--target-dir")
         .arg(&target)
-        // as the FMU's library, whatever the rest is built with
+        // as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
         .envs(["BENCH", "RELEASE"].map(|profile| (format!("CARGO_PROFILE_{profile}_CODEGEN_UNITS"), "1")))
+        .env("CARGO_PROFILE_BENCH_STRIP", "debuginfo")
         .output()
         .context("cargo did not start")?;
     ensure!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -13,7 +13,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use crate::fmu::libraries;
-use crate::fmu::toolchains::{self, UnpackedToolchain, WASM};
+use crate::fmu::toolchains::{self, WASM_TARGET, Wasm};
 use crate::tools::files::copy_folder;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -22,8 +22,6 @@ use crate::tools::python::{Environment, finish};
 /// The crate of the library for browsers, and what its file is called.
 const CRATE: &str = "bevel-differential-page";
 const LIBRARY: &str = "bevel_differential_page.wasm";
-/// Rust's name of the target.
-const TARGET: &str = "wasm32-unknown-unknown";
 /// Settings of the compiler for users, and those of a build that is sooner done: parts of a crate that are compiled beside each
 /// other, and the level of optimisation. Neither touches a result.
 const FOR_USERS: [&str; 2] = ["1", "3"];
@@ -47,8 +45,11 @@ pub struct PageCommand {
 impl PageCommand {
     /// Builds the page and prints where it is.
     pub fn run(&self) -> Result<()> {
-        let Some(tools) = WASM.found() else {
-            bail!("the tool chain for browsers is not installed: {} wasm", toolchains::COMMAND);
+        let Some(tools) = Wasm::found() else {
+            bail!(
+                "the tool chain for browsers is not installed: rustup target add {WASM_TARGET}, or {} wasm",
+                toolchains::COMMAND
+            );
         };
         if Command::new("npm").arg("--version").output().is_err() {
             bail!("npm, which gets three.js and uPlot, is not installed: apt install nodejs npm (or see nodejs.org)");
@@ -65,25 +66,27 @@ impl PageCommand {
 }
 
 /// The library for browsers, compiled in so many parts at this level of optimisation.
-fn library(tools: &UnpackedToolchain, [parts, level]: [&str; 2]) -> Result<PathBuf> {
+fn library(tools: &Wasm, [parts, level]: [&str; 2]) -> Result<PathBuf> {
     let folder = paths::target().join("cross").join("wasm");
     let mut cargo = Command::new(libraries::cargo());
     cargo
         .current_dir(paths::workspace())
-        .args(["build", "--release", "--quiet", "--package", CRATE, "--target", TARGET])
-        .args(["-Zbuild-std=std,panic_abort", "--target-dir"])
+        .args(["build", "--release", "--quiet", "--package", CRATE, "--target", WASM_TARGET, "--target-dir"])
         .arg(&folder)
-        .env("RUSTC", tools.programs().join("rustc"))
-        // Debian's Rust is a stable one, and building the standard library is not yet
-        .env("RUSTC_BOOTSTRAP", "1")
-        .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"))
         // whatever this build is for
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", parts)
         .env("CARGO_PROFILE_RELEASE_OPT_LEVEL", level)
-        .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .env("CARGO_ENCODED_RUSTFLAGS", libraries::without_folders().join("\u{1f}"));
+    if let Wasm::Unpacked(tools) = tools {
+        cargo
+            .arg("-Zbuild-std=std,panic_abort")
+            .env("RUSTC", tools.programs().join("rustc"))
+            // Debian's Rust is a stable one, and building the standard library is not yet
+            .env("RUSTC_BOOTSTRAP", "1")
+            .env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", tools.programs().join("wasm-ld"));
+    }
     finish(&mut cargo, "the library for browsers cannot be built")?;
-    Ok(folder.join(TARGET).join("release").join(LIBRARY))
+    Ok(folder.join(WASM_TARGET).join("release").join(LIBRARY))
 }
 
 /// The page around `library`; the sources are copied, so that nothing is written where they are.

@@ -53,10 +53,11 @@ impl StudyCommand {
 }
 
 fn run(readme: bool) -> Result<()> {
-    // Python first: what the user has to install should not come out after minutes of building
-    let progress = Progress::start("looking for Python");
+    let progress = Progress::of_steps(expected());
+    // Python first: what the user has to install should come out at once
+    progress.step("looking for Python");
     let environment = Environment::ready(|what| progress.stage(what))?;
-    progress.stage("packaging the FMU");
+    progress.step("packaging the FMU");
     let fmu = package::package()?;
     let folder = paths::study();
     paths::create_folder(&folder)?;
@@ -65,6 +66,7 @@ fn run(readme: bool) -> Result<()> {
     let pages: Vec<Order> = SCENES
         .map(|scene| Order { scene: scene.into(), file: folder.join(format!("{scene}.html")), settings: Vec::new() })
         .into();
+    progress.step("writing the reports");
     page::write(&environment, &fmu, &pages, false, &progress)?;
     progress.finish();
     let report = comparison::report(&theory, &results);
@@ -82,6 +84,12 @@ fn run(readme: bool) -> Result<()> {
     Ok(())
 }
 
+/// Time that the steps take on a machine of two cores [s]: the Python environment, the FMU, the study, the reports.
+fn expected() -> Vec<f64> {
+    let environment = if Environment::is_ready() { 0.3 } else { 25.0 };
+    vec![environment, 1.0, 6.0, 12.0]
+}
+
 /// Runs study.py in `folder` and reads what it found.
 fn simulate(
     environment: &Environment,
@@ -92,7 +100,7 @@ fn simulate(
 ) -> Result<Results> {
     fs::write(folder.join("order.json"), order.json()?).context("the order for study.py cannot be written")?;
     let study = paths::workspace().join("fmu-build").join("python").join("study.py");
-    progress.begin_bar("simulating");
+    progress.step("simulating");
     script::run(environment, &study, &[fmu, folder], progress)?;
     let results = fs::read_to_string(folder.join("results.json")).context("study.py left no results")?;
     serde_json::from_str(&results).context("the results of study.py cannot be read")

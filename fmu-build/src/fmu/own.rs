@@ -1,0 +1,96 @@
+//! The library that cargo built along with this program. It is packed for this machine, so that nothing is compiled twice.
+
+use std::env;
+use std::ffi::OsStr;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use anyhow::{Context, Result, ensure};
+
+use crate::fmu::libraries::folders;
+use crate::tools::paths;
+
+/// The library's file, by the system's rules for names.
+const NAMES: [&str; 3] = [env::consts::DLL_PREFIX, "bevel_differential", env::consts::DLL_SUFFIX];
+/// Shorter paths are not looked for: a few bytes may mean something else.
+const SHORTEST: usize = 4;
+
+/// The library as cargo left it beside this program, as it is. An error says why it cannot be used.
+pub fn beside_program() -> Result<PathBuf> {
+    ensure!(!cfg!(debug_assertions), "this program was built without --release");
+    let program = env::current_exe().context("this program does not know its own file")?;
+    let beside = program.parent().context("this program lies in no folder")?;
+    // programs of tests lie among their dependencies
+    let deps = if beside.file_name() == Some(OsStr::new("deps")) { beside.to_path_buf() } else { beside.join("deps") };
+    let library = deps.join(NAMES.concat());
+    // program and library are linked from one compilation, the program last; a later library is another one
+    let written = |file: &Path| -> Result<SystemTime> {
+        let modified = fs::metadata(file).and_then(|metadata| metadata.modified());
+        modified.with_context(|| format!("{} is not there", paths::shown(file)))
+    };
+    ensure!(
+        written(&library)? <= written(&program)?,
+        "{} is newer than this program: it was built with other options",
+        paths::shown(&library)
+    );
+    Ok(library)
+}
+
+/// A copy of it without the folders of this machine.
+pub fn packable() -> Result<PathBuf> {
+    let library = beside_program()?;
+    let mut content = fs::read(&library).with_context(|| format!("{} cannot be read", paths::shown(&library)))?;
+    for (folder, name) in folders() {
+        overwrite(&mut content, folder.as_os_str().as_encoded_bytes(), name.as_bytes());
+    }
+    let folder = paths::target().join("cross").join("this-machine");
+    paths::create_folder(&folder)?;
+    let copy = folder.join(NAMES.concat());
+    // complete or not there, as others may pack at the same time
+    let partial = copy.with_extension(format!("{}.part", std::process::id()));
+    fs::write(&partial, content)
+        .and_then(|()| fs::rename(&partial, &copy))
+        .with_context(|| format!("{} cannot be written", paths::shown(&copy)))?;
+    Ok(copy)
+}
+
+/// Puts `name` in the place of each `folder` that a path begins with. The length stays, so that nothing moves: separators, of
+/// which many in a row are as good as one, fill it up.
+fn overwrite(content: &mut [u8], folder: &[u8], name: &[u8]) {
+    if folder.len() < SHORTEST {
+        return;
+    }
+    let is_separator = |byte: &u8| *byte == b'/' || (cfg!(windows) && *byte == b'\\');
+    let found: Vec<usize> = content
+        .windows(folder.len() + 1)
+        .enumerate()
+        .filter(|(_, bytes)| bytes.starts_with(folder) && bytes.last().is_some_and(is_separator))
+        .map(|(at, _)| at)
+        .collect();
+    for at in found {
+        let place = &mut content[at..at + folder.len()];
+        place.fill(std::path::MAIN_SEPARATOR as u8);
+        let kept = name.len().min(place.len());
+        place[..kept].copy_from_slice(&name[..kept]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::overwrite;
+
+    fn overwritten(text: &str, folder: &str, name: &str) -> String {
+        let mut content = text.as_bytes().to_vec();
+        overwrite(&mut content, folder.as_bytes(), name.as_bytes());
+        String::from_utf8(content).unwrap()
+    }
+
+    #[test]
+    fn a_folder_is_overwritten_at_equal_length_and_the_rest_of_the_path_stays() {
+        let text = "src/a.rs/home/me/crates/b-1.0/src/lib.rs/home/merry/c.rs";
+        assert_eq!(overwritten(text, "/home/me", "cargo"), "src/a.rscargo////crates/b-1.0/src/lib.rs/home/merry/c.rs");
+        assert_eq!(overwritten("/opt/x/y.rs", "/opt", "toolchains"), "tool/x/y.rs");
+        assert_eq!(overwritten("/c/y.rs", "/c", "cargo"), "/c/y.rs");
+    }
+}
