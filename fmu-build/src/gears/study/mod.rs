@@ -86,8 +86,8 @@ fn run(readme: bool) -> Result<()> {
 
 /// Time that the steps take on a machine of two cores [s]: the Python environment, the FMU, the study, the reports.
 fn expected() -> Vec<f64> {
-    let environment = if Environment::is_ready() { 0.3 } else { 25.0 };
-    vec![environment, 1.0, 6.0, 12.0]
+    let environment = if Environment::is_ready() { 0.3 } else { 17.0 };
+    vec![environment, 0.7, 3.5, 8.0]
 }
 
 /// Runs study.py in `folder` and reads what it found.
