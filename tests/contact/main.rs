@@ -2,6 +2,7 @@
 
 mod bench;
 mod errors_explicit;
+mod golden_pairs;
 mod hunt_crossley;
 mod mesh_conjugacy;
 mod mesh_detailed;

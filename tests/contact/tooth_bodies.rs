@@ -1,62 +1,10 @@
 //! Tooth pairs on elastic bodies against 3-D finite elements: single pairs, and two pairs that share a rotation.
 
+use crate::golden_pairs::{FILLET, sets};
 use crate::stiffness_pairs::{LINE_LOAD, PER_MM_UM, STEEL, buildable, random_pairs, stiffness};
 use bevel_differential::contact::bodies::{MeshOnBodies, Support};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
-use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
-
-/// Rows of one gear set on one support.
-struct Set {
-    name: String,
-    spec: GearSpec,
-    supports: [Support; 2],
-    /// s [rad], q of planet and side gear [mm·µm/N], c [N/(mm·µm)].
-    single: Vec<[f64; 4]>,
-    /// s [rad], c of both with and without coupling [N/(mm·µm)].
-    double: Vec<[f64; 3]>,
-}
-
-/// Fillet of the reference [modules].
-const FILLET: f64 = 0.40;
-
-fn sets() -> Vec<Set> {
-    let mut sets: Vec<Set> = Vec::new();
-    let lines = include_str!("../data/golden_fe3d_pairs.csv").lines().filter(|l| !l.starts_with('#'));
-    for line in lines.skip(1) {
-        let columns: Vec<&str> = line.split(',').collect();
-        let number = |i: usize| columns[i].parse::<f64>().expect("a number");
-        let name = columns[..9].join(" ");
-        if sets.last().is_none_or(|set| set.name != name) {
-            let spec = GearSpec {
-                module: number(0) * 1e-3,
-                planet_teeth: number(1) as i32,
-                side_teeth: number(2) as i32,
-                pressure_angle: number(3).to_radians(),
-                addendum_system: match columns[5] {
-                    "gleason" => AddendumSystem::Gleason,
-                    "iso" => AddendumSystem::Iso23509,
-                    other => panic!("{other}"),
-                },
-                ..GearSpec::default()
-            };
-            let spec = GearSpec { face_width: number(4) * Pair::new(&spec).outer_cone, ..spec };
-            let supports = match columns[6] {
-                "tooth" => [Support::NearRoot; 2],
-                // the reference names radii
-                "full" => [number(7), number(8)].map(|radius| Support::Bore(2e-3 * radius)),
-                other => panic!("{other}"),
-            };
-            sets.push(Set { name, spec, supports, single: Vec::new(), double: Vec::new() });
-        }
-        let set = sets.last_mut().expect("a set");
-        match columns[9] {
-            "one" => set.single.push([number(10).to_radians(), number(11), number(12), number(14)]),
-            "two" => set.double.push([number(10).to_radians(), number(15), number(16)]),
-            other => panic!("{other}"),
-        }
-    }
-    sets
-}
+use bevel_differential::geometry::{GearSpec, Pair};
 
 #[test]
 fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
@@ -68,7 +16,7 @@ fn pairs_on_their_supports_are_as_stiff_as_3d_finite_elements() {
         let reference = LINE_LOAD / Pair::new(&set.spec).mean_cone;
         println!("{}", set.name);
         let mut mean = 0.0;
-        for &[s, planet, side, c] in &set.single {
+        for &[s, planet, side, _, c] in &set.single {
             let alone = mesh.alone(s, reference);
             let [q1, q2] = alone.gear.map(|q| q * PER_MM_UM);
             let ratio = alone.stiffness() / PER_MM_UM / c;

@@ -1,50 +1,13 @@
 //! Tooth stiffness of several gears against 3-D finite elements, tooth by tooth.
 
+use crate::golden_pairs::{self, FILLET, Set};
 use crate::stiffness_pairs::{LINE_LOAD, PER_MM_UM, STEEL, stiffness};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
-use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
+use bevel_differential::geometry::Pair;
 
-/// Single pairs of one gear set on one support.
-struct Set {
-    name: String,
-    spec: GearSpec,
-    /// s [rad], q of planet and side gear, q_H [mm·µm/N], c [N/(mm·µm)].
-    rows: Vec<[f64; 5]>,
-}
-
-/// Fillet of the reference [modules].
-const FILLET: f64 = 0.40;
-
+/// Gear sets with the body modelled as `body`.
 fn sets(body: &str) -> Vec<Set> {
-    let mut sets: Vec<Set> = Vec::new();
-    let lines = include_str!("../data/golden_fe3d_pairs.csv").lines().filter(|l| !l.starts_with('#'));
-    for line in lines.skip(1) {
-        let columns: Vec<&str> = line.split(',').collect();
-        if columns[6] != body || columns[9] != "one" {
-            continue;
-        }
-        let number = |i: usize| columns[i].parse::<f64>().expect("a number");
-        let name = columns[..9].join(" ");
-        if sets.last().is_none_or(|set| set.name != name) {
-            let spec = GearSpec {
-                module: number(0) * 1e-3,
-                planet_teeth: number(1) as i32,
-                side_teeth: number(2) as i32,
-                pressure_angle: number(3).to_radians(),
-                addendum_system: match columns[5] {
-                    "gleason" => AddendumSystem::Gleason,
-                    "iso" => AddendumSystem::Iso23509,
-                    other => panic!("{other}"),
-                },
-                ..GearSpec::default()
-            };
-            let spec = GearSpec { face_width: number(4) * Pair::new(&spec).outer_cone, ..spec };
-            sets.push(Set { name, spec, rows: Vec::new() });
-        }
-        let row = [number(10).to_radians(), number(11), number(12), number(13), number(14)];
-        sets.last_mut().expect("a set").rows.push(row);
-    }
-    sets
+    golden_pairs::sets().into_iter().filter(|set| set.body == body).collect()
 }
 
 /// How much plane stress is from plane strain: a thin plate and a wide face of the same section. A material in plane strain
@@ -66,7 +29,7 @@ fn mean_ratios(set: &Set) -> [f64; 2] {
     let (wide, thin) = (stiffness(&set.spec, FILLET), thin_plate(set));
     let mut sums = [0.0; 2];
     println!("{}", set.name);
-    for &[s, planet, side, hertz, c] in &set.rows {
+    for &[s, planet, side, hertz, c] in &set.single {
         let local = wide.exact(s, wide.reference).local * PER_MM_UM;
         // Hertz's contact is one of plane strain in either
         let ratios = [&wide, &thin].map(|k| 1.0 / (teeth(k, s).iter().sum::<f64>() + local) / c);
@@ -81,7 +44,7 @@ fn mean_ratios(set: &Set) -> [f64; 2] {
             100.0 * (ratios[0] - 1.0),
             100.0 * (ratios[1] - 1.0)
         );
-        sums = [0, 1].map(|i| sums[i] + ratios[i] / set.rows.len() as f64);
+        sums = [0, 1].map(|i| sums[i] + ratios[i] / set.single.len() as f64);
     }
     println!("  mean c {:+.2} %, thin plate {:+.2} %", 100.0 * (sums[0] - 1.0), 100.0 * (sums[1] - 1.0));
     sums
@@ -105,7 +68,7 @@ fn a_face_of_finite_width_is_softer_than_in_plane_strain_and_stiffer_than_in_pla
 fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_place() {
     for set in sets("tooth") {
         let (wide, thin) = (stiffness(&set.spec, FILLET), thin_plate(&set));
-        for &[s, planet, side, hertz, _] in &set.rows {
+        for &[s, planet, side, hertz, _] in &set.single {
             // Weber's sections and finite elements in plane strain are known to differ by up to 12 %
             for (i, reference) in [planet, side].into_iter().enumerate() {
                 let [stiffest, softest] = [&wide, &thin].map(|k| teeth(k, s)[i]);

@@ -1,9 +1,9 @@
 //! A round: a few instances of both kinds, and calls at random on them, each checked against what the FMU promises.
 
-use cpu_time::ThreadTime;
 use std::ptr;
 
 use bevel_differential::fmi2::*;
+use cpu_time::ThreadTime;
 
 use super::call_result::CallResult;
 use super::calls::call;
