@@ -2,16 +2,32 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::sizes::LARGEST;
+use crate::integrate::Point;
 use crate::model::effects::mesh_history::MeshHistory;
-use crate::model::effects::strength::Fatigue;
+use crate::model::effects::strength::{Fatigue, Rated};
 
 /// Damage of the teeth, and values over mesh cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct Watched {
     /// Damage of the teeth.
     pub fatigue: Fatigue,
     /// Peak-to-peak values over mesh cycles.
     pub mesh_history: MeshHistory,
+    /// Loads with which the next step may begin; they follow from the state, and saved states do without.
+    #[serde(skip)]
+    pub last_loads: Option<LastLoads>,
+}
+
+/// Loads of the teeth at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct LastLoads {
+    /// Where it ended.
+    pub at: Point<LARGEST>,
+    /// Groups of planets, and whether a tooth is broken: with the point, all that loads depend on.
+    pub teeth: (usize, bool),
+    /// The loads.
+    pub loads: Rated,
 }
 
 impl Watched {

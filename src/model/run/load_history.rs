@@ -4,6 +4,7 @@ use super::completed_step::Passed;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::model::Model;
 use crate::model::dynamics::sizes::{LARGEST, Largest};
+use crate::model::dynamics::watched::LastLoads;
 use crate::model::effects::strength::{Fatigue, GearStrength, RatedStep, Rolled, Sample};
 
 /// Adds a step to the damage of the teeth.
@@ -11,7 +12,7 @@ pub fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
     step: &Passed,
-    fatigue: &mut Fatigue,
+    (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
     let Passed { h, begin, way, part } = step;
     // of three planets that differ there is a fourth group, without members
@@ -40,6 +41,10 @@ pub fn count_fatigue(
     }
     if from < 1.0 {
         let members = &layout.members[..groups];
-        strength.count(fatigue, &mut RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample });
+        let teeth = (groups, equations.fault);
+        let begins = last.as_ref().filter(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
+        let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
+        let end = strength.count(fatigue, &mut rated, begins.map(|last| &last.loads));
+        *last = Some(LastLoads { at: way.at(*part), teeth, loads: end });
     }
 }

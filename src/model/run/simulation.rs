@@ -126,6 +126,7 @@ impl Simulation {
     pub fn tune(&mut self, parameters: &Parameters) {
         progress::complete(&self.model, (&mut self.state, &mut self.watched));
         Arc::make_mut(&mut self.model).tune(parameters);
+        self.watched.last_loads = None;
         self.forces = None;
     }
 

@@ -15,7 +15,7 @@ use crate::model::dynamics::watched::Watched;
 #[inline(never)]
 pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &Passed, watched: &mut Watched) {
     if let Some(strength) = &watch.strength {
-        count_fatigue(equations, (model, strength), step, &mut watched.fatigue);
+        count_fatigue(equations, (model, strength), step, (&mut watched.fatigue, &mut watched.last_loads));
     }
     if watch.mesh_history {
         add_to_history(equations, model, step, &mut watched.mesh_history);

@@ -60,7 +60,8 @@ const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
 /// A sample, and what a cycle under its loads does, by group, side and flank.
-struct Rated {
+#[derive(Clone, Copy, Debug)]
+pub struct Rated {
     part: f64,
     sample: Sample,
     damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
@@ -85,11 +86,12 @@ impl GearStrength {
         }
     }
 
-    /// Counts a step.
-    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep) {
-        let ends = [step.from, 0.5 * (step.from + 1.0), 1.0].map(|part| self.rate(step, part));
-        let [begin, middle, end] = &ends;
-        let parts = [begin, middle, end];
+    /// Counts a step; returns what it ends with, with which the next one may begin.
+    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, begin: Option<&Rated>) -> Rated {
+        let mut begin = begin.copied().unwrap_or_else(|| self.rate(step, step.from));
+        begin.part = step.from;
+        let (middle, end) = (self.rate(step, 0.5 * (step.from + 1.0)), self.rate(step, 1.0));
+        let parts = [&begin, &middle, &end];
         let mut scale =
             Scale { damage: fatigue.worst_per_cycle(), bending: self.force_of(fatigue.utilisation.root.share) };
         for_each_flank(step.members.len(), |g, s, flank| {
@@ -99,6 +101,7 @@ impl GearStrength {
             scale.bending = bending.into_iter().fold(scale.bending, f64::max);
         });
         self.count_part(fatigue, step, parts, &scale, HALVINGS);
+        end
     }
 
     fn rate(&self, step: &mut RatedStep, part: f64) -> Rated {

@@ -12,7 +12,7 @@ mod overload;
 mod spec;
 mod utilisation;
 
-pub use along_step::{RatedStep, Rolled, Sample};
+pub use along_step::{Rated, RatedStep, Rolled, Sample};
 pub use fatigue::Fatigue;
 pub use gear_strength::GearStrength;
 pub use mesh_load::MeshLoad;
