@@ -17,29 +17,33 @@ pub struct Block<const N: usize> {
 }
 
 impl<const N: usize> Block<N> {
-    /// Inverts I/s − J; `None` if it is singular.
+    /// Nothing yet.
+    pub const EMPTY: Self = Self { inverse: Inverse::EMPTY, stiffness: [[0.0; N]; N], s: 0.0 };
+
+    /// Inverts I/s − J; `None` if it is singular. It is written where it stays, as matrices cost more to move than to invert.
     #[inline(always)]
-    pub fn new<E: SecondOrder<N> + ?Sized>(
+    pub fn fill<E: SecondOrder<N> + ?Sized>(
+        &mut self,
         (system, shape): (&E, Shape),
         lin: &Linearisation<N, E::Power>,
         s: f64,
-    ) -> Option<Self> {
+    ) -> Option<()> {
         let mut matrix = lin.by_position;
         system.times_rates(&mut matrix);
-        for i in 0..N {
+        for i in 0..shape.count() {
             for j in 0..N {
                 matrix[i][j] = -lin.by_velocity[i][j] - s * matrix[i][j];
             }
             matrix[i][i] += 1.0 / s;
         }
-        let inverse = Inverse::new(shape, matrix)?;
-        let mut stiffness = [[0.0; N]; N];
-        for i in 0..N {
+        self.inverse.fill(shape, &mut matrix)?;
+        for i in 0..shape.count() {
             for j in 0..N {
-                stiffness[j][i] = s * lin.by_position[i][j];
+                self.stiffness[j][i] = s * lin.by_position[i][j];
             }
         }
-        Some(Self { inverse, stiffness, s })
+        self.s = s;
+        Some(())
     }
 
     /// Solves for the right-hand side `r` in place.

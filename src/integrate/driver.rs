@@ -139,7 +139,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     let mut unbalanced = 0;
     let mut in_a_row = 0;
     let mut switch_at = f64::INFINITY;
-    let mut begin: Option<(Linearisation<N, S::Power>, [f64; 2])> = None;
+    let mut lin = Linearisation::default();
+    // energies where it was taken, if that is where the next step begins
+    let mut begin: Option<[f64; 2]> = None;
     // the begin of a step is counted once, however often it is linearised again
     let mut is_counted = course.pending.is_some();
     loop {
@@ -161,9 +163,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 statistics.evaluations += 1;
                 system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
-            begin = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), Some(statistics)));
-            let (last, energy) = match &begin {
-                Some((lin, energy)) => (lin.power, *energy),
+            begin = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), &mut lin, Some(statistics)));
+            let (last, energy) = match begin {
+                Some(energy) => (lin.power, energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
             };
             statistics.evaluations += u64::from(done);
@@ -192,9 +194,9 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
         }
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let point = &course.point;
-        let (lin, energy) = begin.get_or_insert_with(|| {
+        let energy = *begin.get_or_insert_with(|| {
             let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
-            linearise::<N, M, S>(system, (point, course.time), counts)
+            linearise::<N, M, S>(system, (point, course.time), &mut lin, counts)
         });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
         let remaining = course.remaining();
@@ -206,7 +208,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             (h, cut, to_kink) = (h * fraction, true, true);
         }
         let norm = ErrorNorm { weights: system.weights(point), tolerance };
-        let trial = method.step(system, (point, course.time), lin, h, &norm, statistics);
+        let trial = method.step(system, (point, course.time), &lin, h, &norm, statistics);
         let mut error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
         if let Some(Trial { extension, halfway: Some(halfway), .. }) = trial {
             let ends = ((point, course.time), (&extension.end, course.time + h));
@@ -220,7 +222,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if error <= 1.0 {
                 (switch_at, in_a_row) = (f64::INFINITY, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced };
-                let (power, energy) = ([lin.power, halfway.power], *energy);
+                let (power, energy) = ([lin.power, halfway.power], energy);
                 course.pending = Some(Pending { attempt, extension, power, energy, part: 1.0 });
                 continue;
             }
@@ -265,23 +267,23 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
-/// The equations linearised, as far as the method asks for it, and the energies.
+/// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.
 #[inline(never)]
 fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
     system: &S,
     (point, time): (&Point<N>, f64),
+    lin: &mut Linearisation<N, S::Power>,
     mut statistics: Option<&mut Statistics>,
-) -> (Linearisation<N, S::Power>, [f64; 2]) {
+) -> [f64; 2] {
     if let Some(statistics) = &mut statistics {
         statistics.evaluations += 1;
         statistics.jacobians += u64::from(M::IMPLICIT);
     }
     if M::IMPLICIT {
-        return system.linearise_with_energy(point, time);
+        return system.linearise_with_energy(point, time, lin);
     }
-    let (acceleration, power) = system.evaluate_at(point, time);
-    let (by_position, by_velocity) = ([[0.0; N]; N], [[0.0; N]; N]);
-    (Linearisation { acceleration, by_position, by_velocity, power }, system.energy(point))
+    (lin.acceleration, lin.power) = system.evaluate_at(point, time);
+    system.energy(point)
 }
 
 impl Control {

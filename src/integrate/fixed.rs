@@ -17,7 +17,7 @@
 use super::driver::{AfterStep, Failure, Step};
 use super::linear::{Inverse, Shape};
 use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::system::{Linearisation, Matrix, Point, SecondOrder};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -105,7 +105,9 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
         counts.evaluations += 1;
         counts.jacobians += 1;
         let mut change: [f64; N] = std::array::from_fn(|i| base.v[i] + s * lin.acceleration[i] - y.v[i]);
-        factors(system, &lin, s)?.solve(Shape::of(system), &mut change);
+        let (shape, mut inverse) = (Shape::of(system), Inverse::EMPTY);
+        inverse.fill(shape, &mut matrix_of(system, &lin, s))?;
+        inverse.solve(shape, &mut change);
         let full = at(std::array::from_fn(|i| y.v[i] + change[i]));
         let part = system.reach(&y, &full);
         y = if part < 1.0 { at(std::array::from_fn(|i| y.v[i] + part * change[i])) } else { full };
@@ -114,12 +116,12 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
     finite.then_some(y)
 }
 
-/// Inverse of I − s D − s² K B.
-fn factors<const N: usize, S: SecondOrder<N> + ?Sized>(
+/// I − s D − s² K B.
+fn matrix_of<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     lin: &Linearisation<N, S::Power>,
     s: f64,
-) -> Option<Inverse<N>> {
+) -> Matrix<N> {
     let mut matrix = lin.by_position;
     system.times_rates(&mut matrix);
     for i in 0..N {
@@ -128,5 +130,5 @@ fn factors<const N: usize, S: SecondOrder<N> + ?Sized>(
         }
         matrix[i][i] += 1.0;
     }
-    Inverse::new(Shape::of(system), matrix)
+    matrix
 }

@@ -67,6 +67,12 @@ impl Shape {
         Self { first: start, end, count: system.freedoms().min(N) }
     }
 
+    /// All of them.
+    #[inline(always)]
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// The inner ones.
     #[inline(always)]
     fn inner(&self) -> Range<usize> {
@@ -81,20 +87,23 @@ impl Shape {
 }
 
 impl<const N: usize> Inverse<N> {
-    /// Inverts `a`; `None` if a pivot vanishes or is not finite.
+    /// Nothing yet.
+    pub const EMPTY: Self = Self { columns: [[0.0; N]; N] };
+
+    /// Inverts `a`, of which nothing is left; `None` if a pivot vanishes or is not finite.
     #[inline(always)]
-    pub fn new(shape: Shape, mut a: Matrix<N>) -> Option<Self> {
-        let inner = shape.inner();
+    pub fn fill(&mut self, shape: Shape, a: &mut Matrix<N>) -> Option<()> {
+        let (inner, columns) = (shape.inner(), &mut self.columns);
         let mut diagonal = [0.0; N];
-        for i in 0..N {
+        for i in 0..shape.count {
             diagonal[i] = a[i][i];
         }
         // [P⁻¹ D, P⁻¹]
         for k in inner.clone() {
-            normalise(&mut a, k, diagonal[k])?;
+            normalise(a, k, diagonal[k])?;
             for i in inner.clone() {
                 if i != k && a[i][k] != 0.0 {
-                    eliminate(&mut a, i, k);
+                    eliminate(a, i, k);
                 }
             }
         }
@@ -102,33 +111,32 @@ impl<const N: usize> Inverse<N> {
         for i in shape.others() {
             let row = a[i];
             let mut taken = [0.0; N];
-            add_in_pairs(&a, &inner, &row, &mut taken);
+            add_in_pairs(a, &inner, &row, &mut taken);
             a[i][inner.clone()].fill(0.0);
             for j in 0..N {
                 a[i][j] -= taken[j];
             }
         }
-        let mut columns = [[0.0; N]; N];
         for k in inner.clone() {
-            for i in 0..N {
+            for i in 0..shape.count {
                 columns[k][i] = a[i][k];
             }
         }
         // [S⁻¹, …] and [−P⁻¹ D S⁻¹, …]
         for k in shape.others() {
-            normalise(&mut a, k, diagonal[k])?;
+            normalise(a, k, diagonal[k])?;
             for i in 0..shape.count {
                 if i != k {
-                    eliminate(&mut a, i, k);
+                    eliminate(a, i, k);
                 }
             }
         }
         for k in shape.others() {
-            for i in 0..N {
+            for i in 0..shape.count {
                 columns[k][i] = a[i][k];
             }
         }
-        Some(Self { columns })
+        Some(())
     }
 
     /// Solves for the right-hand side `b` in place.
@@ -208,6 +216,11 @@ mod tests {
         }
     }
 
+    fn inverse_of<const N: usize>(shape: Shape, mut m: Matrix<N>) -> Option<Inverse<N>> {
+        let mut inverse = Inverse::EMPTY;
+        inverse.fill(shape, &mut m).map(|()| inverse)
+    }
+
     fn solution_satisfies<const N: usize>(random: &mut impl FnMut() -> f64) {
         let mut m: Matrix<N> = std::array::from_fn(|_| std::array::from_fn(|_| random()));
         for i in 0..N {
@@ -216,7 +229,7 @@ mod tests {
         let b: [f64; N] = std::array::from_fn(|_| random());
         let mut x = b;
         let shape = Shape::of::<N>(&Some3);
-        Inverse::new(shape, m).unwrap().solve(shape, &mut x);
+        inverse_of(shape, m).unwrap().solve(shape, &mut x);
         for i in 0..N {
             let residual: f64 = (0..N).map(|j| m[i][j] * x[j]).sum::<f64>() - b[i];
             assert!(residual.abs() < 1e-13, "order {N}: {residual}");
@@ -236,7 +249,7 @@ mod tests {
             solution_satisfies::<4>(&mut random);
             solution_satisfies::<7>(&mut random);
         }
-        assert!(Inverse::new(Shape::of::<2>(&Some3), [[0.0; 2]; 2]).is_none());
-        assert!(Inverse::new(Shape::of::<2>(&Some3), [[f64::NAN; 2]; 2]).is_none());
+        assert!(inverse_of(Shape::of::<2>(&Some3), [[0.0; 2]; 2]).is_none());
+        assert!(inverse_of(Shape::of::<2>(&Some3), [[f64::NAN; 2]; 2]).is_none());
     }
 }

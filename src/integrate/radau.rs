@@ -70,7 +70,8 @@ impl Method for Radau {
     ) -> Option<Trial<N, S::Power>> {
         let per_h = 1.0 / h;
         let shape = Shape::of(system);
-        let real = Block::new((system, shape), lin, h / GAMMA)?;
+        let mut real = Block::EMPTY;
+        real.fill((system, shape), lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
         let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
 

@@ -59,7 +59,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
     counts: &mut Statistics,
 ) -> Option<Trial<N, E::Power>> {
     let shape = Shape::of(system);
-    let block = Block::new((system, shape), lin, h * tableau.gamma)?;
+    let mut block = Block::EMPTY;
+    block.fill((system, shape), lin, h * tableau.gamma)?;
     let per_h = 1.0 / h;
     let drift = system.is_driven().then(|| system.drift(start, time));
     let mut g = [0.0; S];

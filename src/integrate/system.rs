@@ -53,7 +53,7 @@ impl<const N: usize> Point<N> {
     }
 }
 
-/// Accelerations with their exact derivatives at a point.
+/// Accelerations with their exact derivatives at a point. It is large: within steps it is written where it stays.
 #[derive(Clone, Copy, Debug)]
 pub struct Linearisation<const N: usize, P> {
     /// v̇.
@@ -66,6 +66,14 @@ pub struct Linearisation<const N: usize, P> {
     pub power: P,
 }
 
+impl<const N: usize, P: Default> Default for Linearisation<N, P> {
+    #[inline]
+    fn default() -> Self {
+        let zero = [[0.0; N]; N];
+        Self { acceleration: [0.0; N], by_position: zero, by_velocity: zero, power: P::default() }
+    }
+}
+
 /// A second-order system q̇ = B v, v̇ = a(q, v). Imposed motions are degrees of freedom with a given v̇.
 ///
 /// A system may be driven: then v̇ = a(q, v, t), with the time counted from the begin of the integration. One that is not
@@ -75,7 +83,7 @@ pub struct Linearisation<const N: usize, P> {
 /// may be smaller than its type: what lies beyond [`Self::freedoms`] is zero and stays zero.
 pub trait SecondOrder<const N: usize> {
     /// Ledger rates: powers that are integrated along with the motion but do not act on it.
-    type Power: Copy;
+    type Power: Copy + Default;
 
     /// Degrees of freedom, `N` or less.
     #[inline]
@@ -137,10 +145,12 @@ pub trait SecondOrder<const N: usize> {
         [0.0; 2]
     }
 
-    /// [`Self::linearise_at`] and [`Self::energy`] at one point, for systems that find both in one go.
+    /// Writes [`Self::linearise_at`] to `lin` and returns [`Self::energy`] at the same point, for systems that find both in
+    /// one go.
     #[inline]
-    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Self::Power>, [f64; 2]) {
-        (self.linearise_at(at, time), self.energy(at))
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Self::Power>) -> [f64; 2] {
+        *lin = self.linearise_at(at, time);
+        self.energy(at)
     }
 
     /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the

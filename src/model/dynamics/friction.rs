@@ -150,7 +150,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Derivatives of dry friction by the motion of the bodies it holds.
-    pub(in crate::model) fn friction_slopes(&self, j: &mut Jacobian<N>) {
+    pub(in crate::model) fn friction_slopes(&self, j: &mut Jacobian<'_, N>) {
         if !self.rubs() {
             return;
         }
@@ -182,7 +182,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         &self,
         loads: &[[DetailedLoad<T>; 2]; G],
         planets: &[SurfaceLoad; G],
-        j: &mut Jacobian<N>,
+        j: &mut Jacobian<'_, N>,
     ) {
         let side = self.teeth.sin_base[1];
         let [of_side, of_planet] = [self.friction().side.limit_slopes(), self.friction().planet.limit_slopes()];
@@ -223,7 +223,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     }
 
     /// Derivatives of the planets' dry friction by the speeds that throw them outward.
-    pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<N>) {
+    pub(in crate::model) fn friction_slopes_by_orbit(&self, at: &Point<N>, j: &mut Jacobian<'_, N>) {
         let per_thrust = self.friction().planet.limit_slopes()[0];
         for g in 0..self.groups() {
             let direction = self.friction_state[FRICTION_PLANETS + g].mode.direction();
@@ -233,11 +233,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Adds to row `row` the slopes of something by the variables of all meshes of side `s`, and of the planets' other meshes
     /// where those matter.
-    fn spread<T: Local>(&self, row: usize, sign: f64, s: usize, slopes: &[[f64; WITH_OTHER]; G], j: &mut Jacobian<N>) {
-        self.spread_positions(row, sign, s, |g, k| slopes[g][k], &mut j.by_position);
+    fn spread<T: Local>(
+        &self,
+        row: usize,
+        sign: f64,
+        s: usize,
+        slopes: &[[f64; WITH_OTHER]; G],
+        j: &mut Jacobian<'_, N>,
+    ) {
+        self.spread_positions(row, sign, s, |g, k| slopes[g][k], j.by_position);
         self.spread_positions(row, sign, s, |g, k| slopes[g][3 + k], &mut j.by_rate);
         if T::BY_OTHER {
-            self.spread_positions(row, sign, 1 - s, |g, k| slopes[g][LOCAL + k], &mut j.by_position);
+            self.spread_positions(row, sign, 1 - s, |g, k| slopes[g][LOCAL + k], j.by_position);
         }
     }
 

@@ -216,7 +216,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         loads: &[[DetailedLoad<T>; 2]; G],
         sum: &mut [f64; N],
         power: &mut Power,
-        slopes: Option<&mut Jacobian<N>>,
+        slopes: Option<&mut Jacobian<'_, N>>,
     ) {
         self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
         if self.pins() {
@@ -243,11 +243,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 })
             };
             j.elastic_energy = self.sum(|g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
-            self.add_blocks(&block(0), &mut j.by_position);
+            self.add_blocks(&block(0), j.by_position);
             self.add_blocks(&block(3), &mut j.by_rate);
             if T::BY_OTHER {
                 let cross = self.cross_blocks(loads);
-                self.add_cross_blocks(&cross, &mut j.by_position);
+                self.add_cross_blocks(&cross, j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
                 self.friction_slopes_by_loads(loads, planets, j);

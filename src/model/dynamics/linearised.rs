@@ -36,17 +36,17 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         m
     }
 
-    /// The equations linearised, and the elastic energy of all meshes [J].
+    /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
     #[inline]
-    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
-        if WITH_EFFECTS { self.linearise_all(at) } else { self.linearise_teeth(at) }
+    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
+        *lin = Linearisation::default();
+        if WITH_EFFECTS { self.linearise_all(at, lin) } else { self.linearise_teeth(at, lin) }
     }
 
-    /// The equations of teeth without effects, linearised, and the elastic energy [J].
+    /// Adds to `lin` the equations of teeth without effects, linearised; returns the elastic energy [J].
     #[inline]
-    fn linearise_teeth(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
-        let mut power = Power::default();
-        let (mut acceleration, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
+    fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, power } = lin;
         let mut load = [[MeshForce::default(); 2]; G];
         let mut energy = [0.0; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
@@ -63,40 +63,38 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 energy[g] += jacobian.energy;
             }
         }
-        self.add_forces(|g, s| load[g][s].force, &mut acceleration);
-        self.add_blocks(&position, &mut by_position);
-        self.add_blocks(&rate, &mut by_velocity);
+        self.add_forces(|g, s| load[g][s].force, acceleration);
+        self.add_blocks(&position, by_position);
+        self.add_blocks(&rate, by_velocity);
         power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
         // α̇ = ω_s − ω_c
-        self.times_rates(&mut by_velocity);
-        self.divide_by_inertia(&mut by_position);
-        self.divide_by_inertia(&mut by_velocity);
-        self.finish(at, &mut acceleration, &[0.0; N], &mut power);
-        let energy = self.sum(|g| self.members(g) * energy[g]);
-        (Linearisation { acceleration, by_position, by_velocity, power }, energy)
+        self.times_rates(by_velocity);
+        self.divide_by_inertia(by_position);
+        self.divide_by_inertia(by_velocity);
+        self.finish(at, acceleration, &[0.0; N], power);
+        self.sum(|g| self.members(g) * energy[g])
     }
 
-    /// The equations with all effects, linearised, and the elastic energy of all meshes [J].
+    /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].
     #[inline]
-    fn linearise_all(&self, at: &Point<N>) -> (Linearisation<N, Power>, f64) {
-        let mut power = Power::default();
-        let (mut acceleration, mut imposed) = ([0.0; N], [0.0; N]);
-        let mut slopes = Jacobian::default();
-        self.act(at, &mut acceleration, &mut imposed, &mut power, Some(&mut slopes));
-        let Jacobian { mut by_position, by_rate, mut by_velocity, of_imposed, elastic_energy } = slopes;
-        let mut of_rates = by_rate;
-        self.times_rates(&mut of_rates);
-        for i in 0..N {
+    fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, power } = lin;
+        let mut imposed = [0.0; N];
+        let mut slopes = Jacobian::new([&mut *by_position, &mut *by_velocity]);
+        self.act(at, acceleration, &mut imposed, power, Some(&mut slopes));
+        let Jacobian { mut by_rate, of_imposed, elastic_energy, .. } = slopes;
+        self.times_rates(&mut by_rate);
+        for i in 0..self.count() {
             for j in 0..N {
-                by_velocity[i][j] += of_rates[i][j];
+                by_velocity[i][j] += by_rate[i][j];
             }
         }
-        self.divide_by_inertia(&mut by_position);
-        self.divide_by_inertia(&mut by_velocity);
+        self.divide_by_inertia(by_position);
+        self.divide_by_inertia(by_velocity);
         if self.teeth.plan.carrier_imposed {
             (by_position[CARRIER], by_velocity[CARRIER]) = (of_imposed[0], of_imposed[1]);
         }
-        self.finish(at, &mut acceleration, &imposed, &mut power);
-        (Linearisation { acceleration, by_position, by_velocity, power }, elastic_energy)
+        self.finish(at, acceleration, &imposed, power);
+        elastic_energy
     }
 }

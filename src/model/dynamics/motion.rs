@@ -87,7 +87,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
-        self.linearise_and_store(at).0
+        let mut lin = Linearisation::default();
+        self.linearise_and_store(at, &mut lin);
+        lin
     }
 
     #[inline]
@@ -150,14 +152,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn linearise_with_energy(&self, at: &Point<N>, time: f64) -> (Linearisation<N, Power>, [f64; 2]) {
-        let (lin, teeth) = if self.is_driven_by_inputs() {
-            self.later(time).linearise_and_store(at)
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Power>) -> [f64; 2] {
+        let teeth = if self.is_driven_by_inputs() {
+            self.later(time).linearise_and_store(at, lin)
         } else {
-            self.linearise_and_store(at)
+            self.linearise_and_store(at, lin)
         };
         let bodies = if WITH_EFFECTS { self.stored_in_bodies(at, true) } else { 0.0 };
-        (lin, [self.kinetic_energy(at), teeth + bodies])
+        [self.kinetic_energy(at), teeth + bodies]
     }
 
     #[inline]

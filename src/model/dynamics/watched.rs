@@ -8,7 +8,7 @@ use crate::model::effects::mesh_history::MeshHistory;
 use crate::model::effects::strength::{Fatigue, Rated};
 
 /// Damage of the teeth, and values over mesh cycles.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Watched {
     /// Damage of the teeth.
     pub fatigue: Fatigue,
@@ -20,7 +20,7 @@ pub struct Watched {
 }
 
 /// Loads of the teeth at the end of a step.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LastLoads {
     /// Where it ended.
     pub at: Point<LARGEST>,

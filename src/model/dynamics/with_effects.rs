@@ -27,7 +27,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         sum: &mut [f64; N],
         imposed: &mut [f64; N],
         power: &mut Power,
-        slopes: Option<&mut Jacobian<N>>,
+        slopes: Option<&mut Jacobian<'_, N>>,
     ) {
         match slopes {
             None => {
@@ -41,7 +41,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                     self.act_in_detail(at, &self.all_loads::<Dual<LOCAL>>(at), sum, power, Some(j));
                 } else if let Some(bodies) = self.bodies_of_gears() {
                     j.elastic_energy =
-                        self.add_shared_forces(bodies, at, sum, [&mut j.by_position, &mut j.by_rate], power);
+                        self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], power);
                     self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
                 } else {
                     let mut load = [[MeshForce::default(); 2]; G];
@@ -62,7 +62,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                         }
                     }
                     self.add_forces(|g, s| load[g][s].force, sum);
-                    self.add_blocks(&position, &mut j.by_position);
+                    self.add_blocks(&position, j.by_position);
                     self.add_blocks(&rate, &mut j.by_rate);
                     j.elastic_energy = self.sum(|g| self.members(g) * energy[g]);
                     power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
@@ -150,7 +150,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Sums of the forces of meshes, pins and seats at rest, and their derivatives, for the static equilibrium.
     pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
-        let (mut sum, mut j) = ([0.0; N], Jacobian::default());
+        let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
+        let j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut power = Power::default();
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
@@ -162,9 +163,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let blocks = self
             .by_group(|g| [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]]))));
-        self.add_blocks(&blocks, &mut j.by_position);
+        self.add_blocks(&blocks, j.by_position);
         if self.bodies_of_gears().is_some() {
-            self.add_cross_blocks(&self.cross_blocks(&loads), &mut j.by_position);
+            self.add_cross_blocks(&self.cross_blocks(&loads), j.by_position);
         }
         let mut carrier = 0.0;
         let bodies = self.bodies(&still);
@@ -181,7 +182,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             effect.act(&bodies, &mut action);
             effect.slopes(&bodies, &mut slopes);
         }
-        (sum, j.by_position)
+        (sum, by_position)
     }
 
     /// Elastic energy of meshes and pins, and with `all` of half-shafts and stuck friction too [J].

@@ -20,7 +20,7 @@ const BLUNT: f64 = 0.005;
 const HALVINGS: u32 = 6;
 
 /// Angles of the gears relative to the carrier [rad], or their rates [rad/s]: planets by group, side gears.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rolled {
     /// Planets.
     pub spin: [f64; MAX_GROUPS],
@@ -29,7 +29,7 @@ pub struct Rolled {
 }
 
 /// Loads and motion at an instant.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Angles.
     pub angle: Rolled,
@@ -60,7 +60,7 @@ const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
 /// A sample, and what a cycle under its loads does, by group, side and flank.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rated {
     part: f64,
     sample: Sample,

@@ -3,7 +3,7 @@
 use crate::contact::pairs::Flank;
 
 /// Load of one flank of a mesh: sums over its pairs.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlankLoad {
     /// Normal force at the cone distance of the law's resultant [N].
     pub normal: f64,
@@ -16,7 +16,7 @@ pub struct FlankLoad {
 }
 
 /// Load of one mesh. Both flanks carry at once only where errors or displacements use up the backlash.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshLoad {
     flanks: [FlankLoad; 2],
 }
