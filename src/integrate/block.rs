@@ -28,7 +28,8 @@ impl<const N: usize> Block<N> {
         lin: &Linearisation<N, E::Power>,
         s: f64,
     ) -> Option<()> {
-        let mut matrix = lin.by_position;
+        let mut matrix = [[0.0; N]; N];
+        matrix[..shape.count()].copy_from_slice(&lin.by_position[..shape.count()]);
         system.times_rates(&mut matrix);
         for i in 0..shape.count() {
             for j in 0..N {

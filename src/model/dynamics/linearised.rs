@@ -10,7 +10,7 @@ use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     fn divide_by_inertia(&self, m: &mut Matrix<N>) {
-        for (row, inverse) in m.iter_mut().zip(&self.teeth.inverse_inertia) {
+        for (row, inverse) in m[..self.count()].iter_mut().zip(&self.teeth.inverse_inertia) {
             row.iter_mut().for_each(|x| *x *= inverse);
         }
     }
@@ -39,7 +39,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
     #[inline]
     pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
-        *lin = Linearisation::default();
+        (lin.acceleration, lin.power) = ([0.0; N], Power::default());
+        // rows beyond are never anything but zero
+        for i in 0..self.count() {
+            (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
+        }
         if WITH_EFFECTS { self.linearise_all(at, lin) } else { self.linearise_teeth(at, lin) }
     }
 

@@ -56,7 +56,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn times_rates(&self, m: &mut Matrix<N>) {
-        for row in m.iter_mut() {
+        for row in &mut m[..self.count()] {
             row[CARRIER] -= row[0] + row[1];
             if self.pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
