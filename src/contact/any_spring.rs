@@ -30,10 +30,39 @@ macro_rules! with_spring {
 }
 pub(crate) use with_spring;
 
-impl AnySpring {
-    /// Response at penetration arc `p` > 0 [rad] and place `s` [rad].
-    pub fn at(&self, p: f64, s: f64) -> Elastic {
-        with_spring!(self, law => law.at(p, s))
+/// What of any law follows from the place alone.
+#[derive(Clone, Copy, Debug)]
+pub enum AnyPlace {
+    /// Nothing.
+    Anywhere,
+    /// What [`Line`] has there.
+    Line(<Line as Spring>::Place),
+    /// What [`LineWeber`] has there.
+    LineWeber(<LineWeber as Spring>::Place),
+}
+
+/// The law is asked for at each response: for sums that steps do not take, which thus are compiled once for all laws.
+impl Spring for AnySpring {
+    type Place = AnyPlace;
+
+    #[inline(always)]
+    fn place(&self, s: f64) -> AnyPlace {
+        match self {
+            Self::Power(_) | Self::Linear(_) => AnyPlace::Anywhere,
+            Self::Line(law) => AnyPlace::Line(law.place(s)),
+            Self::LineWeber(law) => AnyPlace::LineWeber(law.place(s)),
+        }
+    }
+
+    fn respond(&self, place: &AnyPlace, p: f64) -> Elastic {
+        match (self, place) {
+            (Self::Power(law), _) => law.respond(&Anywhere, p),
+            (Self::Linear(law), _) => law.respond(&Anywhere, p),
+            (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
+            (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),
+            // of another law than this
+            (Self::Line(_) | Self::LineWeber(_), _) => Elastic::default(),
+        }
     }
 }
 

@@ -63,8 +63,8 @@ impl Shape {
     /// That of `system`.
     #[inline(always)]
     pub fn of<const N: usize>(system: &(impl SecondOrder<N> + ?Sized)) -> Self {
-        let Range { start, end } = system.inner();
-        Self { first: start, end, count: system.freedoms().min(N) }
+        let (Range { start, end }, count) = (system.inner(), system.freedoms().min(N));
+        Self { first: start.min(count), end: end.min(count), count }
     }
 
     /// All of them.

@@ -122,9 +122,25 @@ pub trait Method {
     }
 }
 
+/// Degrees of freedom up to which sums over stages are compiled into the steps: longer ones are not worth the space.
+const UNROLLED: usize = 8;
+
 /// y += scale Σ weight_j u_j over the first stages.
 #[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    if N > UNROLLED {
+        return combine_many(y, weights, scale, u);
+    }
+    add_stages(y, weights, scale, u);
+}
+
+#[inline(never)]
+fn combine_many<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    add_stages(y, weights, scale, u);
+}
+
+#[inline(always)]
+fn add_stages<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
     for (weight, u) in weights.iter().zip(u) {
         let weight = weight * scale;
         for (y, u) in y.row_mut().iter_mut().zip(u.row()) {

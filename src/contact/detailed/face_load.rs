@@ -10,7 +10,6 @@
 
 use super::face::Cut;
 use super::{Detailed, Opening, SliceLoad};
-use crate::contact::any_spring::with_spring;
 use crate::contact::spring::Spring;
 use crate::numeric::sqrt;
 
@@ -47,18 +46,16 @@ impl Detailed {
     pub fn face_load_factor(&self, known: &KnownSlice, opening: &Opening) -> f64 {
         let Some(ends) = self.face.ends() else { return 1.0 };
         let approach = known.arc + opening.at(known.cone) / known.cone;
-        let factor = with_spring!(&self.spring, law => {
-            let place = law.place(known.s);
-            let load = |arc: f64| if arc > 0.0 { law.respond(&place, arc).torque } else { 0.0 };
-            let mut torque = 0.0;
-            for part in self.face.loaded(approach, opening, &mut Cut::default()) {
-                for node in part.nodes {
-                    let arc = approach - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
-                    torque += node.weight * load(arc);
-                }
+        let place = self.spring.place(known.s);
+        let load = |arc: f64| if arc > 0.0 { self.spring.respond(&place, arc).torque } else { 0.0 };
+        let mut torque = 0.0;
+        for part in self.face.loaded(approach, opening, &mut Cut::default()) {
+            for node in part.nodes {
+                let arc = approach - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+                torque += node.weight * load(arc);
             }
-            load(approach - least_arc(opening, ends)) * self.moment / torque
-        });
+        }
+        let factor = load(approach - least_arc(opening, ends)) * self.moment / torque;
         // written so that NaN gives 1
         if factor > 1.0 && factor.is_finite() { factor } else { 1.0 }
     }

@@ -104,6 +104,9 @@ pub struct SliceLoad<'a> {
     pub opening: &'a Opening,
 }
 
+/// What looks at loaded slices, if anything does: asked at run time, so that sums that look are those that do not.
+pub type Look<'a> = Option<&'a mut dyn FnMut(&SliceLoad)>;
+
 /// A slice of the face.
 #[derive(Clone, Copy, Debug)]
 pub struct Slice {

@@ -99,21 +99,21 @@ impl Detailed {
     /// Loads at `state`.
     pub fn load(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<f64> {
         let mut totals = Totals::<0, LOCAL>::default();
-        self.sum(&mut totals, teeth, state, self.thrust, |_| {});
+        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
         totals.load()
     }
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
     pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
         let mut totals = Totals::<7, LOCAL>::default();
-        self.sum(&mut totals, teeth, state, self.thrust, |_| {});
+        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
         totals.linearised()
     }
 
-    /// Loads at `state`; calls `look` with each loaded slice. Compiled once, for whoever looks.
+    /// Loads at `state`; calls `look` with each loaded slice. Compiled once for all laws and whoever looks.
     pub fn look(&self, teeth: &Teeth, state: &DetailedState, look: &mut dyn FnMut(&SliceLoad)) -> DetailedLoad<f64> {
         let mut totals = Totals::<0, LOCAL>::default();
-        self.sum(&mut totals, teeth, state, true, look);
+        self.sum(&self.spring, &mut totals, teeth, state, true, look);
         totals.load()
     }
 
@@ -140,8 +140,9 @@ impl Detailed {
 
     /// Adds the loads of all pairs.
     #[inline(always)]
-    fn sum<const ROWS: usize>(
+    fn sum<S: Spring, const ROWS: usize>(
         &self,
+        spring: &S,
         totals: &mut Totals<ROWS, LOCAL>,
         teeth: &Teeth,
         state: &DetailedState,
@@ -149,43 +150,39 @@ impl Detailed {
         mut look: impl FnMut(&SliceLoad),
     ) {
         let open = self.is_open(teeth);
-        with_spring!(&self.spring, spring => {
-            if open {
-                self.each(teeth, state, [0.0; 2], |name, pair| {
-                    self.add::<_, ROWS, true>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
-                });
-            } else {
-                self.each(teeth, state, [0.0; 2], |name, pair| {
-                    self.add::<_, ROWS, false>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
-                });
-            }
-        });
+        if open {
+            self.each(teeth, state, [0.0; 2], |name, pair| {
+                self.add::<_, ROWS, true>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
+            });
+        } else {
+            self.each(teeth, state, [0.0; 2], |name, pair| {
+                self.add::<_, ROWS, false>((spring, teeth, thrust), totals, (name, pair), state, &mut look)
+            });
+        }
     }
 
     /// Elastic energy V [J].
     pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
-        let mut energy = 0.0;
-        with_spring!(&self.spring, spring => {
-            self.each(teeth, state, [0.0; 2], |name, pair| {
-                let mut opening = self.opening(teeth, name, pair.s);
-                if self.seats {
-                    opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
-                }
-                let mut cut = Cut::default();
-                let parts = self.face.loaded(pair.depth, &opening, &mut cut);
-                if parts.iter().all(Part::is_empty) {
-                    return;
-                }
-                let place = spring.place(pair.s);
-                for part in parts {
-                    for node in part.nodes {
-                        let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
-                        if arc > 0.0 {
-                            energy += node.weight * spring.respond(&place, arc).energy;
-                        }
+        let (spring, mut energy) = (&self.spring, 0.0);
+        self.each(teeth, state, [0.0; 2], |name, pair| {
+            let mut opening = self.opening(teeth, name, pair.s);
+            if self.seats {
+                opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
+            }
+            let mut cut = Cut::default();
+            let parts = self.face.loaded(pair.depth, &opening, &mut cut);
+            if parts.iter().all(Part::is_empty) {
+                return;
+            }
+            let place = spring.place(pair.s);
+            for part in parts {
+                for node in part.nodes {
+                    let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
+                    if arc > 0.0 {
+                        energy += node.weight * spring.respond(&place, arc).energy;
                     }
                 }
-            });
+            }
         });
         energy
     }

@@ -11,6 +11,7 @@ use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place
 use super::super::spring::Spring;
 use super::directions::Arcs;
 use super::face::{Cut, Part};
+use super::loads::Look;
 use super::mesh::{Detailed, Teeth};
 use super::pair::PairMotion;
 use super::sums::{Approach, Sums};
@@ -152,8 +153,18 @@ impl Detailed {
 
     /// Loads of both meshes of a planet.
     pub fn load_shared(&self, shared: &SharedTeeth, states: &[DetailedState; 2]) -> [DetailedLoad<f64>; 2] {
+        self.load_and_look_shared(shared, states, self.thrust, None)
+    }
+
+    fn load_and_look_shared(
+        &self,
+        shared: &SharedTeeth,
+        states: &[DetailedState; 2],
+        thrust: bool,
+        look: Look,
+    ) -> [DetailedLoad<f64>; 2] {
         let mut totals = [Totals::<0, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.thrust, |_| {}), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, thrust, look), ());
         totals.map(|totals| totals.load())
     }
 
@@ -164,7 +175,7 @@ impl Detailed {
         states: &[DetailedState; 2],
     ) -> [DetailedLoad<Dual<WITH_OTHER>>; 2] {
         let mut totals = [Totals::<7, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.thrust, |_| {}), ());
+        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, self.thrust, None), ());
         totals.map(|totals| totals.linearised())
     }
 
@@ -175,9 +186,7 @@ impl Detailed {
         states: &[DetailedState; 2],
         look: &mut dyn FnMut(&SliceLoad),
     ) -> [DetailedLoad<f64>; 2] {
-        let mut totals = [Totals::<0, WITH_OTHER>::default(); 2];
-        with_teeth!(&self.spring, spring => self.sum_shared(spring, &mut totals, shared, states, true, look), ());
-        totals.map(|totals| totals.load())
+        self.load_and_look_shared(shared, states, true, Some(look))
     }
 
     /// Elastic energy of both meshes [J].
@@ -217,8 +226,13 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         thrust: bool,
-        mut look: impl FnMut(&SliceLoad),
+        mut look: Look,
     ) {
+        let mut see = |slice: &SliceLoad| {
+            if let Some(look) = &mut look {
+                look(slice);
+            }
+        };
         let mut all = Shared::none();
         self.shared(spring, shared, states, 0.0, &mut all);
         let Shared { near, arc, couplings, own } = &all;
@@ -260,7 +274,7 @@ impl Detailed {
             totals[side].add_moving(force, along_by, energy);
             let touching = Touching { name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
             let engagement = shared.teeth[side].engagement;
-            self.add_touching((spring, engagement, thrust), &mut totals[side], touching, &mut look);
+            self.add_touching((spring, engagement, thrust), &mut totals[side], touching, &mut see);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Error-free meshes of a planet that share bodies: forces, Jacobian, energy and heat.
 //!
-//! Sums are compiled for each number of pairs, as they are short and asked for all the time, and once for each law.
+//! Sums that steps ask for are compiled for each number of pairs, as they are short, and once for each law.
 
 use super::arcs::Own;
 use super::couplings::{Bends, Couplings, MOST, place_for};
@@ -292,14 +292,12 @@ impl SharedMeshes<'_> {
     pub fn energy<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> f64 {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
-        by_count!(count, 0.0, {
-            let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
-            let energy = |(k, near): (usize, &Near<S::Place>)| {
-                let alone = law.specific.respond(&near.place, sharing.own.arc[k]).energy;
-                law.moment * (alone + 0.5 * sharing.own.load[k] * (sharing.arc[k] - sharing.own.arc[k]))
-            };
-            sharing.loaded().map(energy).sum()
-        })
+        let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
+        let energy = |(k, near): (usize, &Near<S::Place>)| {
+            let alone = law.specific.respond(&near.place, sharing.own.arc[k]).energy;
+            law.moment * (alone + 0.5 * sharing.own.load[k] * (sharing.arc[k] - sharing.own.arc[k]))
+        };
+        sharing.loaded().map(energy).sum()
     }
 
     /// By how much pairs that touch or are about to are moved by others.
@@ -328,13 +326,11 @@ impl SharedMeshes<'_> {
     ) {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
-        by_count!(count, (), {
-            let sharing = Sharing::<_, K>::new::<S>(self.bodies, law, &near, count);
-            for (k, near) in sharing.loaded().filter(|(_, near)| near.standing.side == side) {
-                let pair = ToothPair { depth: sharing.own.arc[k], ..near.pair };
-                let rate = self.rate(&pair, &states[side]);
-                visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);
-            }
-        });
+        let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
+        for (k, near) in sharing.loaded().filter(|(_, near)| near.standing.side == side) {
+            let pair = ToothPair { depth: sharing.own.arc[k], ..near.pair };
+            let rate = self.rate(&pair, &states[side]);
+            visit(&pair, &law.respond_at(&near.place, self.mesh.cone * pair.depth, rate).force);
+        }
     }
 }

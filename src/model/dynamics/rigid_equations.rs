@@ -267,11 +267,18 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         let rigid = self.rigid;
         let follow = rigid.follow[0];
         let moved = |m: &Matrix<MOST>, imposed: &[f64; MOST]| -> Matrix<MOST> {
-            std::array::from_fn(|i| {
-                std::array::from_fn(|j| {
-                    (0..self.count()).map(|k| rigid.mobility[i][k] * m[k][j]).sum::<f64>() + follow[i] * imposed[j]
-                })
-            })
+            let mut product = [[0.0; MOST]; MOST];
+            for (i, row) in product.iter_mut().enumerate() {
+                for k in 0..self.count() {
+                    for j in 0..MOST {
+                        row[j] += rigid.mobility[i][k] * m[k][j];
+                    }
+                }
+                for j in 0..MOST {
+                    row[j] += follow[i] * imposed[j];
+                }
+            }
+            product
         };
         for i in 0..MOST {
             for j in 0..MOST {

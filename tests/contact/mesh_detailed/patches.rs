@@ -2,6 +2,7 @@
 //! patches of every length, in the middle, at one end and over both ends.
 
 use bevel_differential::contact::detailed::{DetailedState, Gaps, Opening, PairName, SliceLoad};
+use bevel_differential::contact::spring::Spring;
 use bevel_differential::contact::tooth_friction::ToothFriction;
 use bevel_differential::geometry::Pair;
 use bevel_differential::numeric::Jet;
