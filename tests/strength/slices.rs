@@ -7,6 +7,7 @@ use bevel_differential::contact::ContactLaw;
 use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::errors::ToothErrorSpec;
 use bevel_differential::contact::pairs::Flank;
+use bevel_differential::contact::spring::Spring;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation, ToothLoad};
 use bevel_differential::strength::{LineContact, RootStress};

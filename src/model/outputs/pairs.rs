@@ -11,6 +11,7 @@
 
 use crate::contact::mesh::{Law, Mesh};
 use crate::contact::pairs::{Flank, Spot};
+use crate::contact::shared::MOST;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::Point;
@@ -19,8 +20,6 @@ use crate::strength::LineContact;
 
 /// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.
 const PAIRS: usize = 3;
-/// Pairs that can touch at once: those of both flanks.
-const MOST: usize = 2 * PAIRS;
 /// Sections of a pair of solid teeth.
 const SECTIONS: usize = 8;
 /// Share of the face from which on a load stands for all of it.

@@ -1,5 +1,5 @@
 //! What checks: commands that fail if the library breaks a promise about calls, memory, effects that are off, steps in real
-//! time, other hosts, other platforms, a browser or a machine without Rust; one that counts what effects cost together; and one that looks
+//! time, other hosts, other platforms, a browser or a machine without Rust; and one that looks
 //! for changes that no test notices.
 
 pub mod executed;
@@ -9,7 +9,6 @@ pub mod memcheck;
 pub mod mutants;
 pub mod page;
 pub mod platforms;
-pub mod prices;
 pub mod python_tests;
 pub mod real_time;
 pub mod stepping;
@@ -28,7 +27,6 @@ pub enum CheckCommand {
     TestPage(page::TestPageCommand),
     #[command(alias = "off")]
     ZeroCost(zero_cost::ZeroCostCommand),
-    Prices(prices::PricesCommand),
     RealTime(real_time::RealTimeCommand),
     Fuzz(fuzz::FuzzCommand),
     #[command(alias = "memory")]
@@ -46,7 +44,6 @@ impl CheckCommand {
             Self::TestWheel(command) => command.run(),
             Self::TestPage(command) => command.run(),
             Self::ZeroCost(command) => command.run(),
-            Self::Prices(command) => command.run(),
             Self::RealTime(command) => command.run(),
             Self::Fuzz(command) => command.run(),
             Self::Memcheck(command) => command.run(),

@@ -5,6 +5,7 @@ pub mod compare_simulators;
 pub mod compare_solvers;
 pub mod cost;
 pub mod drivetrain;
+pub mod prices;
 pub mod solids;
 pub mod stiffness;
 pub mod survey;
@@ -25,6 +26,7 @@ pub enum MeasureCommand {
     #[command(alias = "foreign")]
     CompareSolvers(compare_solvers::CompareSolversCommand),
     Drivetrain(drivetrain::DrivetrainCommand),
+    Prices(prices::PricesCommand),
 }
 
 impl MeasureCommand {
@@ -38,6 +40,7 @@ impl MeasureCommand {
             Self::CompareSimulators(command) => command.run(),
             Self::CompareSolvers(command) => command.run(),
             Self::Drivetrain(command) => command.run(),
+            Self::Prices(command) => command.run(),
         }
     }
 }

@@ -170,7 +170,7 @@ fn assignment(setting: &Setting) -> (&'static str, Value) {
     (setting.row.name, value)
 }
 
-/// Instructions of a step with each effect alone over those of plain teeth, from the last measurement (docs/prices.md).
+/// Price of a step with each effect alone over that of plain teeth, from the last measurement (docs/prices.md).
 fn prices() -> Result<Vec<Price>> {
     let file = paths::workspace().join("fmu-build").join("data").join("prices.csv");
     let mut reader =

@@ -14,7 +14,7 @@ use crate::gears::scene::Scene;
 use crate::gears::scene::run::SceneRun;
 use crate::tools::usage;
 
-/// Instructions of all runs, in those of a reference run; and of a reference that is not certain, as little can be told.
+/// Price of all runs, in that of a reference run; and of a reference that is not certain, as little can be told.
 const BUDGET: f64 = 30.0;
 const BUDGET_UNCERTAIN: f64 = 15.0;
 /// Two points make a mean over time.
@@ -49,7 +49,7 @@ pub struct Answer {
     pub effects: Vec<(Switch, Role)>,
     /// Seconds on the processor: chosen, cheaper, richer, reference.
     pub seconds: [Option<f64>; 4],
-    /// Instructions of all runs over those of a reference run.
+    /// Price of all runs over that of a reference run.
     pub spent: f64,
 }
 

@@ -27,7 +27,7 @@ pub struct Trial {
     pub errors: Vec<f64>,
     /// What it took.
     pub effort: Effort,
-    /// Instructions, by counts and prices.
+    /// Price by its counts, in evaluations of plain teeth.
     pub cost: f64,
 }
 
@@ -56,7 +56,7 @@ pub struct Reference {
     pub strays: Vec<f64>,
     /// What it took.
     pub effort: Effort,
-    /// Instructions, by counts and prices.
+    /// Price by its counts, in evaluations of plain teeth.
     pub cost: f64,
 }
 
@@ -77,7 +77,7 @@ pub struct Bench<'a> {
     pub reference: Reference,
     /// Runs that came to their end.
     pub trials: Vec<Trial>,
-    /// Instructions of all runs so far, and how many there may be.
+    /// Price of all runs so far, and how much it may be.
     pub spent: f64,
     /// See above.
     pub limit: f64,
@@ -119,7 +119,7 @@ impl<'a> Bench<'a> {
         (self.say)(self.spent / self.limit, what);
         let most = FREE.max(price::evaluations(&p, PATIENCE * self.reference.cost));
         let figures = Record::of(scene, self.from, most).and_then(|record| {
-            let cost = price::instructions(&p, &record.effort);
+            let cost = price::cost(&p, &record.effort);
             self.spent += cost;
             Ok((values(self.wants, &record)?, record.effort, cost))
         });

@@ -22,7 +22,7 @@ pub fn write(answer: &Answer, folder: &Path) -> Result<PathBuf> {
     let file = folder.join("runs.csv");
     let shown = || format!("{} cannot be written", paths::shown(&file));
     let mut rows = csv::Writer::from_path(&file).with_context(shown)?;
-    let head = ["tried", "place", "setting", "error", "worst", "evaluations", "steps", "instructions", "seconds"];
+    let head = ["tried", "place", "setting", "error", "worst", "evaluations", "steps", "price", "seconds"];
     let wants = answer.wants.iter().map(|want| want.text(&answer.scene));
     rows.write_record(head.into_iter().map(str::to_owned).chain(wants)).with_context(shown)?;
     for (i, trial) in answer.trials.iter().enumerate() {

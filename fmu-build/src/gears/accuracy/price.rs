@@ -1,5 +1,5 @@
-//! What a run costs in instructions, by its counts and the prices that `prices --write` measures: the same on every machine,
-//! so that equal questions get equal answers.
+//! What a run costs by its counts and the prices that `prices --write` measured, in evaluations of plain teeth: the same on every
+//! machine, so that equal questions get equal answers.
 
 use std::sync::OnceLock;
 
@@ -9,8 +9,11 @@ use bevel_differential::model::{GearContact, Parameters};
 use super::record::Effort;
 use super::switches::effects;
 
-/// What is on, instructions per evaluation of the tooth forces, instructions per communication step.
+/// What is on, the price of an evaluation of the tooth forces, that of a communication step, both in evaluations of plain teeth.
 const MEASURED: &str = include_str!("../../../data/prices.csv");
+
+/// Least price of an evaluation that is counted with.
+const LEAST: f64 = 0.01;
 
 /// A row of the prices.
 struct Price {
@@ -20,13 +23,13 @@ struct Price {
 }
 
 impl Price {
-    /// Instructions of an evaluation, without those that a communication step takes anyway.
+    /// Price of an evaluation, without what a communication step takes anyway.
     fn of_one(&self) -> f64 {
         self.per_evaluation * (1.0 - without_teeth() / self.per_step).max(0.0)
     }
 }
 
-/// Instructions of a communication step without teeth.
+/// Price of a communication step without teeth.
 fn without_teeth() -> f64 {
     of("ideal").map_or(0.0, |price| price.per_step)
 }
@@ -50,7 +53,7 @@ fn of(on: &str) -> Option<&'static Price> {
     prices().iter().find(|price| price.on == on)
 }
 
-/// Instructions of an evaluation of `p`: prices of effects add up (docs/prices.md).
+/// Price of an evaluation of `p`: prices of effects add up (docs/prices.md).
 fn per_evaluation(p: &Parameters) -> f64 {
     let base = match (p.scene.gear_contact, p.contact.law) {
         (GearContact::Lumped, _) => "lumped",
@@ -69,13 +72,13 @@ fn per_evaluation(p: &Parameters) -> f64 {
     price(base) + on.map(|switch| effect(switch.name()).max(0.0)).sum::<f64>()
 }
 
-/// Evaluations of `p` that cost so many instructions.
-pub fn evaluations(p: &Parameters, instructions: f64) -> f64 {
-    instructions / per_evaluation(p).max(1.0)
+/// Evaluations of `p` that cost so much.
+pub fn evaluations(p: &Parameters, cost: f64) -> f64 {
+    cost / per_evaluation(p).max(LEAST)
 }
 
-/// Instructions of a run of `p` that took `effort`.
-pub fn instructions(p: &Parameters, effort: &Effort) -> f64 {
+/// Price of a run of `p` that took `effort`.
+pub fn cost(p: &Parameters, effort: &Effort) -> f64 {
     effort.points * without_teeth() + effort.evaluations * per_evaluation(p)
 }
 
@@ -100,6 +103,6 @@ mod tests {
         rich.contact.law = ContactLaw::LineWeber;
         rich.effects.body_compliance = true;
         rich.effects.tooth_friction = true;
-        assert!(instructions(&rich, &effort) > 2.0 * instructions(&plain, &effort));
+        assert!(cost(&rich, &effort) > 2.0 * cost(&plain, &effort));
     }
 }

@@ -99,7 +99,7 @@ pub fn run(
         let record = Record::of(&scene, question.from, f64::INFINITY)
             .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
         let figures = values(wants, &record).map_err(usage::error)?;
-        let cost = price::instructions(&scene.parameters, &record.effort);
+        let cost = price::cost(&scene.parameters, &record.effort);
         Ok::<_, anyhow::Error>(Run { scene, record, figures, cost })
     };
     let mut last = at(tolerance)?;

@@ -7,7 +7,7 @@ use super::bench::Trial;
 use super::gears::Gears;
 use super::knowledge;
 use super::switches::Switch;
-use super::words::{count, difference, percent, setting, three, two};
+use super::words::{difference, percent, setting, three, two};
 use crate::gears::scene::units;
 use crate::tools::table::labelled;
 
@@ -105,7 +105,7 @@ fn told(answer: &Answer, run: &Trial, place: usize) -> String {
     if let Some(seconds) = answer.seconds[place] {
         text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
     }
-    text.push_str(&format!("; about {} instructions per ms", count(per_millisecond)));
+    text.push_str(&format!("; costs {} plain evaluations per ms", two(per_millisecond)));
     let ratio = answer.reference.cost / run.cost;
     let times = if ratio >= 1.0 {
         format!("{} times cheaper", two(ratio))

@@ -39,14 +39,6 @@ pub fn two(value: f64) -> String {
     crate::tools::numbers::significant(value, 2)
 }
 
-/// A large number with two digits, in groups of thousands.
-pub fn count(value: f64) -> String {
-    let unit = 10f64.powf((value.max(1.0).log10().floor() - 1.0).max(0.0));
-    let digits = format!("{:.0}", (value / unit).round() * unit);
-    let groups: Vec<&str> = digits.as_bytes().rchunks(3).rev().filter_map(|g| std::str::from_utf8(g).ok()).collect();
-    groups.join(" ")
-}
-
 /// Word of a method.
 pub fn method(method: Method) -> &'static str {
     match method {
@@ -115,11 +107,6 @@ mod tests {
     fn percents_have_two_digits_and_ratios_three() {
         assert_eq!([0.0, 0.012_34, 1.5, 3e-9].map(percent), ["0 %", "1.2 %", "150 %", "3e-7 %"]);
         assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
-    }
-
-    #[test]
-    fn counts_are_grouped() {
-        assert_eq!([24_542.0, 532_313.0, 7.4, 1_240_000.0].map(count), ["25 000", "530 000", "7", "1 200 000"]);
     }
 
     #[test]

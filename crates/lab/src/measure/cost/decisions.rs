@@ -36,8 +36,7 @@ pub const ALL: [Decision; 11] = [
 ];
 
 /// The columns of the file.
-const COLUMNS: &str =
-    "quantity,scene,want,accuracy,gears,effects,solver,error,stray,real_time,instructions,reference_instructions";
+const COLUMNS: &str = "quantity,scene,want,accuracy,gears,effects,solver,error,stray,real_time,price,reference_price";
 
 /// Answers the first `count` questions. `report` receives the fraction done and the current job.
 pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> Result<(String, TitledTable)> {

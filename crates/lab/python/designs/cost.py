@@ -1,6 +1,6 @@
 """What a design costs by what is simulated: final values of a 0.5 s turn in one long step, on one core.
 
-    python benches/designs/cost.py [--designs N] [--write]
+    python crates/lab/python/designs/cost.py [--designs N] [--write]
 
 Needs the package with its extra [sweep] and the FMU (BEVEL_DIFFERENTIAL_FMU)."""
 

@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-PAGE = Path(__file__).resolve().parents[2] / "docs" / "design.md"
+PAGE = Path(__file__).resolve().parents[4] / "docs" / "design.md"
 
 
 def write(name: str, rows) -> None:

@@ -1,13 +1,13 @@
 """What the Python package costs over the FMU's calls, and what designs cost on workers.
 
-    python benches/designs/overhead.py [--runs N] [--designs N] [--write]
+    python crates/lab/python/designs/overhead.py [--runs N] [--designs N] [--write]
 
 Needs the package with its extra [sweep], the FMU (BEVEL_DIFFERENTIAL_FMU) and a C compiler. Runs with and without the package
 alternate, and the fastest of each are compared: those that other work of the machine weighs on least. Rows with workers are wall
 times and need an idle machine."""
 
 import argparse
-import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
@@ -16,9 +16,11 @@ from bevel_differential import Differential, Fmu, Scene
 from bevel_differential.designs import Farm, Space, Task
 from bevel_differential.designs.cluster import usual_workers
 from bevel_differential.designs.plan import Plan
-from bevel_differential.batches import CALLS
 from bevel_differential.text import aligned
 from page import write
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from calls import Calls  # noqa: E402
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
@@ -36,45 +38,23 @@ DRAWN = {"drawn tooth errors": ({"effects.tooth_errors": True, "tooth_errors.acc
          "drawn geometry": ({}, {"geometry.face_width": "normal(20 mm, 0.05 mm)", "geometry.module": "normal(4.5 mm, 0.01 mm)"})}
 
 
-class Calls:
-    """The C program, compiled."""
-
-    def __init__(self, folder, fmu):
-        self.folder, self.fmu = Path(folder), fmu
-        self.program = self.folder / "calls"
-        subprocess.run(["cc", "-O2", "-o", self.program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
-        self.library = next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
-
-    def seconds(self, values, outputs, step, runs):
-        """Seconds of each run, the first left out: it makes what follows from the gears."""
-        lines = []
-        for name, value in values.items():
-            variable = self.fmu.variable(name)
-            lines.append(f"{CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
-        (self.folder / "set").write_text("\n".join(lines))
-        references = [str(self.fmu.variable(name).reference) for name in outputs]
-        command = [self.program, self.library, self.fmu.description.guid, self.folder / "set", str(STOP), str(step or 0.0),
-                   str(runs + 1), *references]
-        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-        return [float(line) for line in printed.split()][1:]
-
-
 def timed(action, *arguments):
     begun = time.perf_counter()
     action(*arguments)
     return time.perf_counter() - begun
 
 
-def overhead(calls, runs):
+def overhead(calls, fmu, runs):
     """Rows: a turn through the package over the calls in C."""
-    with Differential(TURN, fmu=calls.fmu.file) as turn:
+    with Differential(TURN, fmu=fmu.file) as turn:
         for what, step, use, limit in [
                 ("0.5 s turn, final values", None, lambda: turn.final(TEN, stop=STOP), LIMIT_FINAL),
                 ("0.5 s turn, ten outputs every 1 ms", 1e-3, lambda: turn.run(outputs=TEN, stop=STOP, step=1e-3), LIMIT_RECORD)]:
             use()
             package, bare = [], []
             for _ in range(max(1, runs // 20)):
-                bare += calls.seconds(TURN, TEN, step, 20)
+                # the first run makes what follows from the gears
+                bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, STOP, step, 21)[1:]]
                 package += [timed(use) for _ in range(20)]
             yield row(what, min(package) * 1e3, min(bare) * 1e3, "ms", limit)
 
@@ -99,9 +79,8 @@ def monte_carlo(fmu, designs, workers):
             yield row(f"10 000 turns, {workers} workers, {what}", taken, None, "s", LIMIT_MONTE_CARLO)
 
 
-def drawn(calls, designs, workers):
+def drawn(fmu, designs, workers):
     """Rows: designs with drawn errors or geometry on workers over the calls of the same designs in C, shared by the workers."""
-    fmu = calls.fmu
     for what, (values, vary) in DRAWN.items():
         with Scene("turn", stop=STOP, set={**TURN, **values}, fmu=fmu.file) as scene, Farm(workers) as farm:
             task = Task(scene, ["left.speed", "right.speed", "efficiency"])
@@ -153,9 +132,9 @@ def main():
     given = parser.parse_args()
     fmu, workers = Fmu.of(), min(2, usual_workers())
     with tempfile.TemporaryDirectory() as folder:
-        calls = Calls(folder, fmu)
-        rows = [("what", "package", "calls", "ratio", "limit", "kept"), *overhead(calls, given.runs),
-                *monte_carlo(fmu, given.designs, workers), *drawn(calls, max(50, given.designs // 10), workers)]
+        calls = Calls(folder)
+        rows = [("what", "package", "calls", "ratio", "limit", "kept"), *overhead(calls, fmu, given.runs),
+                *monte_carlo(fmu, given.designs, workers), *drawn(fmu, max(50, given.designs // 10), workers)]
         print("\n".join(aligned(rows, left=1)), "\n")
         by_workers = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
         print("\n".join(aligned(by_workers, left=1)))

@@ -1,0 +1,188 @@
+"""What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
+
+usage: prices.py FMU EFFECTS FOLDER RUNS PAIRS [OTHER_FMU]
+
+Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
+also writes FOLDER/prices.csv."""
+
+import csv
+import json
+import platform
+import statistics
+import sys
+from pathlib import Path
+
+from bevel_differential import Differential, Fmu
+
+from calls import Calls
+
+STEP = 1e-3
+COUNTED = 0.5
+# seconds of the processor that a timed run is to take, and its steps
+LONG, FEWEST, MOST = 0.1, 100, 20_000
+TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_contact": "lumped"}, "line": {"contact.law": "line"},
+          "line_weber": {"contact.law": "line_weber"}, "solid": {"scene.gear_contact": "solid", "solid.facets": 32}}
+# what the richest scene of gears in service has on
+ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag", "strength",
+       "tooth_errors"]
+OF_ALL = {"tooth_errors.accuracy_grade": 6, "tooth_errors.planet_tip_relief": 0.0}
+TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
+       "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
+
+
+def effects(file):
+    """Start values that switch on each effect, by its name."""
+    found = {}
+    for effect in json.loads(Path(file).read_text(encoding="utf-8")):
+        switch = {effect["switch"]: True} if effect["switch"] else {}
+        found[effect["name"].removeprefix("effects.")] = {**switch, **effect["example"]}
+    return found
+
+
+class Bench:
+    """Timed runs."""
+
+    def __init__(self, folder, runs):
+        self.calls, self.runs = Calls(folder), runs
+
+    def _per_step(self, fmu, values, steps, outputs):
+        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, steps * STEP, STEP)
+        return seconds / steps
+
+    def _steps(self, fmu, values, outputs):
+        return round(min(max(LONG / self._per_step(fmu, values, FEWEST, outputs), FEWEST), MOST))
+
+    def compare(self, first, second):
+        """Seconds of a communication step of both, (FMU, values, outputs) each, and the quartiles of their ratio."""
+        pairs = [(*one, self._steps(*one)) for one in (first, second)]
+        taken = [[], []]
+        for run in range(self.runs):
+            for place in (0, 1) if run % 2 == 0 else (1, 0):
+                fmu, values, outputs, steps = pairs[place]
+                taken[place].append(self._per_step(fmu, values, steps, outputs))
+        ratios = [b / a for a, b in zip(*taken)]
+        quartiles = statistics.quantiles(ratios, n=4) if len(ratios) > 1 else 3 * ratios
+        return [statistics.median(one) for one in taken], quartiles
+
+
+def counts(fmu, values):
+    """Steps, rejected ones and evaluations of 0.5 s."""
+    names = ["solver.steps", "solver.rejected", "solver.rhs_calls"]
+    with Differential(TURN | values, fmu=fmu.file) as turn:
+        record = turn.run(outputs=names, stop=COUNTED, step=STEP)
+    return [float(record[name][-1]) for name in names]
+
+
+def digits(value, number=3):
+    """`value` with so many digits."""
+    return f"{value:#.{number}g}".rstrip(".") if value < 10 ** number else f"{value:.0f}"
+
+
+def within(quartiles):
+    low, middle, high = quartiles
+    return f"{middle:.2f} ({low:.2f} – {high:.2f})"
+
+
+def table(rows):
+    """Markdown, the first of the rows the header."""
+    header, *others = rows
+    lines = [header, ["---", *["---:"] * (len(header) - 1)], *others]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def say(fraction, what):
+    print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
+
+
+def machine():
+    """Processor and system."""
+    names = [line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
+    return f"{names[0] if names else platform.processor()}, {len(names)} cores, {platform.system()} {platform.machine()}"
+
+
+class Prices:
+    """Prices of settings in time."""
+
+    def __init__(self, bench, fmu, ideal=0.0):
+        self.bench, self.fmu = bench, fmu
+        self.evaluations = counts(fmu, {})[2]
+        self.without_teeth = ideal
+
+    def of(self, values):
+        """Counts, seconds of a communication step, and quartiles of its price in that of plain teeth."""
+        counted = counts(self.fmu, values)
+        (_, taken), over = self.bench.compare((self.fmu, {}, []), (self.fmu, values, []))
+        # an evaluation's price in that of plain teeth
+        of_one = over[1] * self.evaluations / counted[2] if counted[2] else 0.0
+        return counted, taken, over, of_one
+
+    def row(self, name, values):
+        (steps, rejected, evaluations), taken, over, of_one = self.of(values)
+        return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", digits(1e6 * taken), within(over),
+                f"{of_one:.2f}", digits(STEP / taken, 2)], of_one, over[1]
+
+
+def prices(bench, fmu, switches, with_pairs, folder):
+    """The tables of one build."""
+    singles = {**LEVELS, **switches}
+    pairs = [(a, b) for k, a in enumerate(["line", *switches]) for b in ["line", *switches][k + 1:]] if with_pairs else []
+    stages = 2 + len(singles) + len(pairs)
+    priced = Prices(bench, fmu)
+    rows = [["on", "steps", "rejected", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "× real time"]]
+    known, data = {}, []
+    for done, (name, values) in enumerate({"nothing": {}, **singles}.items()):
+        say(done / stages, f"timing {name}")
+        row, of_one, over = priced.row("nothing" if name == "nothing" else f"`{name}`", values)
+        rows.append(row)
+        known[name] = of_one
+        data.append([name, digits(of_one, 4), digits(over * priced.evaluations / (COUNTED / STEP), 4)])
+    every = OF_ALL.copy()
+    for name in ALL:
+        every = singles[name] | every
+    say((1 + len(singles)) / stages, "timing all together")
+    row, of_all, _ = priced.row("all together", every)
+    rows.append(row)
+    with (Path(folder) / "prices.csv").open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([["on", "evaluation", "communication_step"], *data])
+    added = 1.0 + sum(known[name] - 1.0 for name in ALL)
+    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{table(rows)}\n"
+            f"All together an evaluation costs {of_all:.1f} times that of plain teeth; 1 and what each adds alone make {added:.1f}.\n")
+    if pairs:
+        rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
+        for done, (a, b) in enumerate(pairs):
+            say((2 + len(singles) + done) / stages, f"timing {a}, {b}")
+            row, of_one, _ = priced.row(f"`{a}`, `{b}`", singles[a] | singles[b])
+            rows.append([*row[:2], *row[3:7], f"{of_one / (known[a] + known[b] - 1.0):.2f}"])
+        text += f"\nEach pair.\n\n{table(rows)}"
+    return text
+
+
+def builds(bench, fmu, other, switches):
+    """The table of two builds."""
+    every = OF_ALL.copy()
+    for name in ALL:
+        every = {**LEVELS, **switches}[name] | every
+    settings = {"nothing": {}, **LEVELS, **switches, "tooth_friction, thrust_friction": {
+        **switches["tooth_friction"], **switches["thrust_friction"]}, "all together": every}
+    rows = [["on", "µs per 1 ms", "other, µs", "ratio to the other (quartiles)"]]
+    cases = [(name, values, []) for name, values in settings.items()] + [("nothing, ten outputs read", {}, TEN)]
+    for done, (name, values, outputs) in enumerate(cases):
+        say(done / len(cases), f"timing {name}")
+        if any(each not in other.variables for each in [*values, *outputs]):
+            rows.append([name, "", "", "unknown to the other"])
+            continue
+        (before, now), over = bench.compare((other, values, outputs), (fmu, values, outputs))
+        rows.append([name, digits(1e6 * now), digits(1e6 * before), within(over)])
+    return table(rows)
+
+
+def main():
+    file, described, folder, runs, with_pairs, *other = sys.argv[1:]
+    bench, fmu, switches = Bench(folder, int(runs)), Fmu.of(file), effects(described)
+    text = builds(bench, fmu, Fmu.of(other[0]), switches) if other else prices(bench, fmu, switches, with_pairs == "pairs", folder)
+    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
+
+
+if __name__ == "__main__":
+    main()

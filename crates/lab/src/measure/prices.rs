@@ -1,0 +1,69 @@
+//! What levels, laws and effects cost in time: each alone, each pair, all together; or how the times of two builds compare.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+
+use crate::tools::places;
+use fmu_build::fmu::package;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::python::Environment;
+use fmu_build::tools::table::for_terminal;
+use fmu_build::tools::{paths, script, sections};
+
+const DOCUMENT: &str = "docs/prices.md";
+/// The marks around the tables.
+const MARKS: [&str; 2] = ["<!-- prices:begin -->", "<!-- prices:end -->"];
+/// Prices of each alone, by which the command `accuracy` counts and the page shows.
+const DATA: &str = "prices.csv";
+/// Runs of each, and for a quick look.
+const RUNS: u32 = 9;
+const FEW: u32 = 3;
+
+/// Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some twenty minutes)
+#[derive(Args, Clone, Debug)]
+pub struct PricesCommand {
+    /// The FMU of another build: prints the ratios of this build's times to its own
+    #[arg(long, value_name = "FMU", conflicts_with = "write")]
+    against: Option<PathBuf>,
+    /// Three runs of each instead of nine, and no pairs
+    #[arg(long, conflicts_with = "write")]
+    quick: bool,
+    /// Also renew the tables in docs/prices.md and the prices by which `accuracy` counts
+    #[arg(long)]
+    write: bool,
+}
+
+impl PricesCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        if let Some(other) = &self.against {
+            ensure!(other.is_file(), "{}: there is no such FMU", other.display());
+        }
+        let progress = Progress::start("looking for Python");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        progress.stage("packaging the FMU");
+        let fmu = package::package()?;
+        let folder = paths::target().join("prices");
+        fs::create_dir_all(&folder)?;
+        let described = fmu.with_file_name("effects.json");
+        let mut arguments: Vec<OsString> = vec![fmu.into(), described.into(), folder.clone().into()];
+        arguments.push(if self.quick { FEW } else { RUNS }.to_string().into());
+        arguments.push(if self.quick { "alone" } else { "pairs" }.into());
+        arguments.extend(self.against.iter().map(OsString::from));
+        progress.begin_bar("timing");
+        let tables = script::run(&environment, &places::script("prices.py"), &arguments, &progress)?;
+        progress.finish();
+        print!("{}", for_terminal(&tables));
+        if self.write {
+            sections::renew(DOCUMENT, MARKS, &tables)?;
+            let data = paths::workspace().join("fmu-build").join("data").join(DATA);
+            fs::copy(folder.join(DATA), &data).with_context(|| format!("{} cannot be written", paths::shown(&data)))?;
+            println!("renewed: {DOCUMENT}, {}", paths::shown(&data));
+        }
+        Ok(())
+    }
+}
