@@ -30,10 +30,10 @@ def main(folder):
         runs = list(csv.DictReader(file))
     picture = style.figure(6.2)
     axes = picture.subplots()
-    reference = float(runs[-1]["instructions"])
+    reference = float(runs[-1]["price"])
 
     def point(run):
-        return float(run["instructions"]) / reference, 100.0 * max(float(run["error"]), FLOOR * within)
+        return float(run["price"]) / reference, 100.0 * max(float(run["error"]), FLOOR * within)
 
     tried = [run for run in runs[:-1] if not any(method in run["setting"] for method in METHODS)]
     others = [point(run) for run in runs[:-1] if run not in tried]
@@ -57,7 +57,7 @@ def main(folder):
     axes.axhline(100.0 * within, color=style.RED, lw=1, ls="--")
     axes.annotate("wanted", (0.003, 100.0 * within), xycoords=axes.get_yaxis_transform(), xytext=(4, 3),
                   textcoords="offset points", color=style.RED)
-    axes.set(xscale="log", yscale="log", xlabel="cost, instructions over those of the reference",
+    axes.set(xscale="log", yscale="log", xlabel="cost over that of the reference",
              ylabel="largest error of the wanted quantities, %")
     short = wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + " …"
     axes.set_title(f"{scene}: {short}")
@@ -66,7 +66,7 @@ def main(folder):
     style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects or tolerance, compared with "
                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
                   f"cheapest for each accuracy. Below the dashed line is accurate enough; {told}.")
-    picture.savefig(folder / "front.png")
+    style.save(picture, folder / "front.png")
 
 
 if __name__ == "__main__":

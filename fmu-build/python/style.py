@@ -7,6 +7,7 @@ label is "quantity, unit". Every picture ends with a caption that says what to s
 import textwrap
 
 import matplotlib
+from PIL import Image
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -21,6 +22,7 @@ MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
 # width of a picture, inches: the same for all, so that letters are the same size on a page
 WIDTH = 13.0
 DPI = 130
+COLOURS = 256
 # caption: characters per inch of width, height of a line in inches, at its font size
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
 SMALL = 10
@@ -59,6 +61,9 @@ def note(axes, x, y, text, **options):
 
 
 def save(picture, path):
-    """Writes the file and forgets the picture."""
+    """Writes the file and forgets the picture. Lines and letters need few colours: a table of them makes a third of the file."""
     picture.savefig(path)
     plt.close(picture)
+    with Image.open(path) as drawn:
+        few = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)

@@ -115,7 +115,7 @@ pub fn for_this_machine() -> Result<Library> {
         progress::note(&format!("{why:#}: the library is compiled once more, which takes minutes"));
         let mut command = Command::new(cargo());
         command.arg("build");
-        distributable(command, "this-machine", HOST.1)
+        distributable(command, "this-machine", HOST.1, &[])
     })?;
     Ok(Library { platform: HOST.0, ending: HOST.1, file, needs: needs.into(), added: Vec::new() })
 }
@@ -136,7 +136,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         .env("CARGO", cargo())
         .env("PATH", toolchains::path_with(&programs)?)
         .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
-    let file = distributable(command, "linux64", "so")?;
+    let file = distributable(command, "linux64", "so", &[])?;
     let unwinder = AddedPart {
         name: "LLVM libunwind",
         licence: "Apache-2.0 WITH LLVM-exception",
@@ -161,7 +161,8 @@ fn for_windows(tools: &UnpackedToolchain) -> Result<Library> {
         // Debian's Rust is a stable one, and building the standard library is not yet
         .env("RUSTC_BOOTSTRAP", "1")
         .env("CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER", programs.join("x86_64-w64-mingw32-gcc"));
-    windows_library(command, &tools.root())
+    // each function in a section of its own, so that the linker may leave it out
+    windows_library(command, &tools.root(), &["-Zfunction-sections=yes"])
 }
 
 /// Whether rustup's own target for Windows and the system's MinGW are installed.
@@ -173,12 +174,12 @@ pub(super) fn rustup_has_windows() -> bool {
 fn for_windows_by_rustup() -> Result<Library> {
     let mut command = Command::new(cargo());
     command.args(["build", "--target", WINDOWS_TARGET]);
-    windows_library(command, Path::new("/"))
+    windows_library(command, Path::new("/"), &[])
 }
 
 /// The library that `command` builds with the MinGW under `root`.
-fn windows_library(command: Command, root: &Path) -> Result<Library> {
-    let file = distributable(command, "win64", "dll")?;
+fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Library> {
+    let file = distributable(command, "win64", "dll", options)?;
     let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
     let added = vec![
         AddedPart {
@@ -195,15 +196,17 @@ fn windows_library(command: Command, root: &Path) -> Result<Library> {
     Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
 }
 
-/// Builds the library for an FMU, without paths of this machine. It has a separate
+/// Builds the library for an FMU by `options` of the compiler, without paths of this machine. It has a separate
 /// target folder, because the compiler may differ, and its options always do.
-fn distributable(mut command: Command, name: &str, ending: &str) -> Result<PathBuf> {
+fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<PathBuf> {
+    let options: Vec<String> =
+        without_folders().into_iter().chain(options.iter().map(|&option| option.into())).collect();
     command
         .arg("--target-dir")
         .arg(paths::target().join("cross").join(name))
         // whatever the rest is built with: one unit inlines what matters
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
-        .env("CARGO_ENCODED_RUSTFLAGS", without_folders().join("\u{1f}"));
+        .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
     built_by(command, CRATE, ending).with_context(|| format!("the library for {name}"))
 }
 
