@@ -60,10 +60,13 @@ def note(axes, x, y, text, **options):
     axes.text(x, y, text, transform=axes.transAxes, **{"ha": "right", "va": "center", "color": TEXT, **options})
 
 
-def save(picture, path):
-    """Writes the file and forgets the picture. Lines and letters need few colours: a table of them makes a third of the file."""
+def save(picture, path, shaded=False):
+    """Writes the file and forgets the picture. Lines and letters need few colours: a table of them makes a third of the file;
+    `shaded` surfaces keep all."""
     picture.savefig(path)
     plt.close(picture)
+    if shaded:
+        return
     with Image.open(path) as drawn:
         few = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
     few.save(path, optimize=True)

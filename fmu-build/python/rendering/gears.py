@@ -136,7 +136,7 @@ def labelled(file, bitmap):
                   "planets with 10, module 4.5 mm. Flanks are spherical involutes. The carrier turns the pin about the axis of "
                   "the half-shafts; planets that turn on the pin let the half-shafts differ in speed. Half-shafts, pin and "
                   "carrier are drawn for orientation only.")
-    style.save(picture, file)
+    style.save(picture, file, shaded=True)
     print(f"written: {file}")
 
 
