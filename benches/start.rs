@@ -7,14 +7,14 @@
 mod common;
 
 use bevel_differential::fmi2::Status;
-use bevel_differential::variables::{Access, table};
+use bevel_differential::variables::{Access, named};
 use common::Host;
 
 /// A function of its own, so that its instructions can be counted.
 #[inline(never)]
 fn one_initialisation(host: &Host, set: &[(&str, f64)]) {
     for &(name, value) in set {
-        let row = table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}"));
+        let row = named(name).unwrap_or_else(|| panic!("no variable {name}"));
         let status = match row.access {
             Access::Integer(_) | Access::Enumeration(..) => host.set_integer(name, value as i32),
             Access::Boolean(_) => host.set_boolean(name, value as i32),

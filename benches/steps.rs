@@ -10,19 +10,12 @@ use std::time::Instant;
 
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{EFFECTS, GearContact, Inputs, Method, Parameters, PlanetSpin, Simulation, Start};
-use bevel_differential::variables::{Access, table};
+use bevel_differential::variables::{assign, named};
 
 /// Sets the variable `name` to `value`.
 fn set(p: &mut Parameters, i: &mut Inputs, name: &str, value: f64) {
-    let row = table().rows.iter().find(|row| row.name == name).expect("the variable exists");
-    match row.access {
-        Access::Real(at) => *at(p) = value,
-        Access::Integer(at) => *at(p) = value as i32,
-        Access::Boolean(at) => *at(p) = value != 0.0,
-        Access::Enumeration(_, _, set) => set(p, value as i32),
-        Access::Input(at) => *at(i) = value,
-        Access::Output(_) => panic!("{name} is an output"),
-    }
+    let row = named(name).expect("the variable exists");
+    assign(row, value, p, i).unwrap_or_else(|problem| panic!("{problem}"));
 }
 
 /// Switches on an effect with the values of its example, or a law.

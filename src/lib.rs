@@ -3,6 +3,8 @@
 //! The rooms, ground floor first; each uses only those before it:
 //! `numeric` → `geometry` → `friction`, `contact` → `strength` → `integrate` → `declaration` → `model` → `variables` → `fmi2`.
 //!
+//! Programs in Rust begin with [`Differential`], which sets, runs and reads a differential by the names of the FMU's variables.
+//!
 //! All quantities are SI (m, rad, s, kg, N) unless a name says otherwise; symbols follow ISO 23509.
 
 #![deny(unsafe_code)]
@@ -13,6 +15,7 @@ extern crate self as bevel_differential;
 
 pub mod contact;
 pub mod declaration;
+mod differential;
 pub mod friction;
 pub mod geometry;
 pub mod integrate;
@@ -21,6 +24,8 @@ pub mod numeric;
 pub mod problem;
 pub mod strength;
 pub mod variables;
+
+pub use differential::{Differential, DifferentialError};
 
 #[allow(unsafe_code)] // the C ABI is the one place that must handle foreign pointers
 pub mod fmi2;

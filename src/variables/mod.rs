@@ -6,6 +6,7 @@ mod added;
 mod calculated;
 pub mod felt;
 mod inputs;
+mod named;
 mod outputs;
 mod parameters;
 mod states;
@@ -13,6 +14,7 @@ mod table;
 
 pub use crate::declaration::{Causality, Choice, EnumType, Range, Variability, units};
 pub use access::{Access, OutputSource, Variable};
+pub use named::{assign, named, number_of, value_of};
 pub use table::{Table, check_ranges, check_value, fnv1a, guid, real_start, table, tuned};
 
 /// FMI model identifier and model name.

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use bevel_differential::model::{Inputs, Parameters, Simulation};
 use bevel_differential::problem;
-use bevel_differential::variables::{Access, table};
+use bevel_differential::variables::{assign, named};
 
 use crate::boundary::write;
 use crate::cases::Case;
@@ -17,14 +17,8 @@ fn case(values: &str) -> Result<Case, String> {
     for line in values.lines() {
         let parsed = line.split_once(' ').and_then(|(name, value)| Some((name, value.parse::<f64>().ok()?)));
         let (name, value) = parsed.ok_or_else(|| format!("\"{line}\" is not a name and a number"))?;
-        let row = table().rows.iter().find(|row| row.name == name);
-        match row.map(|row| row.access) {
-            Some(Access::Real(access)) => *access(&mut p) = value,
-            Some(Access::Integer(access)) => *access(&mut p) = value as i32,
-            Some(Access::Boolean(access)) => *access(&mut p) = value != 0.0,
-            Some(Access::Enumeration(_, _, set)) => set(&mut p, value as i32),
-            _ => return Err(format!("there is no parameter {name}")),
-        }
+        let row = named(name).ok_or_else(|| format!("there is no parameter {name}"))?;
+        assign(row, value, &mut p, &mut Inputs::default()).map_err(|problem| problem.to_string())?;
     }
     let start = Simulation::start(&p, &still(), 0.0).map_err(|problems| problem::list(&problems))?;
     Ok(Case { magnitudes: vec![1.0; 2 * start.freedoms()], start })

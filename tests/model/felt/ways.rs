@@ -1,6 +1,6 @@
 //! Conditions of rows as the ways to meet them, read by a reader of the tests' own.
 
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Access, Variable, named};
 
 /// A test of a condition: `=` one of the values, `!` none of them, `>` more than the first.
 #[derive(Clone)]
@@ -55,7 +55,7 @@ fn one(words: &mut Vec<String>) -> Vec<Vec<Test>> {
         }
         "co-simulation" | "initialisation" => vec![vec![]],
         name => {
-            let row = table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no {name}"));
+            let row = named(name).unwrap_or_else(|| panic!("no {name}"));
             let sign = words.pop().unwrap().chars().next().unwrap();
             let values = words.pop().unwrap();
             vec![vec![Test { row, sign, values: values.split('|').map(|value| value_of(row, value)).collect() }]]

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bevel_differential::contact::errors::FaultyGear;
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Layout, State};
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Access, Variable, named, table};
 
 use super::scene::{Scene, output, outputs};
 use super::table::{Parity, line_of, lines};
@@ -195,5 +195,5 @@ fn planet_of(name: &str) -> Option<usize> {
 }
 
 fn same(name: &str) -> &'static Variable {
-    table().rows.iter().find(|row| row.name == name).unwrap_or_else(|| panic!("no variable {name}"))
+    named(name).unwrap_or_else(|| panic!("no variable {name}"))
 }

@@ -1,7 +1,7 @@
 //! A run of a scene: its outputs at the communication points, the turns of teeth and shaft, and what it took.
 
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::{Variable, table};
+use bevel_differential::variables::{Variable, named};
 use cpu_time::ThreadTime;
 
 use crate::gears::scene::Scene;
@@ -37,7 +37,7 @@ pub struct Effort {
 
 /// Angles that orders are counted by.
 fn angles() -> [Option<&'static Variable>; 2] {
-    ["planet[1].spin_angle", "carrier.angle"].map(|name| table().rows.iter().find(|row| row.name == name))
+    ["planet[1].spin_angle", "carrier.angle"].map(named)
 }
 
 impl Record {

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, anyhow};
 use bevel_differential::model::{Method, Parameters};
-use bevel_differential::variables::table;
+use bevel_differential::variables::named;
 
 use super::Question;
 use super::bench::{Reference, values};
@@ -65,7 +65,7 @@ pub fn richest(scene: &Scene) -> Result<Richest> {
 
 /// Range of the relative tolerance.
 pub fn tolerances() -> [f64; 2] {
-    let row = table().rows.iter().find(|row| row.name == "solver.relative_tolerance");
+    let row = named("solver.relative_tolerance");
     row.and_then(|row| row.range).map_or([1e-12, 1e-2], |range| [range.min, range.max])
 }
 

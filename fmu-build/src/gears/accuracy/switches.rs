@@ -2,7 +2,7 @@
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Access, Variable, named, table};
 
 use crate::gears::scene::Scene;
 use crate::gears::scene::run::SceneRun;
@@ -133,7 +133,7 @@ impl Switch {
         if self.is_bodies() {
             return Vec::new();
         }
-        let row = |name: &str| table().rows.iter().find(|row| row.name == name);
+        let row = |name: &str| named(name);
         let declared = EFFECTS.iter().filter(|effect| effect.switch == Some(self.row.name));
         let examples =
             declared.flat_map(|effect| effect.example).filter_map(|&(name, value)| Some((row(name)?, value)));

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
-use bevel_differential::variables::{Access, Causality, Variable, table};
+use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -163,7 +163,7 @@ fn drives(scene: &Scene) -> Vec<String> {
 }
 
 fn row(name: &str) -> Option<&'static Variable> {
-    table().rows.iter().find(|row| row.name == name)
+    named(name)
 }
 
 /// The effect of a switch.

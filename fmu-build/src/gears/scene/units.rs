@@ -96,10 +96,10 @@ pub fn digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bevel_differential::variables::table;
+    use bevel_differential::variables::named;
 
     fn row(name: &str) -> &'static Variable {
-        table().rows.iter().find(|row| row.name == name).expect("a row")
+        named(name).expect("a row")
     }
 
     #[test]

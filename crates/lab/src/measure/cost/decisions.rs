@@ -32,7 +32,7 @@ pub const ALL: [Decision; 11] = [
     ("losses", "torque_bias", "efficiency:mean", 0.001),
     ("peak torque of a clunk", "clunk", "left.shaft_torque:max", 0.01),
     ("torque of a wheel that slips", "limited_slip", "left.shaft_torque:rms", 0.01),
-    ("speed of a wheel on ice", "one_wheel_on_ice", "left.speed:max", 0.01),
+    ("speed of a wheel on ice", "one_wheel_on_ice", "left.wheel_speed:max", 0.01),
 ];
 
 /// The columns of the file.

@@ -1,0 +1,71 @@
+//! Variables by their names, and values put where they belong.
+
+use super::access::{Access, Variable};
+use super::table::{check_value, table};
+use crate::model::{Inputs, Parameters};
+use crate::problem::Problem;
+
+/// The variable `name`, if there is one.
+pub fn named(name: &str) -> Option<&'static Variable> {
+    table().rows.iter().find(|row| row.name == name)
+}
+
+/// Sets a parameter or an input: to a number in the unit of the interface, true and false as 1 and 0, and a choice by its number.
+pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &mut Inputs) -> Result<(), Problem> {
+    let wrong = |what: &str| Err(Problem::new(row.name, format!("{value} {what}")));
+    let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
+    match row.access {
+        Access::Output(_) => return Err(Problem::new(row.name, "is an output and cannot be set")),
+        Access::Integer(_) if !whole => return wrong("is no whole number"),
+        Access::Boolean(_) if value != 0.0 && value != 1.0 => return wrong("is neither 0, false, nor 1, true"),
+        Access::Enumeration(kind, ..) if !whole || kind.choices.iter().all(|one| one.value != value as i32) => {
+            return wrong(&format!("is none of the choices {}", choices(row)));
+        }
+        Access::Enumeration(..) | Access::Boolean(_) => {}
+        Access::Real(_) | Access::Input(_) | Access::Integer(_) => check_value(row, value)?,
+    }
+    match row.access {
+        Access::Real(slot) => *slot(parameters) = value,
+        Access::Integer(slot) => *slot(parameters) = value as i32,
+        Access::Boolean(slot) => *slot(parameters) = value != 0.0,
+        Access::Enumeration(_, _, set) => set(parameters, value as i32),
+        Access::Input(slot) => *slot(inputs) = value,
+        Access::Output(_) => {}
+    }
+    Ok(())
+}
+
+/// The number of what `text` says of a variable: a choice by its name, or true or false.
+pub fn number_of(row: &Variable, text: &str) -> Result<f64, Problem> {
+    let found = match row.access {
+        Access::Enumeration(kind, ..) => {
+            kind.choices.iter().find(|one| one.name == text).map(|one| f64::from(one.value))
+        }
+        Access::Boolean(_) => text.parse::<bool>().ok().map(|truth| f64::from(u8::from(truth))),
+        _ => return Err(Problem::new(row.name, format!("\"{text}\" is no number; it has no choices"))),
+    };
+    found.ok_or_else(|| Problem::new(row.name, format!("\"{text}\" is none of {}", choices(row))))
+}
+
+/// What a variable can be set to by name.
+fn choices(row: &Variable) -> String {
+    match row.access {
+        Access::Enumeration(kind, ..) => {
+            kind.choices.iter().map(|one| format!("{} ({})", one.name, one.value)).collect::<Vec<_>>().join(", ")
+        }
+        _ => "true, false".to_owned(),
+    }
+}
+
+/// The value of a parameter or an input; none of an output, which a simulation has.
+pub fn value_of(row: &Variable, parameters: &Parameters, inputs: &Inputs) -> Option<f64> {
+    let (mut p, mut i) = (*parameters, *inputs);
+    match row.access {
+        Access::Real(slot) => Some(*slot(&mut p)),
+        Access::Integer(slot) => Some(f64::from(*slot(&mut p))),
+        Access::Boolean(slot) => Some(f64::from(u8::from(*slot(&mut p)))),
+        Access::Enumeration(_, get, _) => Some(f64::from(get(&p))),
+        Access::Input(slot) => Some(*slot(&mut i)),
+        Access::Output(_) => None,
+    }
+}
