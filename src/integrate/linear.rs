@@ -79,10 +79,10 @@ impl Shape {
         self.first..self.end
     }
 
-    /// The others.
+    /// The others, before and behind them: two plain loops are faster than one through both.
     #[inline(always)]
-    fn others(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.first).chain(self.end..self.count)
+    fn others(&self) -> [Range<usize>; 2] {
+        [0..self.first, self.end..self.count]
     }
 }
 
@@ -108,13 +108,15 @@ impl<const N: usize> Inverse<N> {
             }
         }
         // [S, −B P⁻¹]
-        for i in shape.others() {
-            let row = a[i];
-            let mut taken = [0.0; N];
-            add_in_pairs(a, &inner, &row, &mut taken);
-            a[i][inner.clone()].fill(0.0);
-            for j in 0..N {
-                a[i][j] -= taken[j];
+        for others in shape.others() {
+            for i in others {
+                let row = a[i];
+                let mut taken = [0.0; N];
+                add_in_pairs(a, &inner, &row, &mut taken);
+                a[i][inner.clone()].fill(0.0);
+                for j in 0..N {
+                    a[i][j] -= taken[j];
+                }
             }
         }
         for k in inner.clone() {
@@ -123,17 +125,21 @@ impl<const N: usize> Inverse<N> {
             }
         }
         // [S⁻¹, …] and [−P⁻¹ D S⁻¹, …]
-        for k in shape.others() {
-            normalise(a, k, diagonal[k])?;
-            for i in 0..shape.count {
-                if i != k {
-                    eliminate(a, i, k);
+        for others in shape.others() {
+            for k in others {
+                normalise(a, k, diagonal[k])?;
+                for i in 0..shape.count {
+                    if i != k {
+                        eliminate(a, i, k);
+                    }
                 }
             }
         }
-        for k in shape.others() {
-            for i in 0..shape.count {
-                columns[k][i] = a[i][k];
+        for others in shape.others() {
+            for k in others {
+                for i in 0..shape.count {
+                    columns[k][i] = a[i][k];
+                }
             }
         }
         Some(())
@@ -144,11 +150,13 @@ impl<const N: usize> Inverse<N> {
     pub fn solve(&self, shape: Shape, b: &mut [f64; N]) {
         let (mut x, mut left) = ([0.0; N], *b);
         add_in_pairs(&self.columns, &shape.inner(), b, &mut x);
-        for j in shape.others() {
-            left[j] += x[j];
-            x[j] = 0.0;
+        for others in shape.others() {
+            for j in others {
+                left[j] += x[j];
+                x[j] = 0.0;
+            }
         }
-        add(&self.columns, shape.others(), &left, &mut x);
+        add(&self.columns, shape, &left, &mut x);
         *b = x;
     }
 }
@@ -175,12 +183,14 @@ fn add_each<const N: usize>(sum: &mut [f64; N], term: impl Fn(usize) -> f64) {
     }
 }
 
-/// Adds those `columns` of a matrix times `x` that are `chosen`.
+/// Adds the other `columns` of a matrix times `x`.
 #[inline(always)]
-fn add<const N: usize>(columns: &Matrix<N>, chosen: impl Iterator<Item = usize>, x: &[f64; N], sum: &mut [f64; N]) {
-    for j in chosen {
-        for i in 0..N {
-            sum[i] += columns[j][i] * x[j];
+fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mut [f64; N]) {
+    for others in shape.others() {
+        for j in others {
+            for i in 0..N {
+                sum[i] += columns[j][i] * x[j];
+            }
         }
     }
 }
@@ -190,7 +200,7 @@ fn add<const N: usize>(columns: &Matrix<N>, chosen: impl Iterator<Item = usize>,
 pub fn times<const N: usize>(shape: Shape, columns: &Matrix<N>, x: &[f64; N]) -> [f64; N] {
     let mut sum = [0.0; N];
     add_in_pairs(columns, &shape.inner(), x, &mut sum);
-    add(columns, shape.others(), x, &mut sum);
+    add(columns, shape, x, &mut sum);
     sum
 }
 

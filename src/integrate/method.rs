@@ -125,6 +125,10 @@ pub trait Method {
 /// Degrees of freedom up to which sums over stages are compiled into the steps: longer ones are not worth the space.
 const UNROLLED: usize = 8;
 
+/// Degrees of freedom up to which all of a point is in registers at once, and how many numbers are at a time beyond.
+const IN_REGISTERS: usize = 5;
+const TOGETHER: usize = 8;
+
 /// y += scale Σ weight_j u_j over the first stages.
 #[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
@@ -141,10 +145,31 @@ fn combine_many<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u
 
 #[inline(always)]
 fn add_stages<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    for (weight, u) in weights.iter().zip(u) {
-        let weight = weight * scale;
-        for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
-            *y += weight * u;
+    if N <= IN_REGISTERS {
+        for (weight, u) in weights.iter().zip(u) {
+            let weight = weight * scale;
+            for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
+                *y += weight * u;
+            }
+        }
+        return;
+    }
+    // a few numbers after the other, so that each sum stays in a register instead of going to memory once a stage
+    for (k, part) in y.row_mut().chunks_exact_mut(TOGETHER).enumerate() {
+        let mut sum = [0.0; TOGETHER];
+        sum.copy_from_slice(part);
+        for (weight, u) in weights.iter().zip(u) {
+            let weight = weight * scale;
+            for (sum, u) in sum.iter_mut().zip(&u.row()[TOGETHER * k..]) {
+                *sum += weight * u;
+            }
+        }
+        part.copy_from_slice(&sum);
+    }
+    let done = 2 * N - 2 * N % TOGETHER;
+    for (k, y) in y.row_mut().iter_mut().enumerate().skip(done) {
+        for (weight, u) in weights.iter().zip(u) {
+            *y += weight * scale * u.row()[k];
         }
     }
 }

@@ -1,5 +1,5 @@
 /* The calls of runs without anything around them: reset, set, initialise, step, get, as a host in C makes them.
-   calls LIBRARY GUID SET STOP STEP RUNS OUTPUT...
+   calls LIBRARY GUID SET STOP STEP RUNS [OUTPUT...]
    SET: a file of lines "Real|Integer|Boolean REFERENCE VALUE"; OUTPUT: value references of Reals; STEP 0: one long step.
    Prints a line for each run: its seconds, and the seconds of the processor that its steps took. */
 
@@ -31,7 +31,7 @@ static double now(clockid_t clock) {
 }
 
 int main(int count, char **given) {
-    if (count < 8) { fprintf(stderr, "calls LIBRARY GUID SET STOP STEP RUNS OUTPUT...\n"); return 2; }
+    if (count < 7) { fprintf(stderr, "calls LIBRARY GUID SET STOP STEP RUNS [OUTPUT...]\n"); return 2; }
     void *library = dlopen(given[1], RTLD_NOW | RTLD_LOCAL);
     if (!library) { fprintf(stderr, "%s\n", dlerror()); return 1; }
     Component (*instantiate)(const char *, int, const char *, const char *, const void *, int, int) = find(library, "fmi2Instantiate");
