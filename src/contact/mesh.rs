@@ -230,6 +230,18 @@ impl Mesh {
         }, solid => solid.linearise(state))
     }
 
+    /// [`Self::force`], compiled once, for whoever is not the steps of plain teeth.
+    #[inline(never)]
+    pub fn force_apart(&self, state: &MeshState) -> MeshForce {
+        self.force(state)
+    }
+
+    /// [`Self::linearise`], compiled once.
+    #[inline(never)]
+    pub fn linearise_apart(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+        self.linearise(state)
+    }
+
     /// Elastic energy V [J] at the position of `state`.
     pub fn energy(&self, state: &MeshState) -> f64 {
         with_law!(&self.law, law, SINGLE => {

@@ -14,7 +14,7 @@
 use super::power::Power;
 use super::sizes::{EXACT, Largest};
 use super::state::State;
-use crate::contact::mesh::{Law, MeshForce, MeshState};
+use crate::contact::mesh::{Law, MeshForce, MeshJacobian, MeshState};
 use crate::integrate::{Matrix, Point, SecondOrder};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
 use crate::model::effect_kinds::friction::Friction;
@@ -43,7 +43,8 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
 }
 
 impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
-    /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins, seats and ends.
+    /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins and seats, and with ends of
+    /// half-shafts in the largest of these sizes alone.
     const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
 
     /// Equations at `state`'s wrapping under `inputs`.
@@ -97,7 +98,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Whether half-shafts have ends.
     #[inline]
     pub(in crate::model) fn ends(&self) -> bool {
-        !Self::EXACT && self.teeth.layout.ends
+        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends }
     }
 
     /// Index of the planets of group `g`.
@@ -182,6 +183,18 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
             rate: [side * speed - travel_rate, travel_rate],
             which: [self.teeth.plan.group(g).planet, s],
         }
+    }
+
+    /// Force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all others.
+    #[inline]
+    fn mesh_force(&self, state: &MeshState) -> MeshForce {
+        if Self::EXACT { self.teeth.mesh.force(state) } else { self.teeth.mesh.force_apart(state) }
+    }
+
+    /// The same linearised.
+    #[inline]
+    pub(super) fn mesh_linearised(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
+        if Self::EXACT { self.teeth.mesh.linearise(state) } else { self.teeth.mesh.linearise_apart(state) }
     }
 
     /// A group before `g` whose plain meshes are in the same state to the last bit: what its teeth do, those of `g` do too.
@@ -359,7 +372,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 continue;
             }
             for s in 0..2 {
-                load[g][s] = self.teeth.mesh.force(&self.mesh_state(at, g, s));
+                load[g][s] = self.mesh_force(&self.mesh_state(at, g, s));
             }
         }
         self.add_forces(|g, s| load[g][s].force, &mut sum);

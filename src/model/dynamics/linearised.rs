@@ -29,7 +29,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             for s in 0..2 {
                 let mut state = self.mesh_state(at, g, s);
                 state.rate = [0.0; 2];
-                by[g][s] = self.block(s, &self.teeth.mesh.linearise(&state).1.by_position);
+                by[g][s] = self.block(s, &self.teeth.mesh.linearise_apart(&state).1.by_position);
             }
         }
         self.add_blocks(&by, &mut m);

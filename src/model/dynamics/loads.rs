@@ -39,7 +39,7 @@ pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
     pub fn tooth_loads(&self, pair: &Pair, at: &Point<N>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
-        self.visit_loads(at, g, s, |contact| parts(pair, &self.teeth.mesh, contact), |load, _| visit(load));
+        self.visit_loads(at, g, s, &|contact| parts(pair, &self.teeth.mesh, contact), &mut |load, _| visit(load));
     }
 
     /// The same without directions, with the load per width [N/m] of the pair at any cone distance [m] where it differs over
@@ -53,27 +53,22 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     ) {
         let detailed = &self.teeth.additions.detailed;
         let is_sliced = self.is_sliced();
-        self.visit_loads(
-            at,
-            g,
-            s,
-            |_| [0.0; 3],
-            |load, slice| match slice {
-                Some(slice) if is_sliced => visit(load, Some(&|cone| detailed.line_load(slice, cone))),
-                _ => visit(load, None),
-            },
-        );
+        self.visit_loads(at, g, s, &|_| [0.0; 3], &mut |load, slice| match slice {
+            Some(slice) if is_sliced => visit(load, Some(&|cone| detailed.line_load(slice, cone))),
+            _ => visit(load, None),
+        });
     }
 
     /// The same with the parts of the normal on the path of contact as `parts` gives them, which not all who visit read, and
-    /// with the slice of a mesh in detail.
+    /// with the slice of a mesh in detail. Compiled once, for whoever visits.
+    #[inline(never)]
     pub(super) fn visit_loads(
         &self,
         at: &Point<N>,
         g: usize,
         s: usize,
-        parts: impl Fn(&ToothPair) -> [f64; 3],
-        mut visit: impl FnMut(&ToothLoad, Option<&SliceLoad>),
+        parts: &dyn Fn(&ToothPair) -> [f64; 3],
+        visit: &mut dyn FnMut(&ToothLoad, Option<&SliceLoad>),
     ) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;

@@ -154,7 +154,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let force = match self.bodies_of_gears() {
             Some(bodies) => self.forces_on_bodies(bodies, still, g),
-            None => [0, 1].map(|s| self.teeth.mesh.force(&self.mesh_state(still, g, s))),
+            None => [0, 1].map(|s| self.teeth.mesh.force_apart(&self.mesh_state(still, g, s))),
         };
         force.map(|force| side * force.force[0])
     }

@@ -24,21 +24,15 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             }
             visit(load);
         };
-        self.visit_loads(
-            at,
-            g,
-            s,
-            |_| [0.0; 3],
-            |slice, _| match &mut open {
-                Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
-                _ => {
-                    let next = PairLoad::new(slice, self.teeth.mesh.cone, self.face_load_factor(pair, at, g, slice));
-                    if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
-                        close(&mut load);
-                    }
+        self.visit_loads(at, g, s, &|_| [0.0; 3], &mut |slice, _| match &mut open {
+            Some((teeth, load)) if *teeth == slice.teeth && load.flank == slice.flank => load.add(slice),
+            _ => {
+                let next = PairLoad::new(slice, self.teeth.mesh.cone, self.face_load_factor(pair, at, g, slice));
+                if let Some((_, mut load)) = open.replace((slice.teeth, next)) {
+                    close(&mut load);
                 }
-            },
-        );
+            }
+        });
         if let Some((_, mut load)) = open {
             close(&mut load);
         }

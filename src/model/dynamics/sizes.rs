@@ -5,8 +5,10 @@ use crate::model::scene::layout::MAX_GROUPS;
 
 /// Degrees of freedom of the least scene with teeth: planets that are alike, and no additions.
 pub const LEAST: usize = 4;
-/// Most degrees of freedom with effects that have equations of just this size: two planets, alike or not, and no additions.
-pub const EXACT: usize = 5;
+/// The same of two planets that differ.
+pub const DIFFERENT: usize = 5;
+/// Most degrees of freedom with effects that have equations of just this size: planets that are alike, and half-shafts that twist.
+pub const EXACT: usize = 6;
 /// Degrees of freedom that every scene fits in, a whole number of vectors of any width.
 pub const LARGEST: usize = 16;
 /// Equations with teeth of any scene: for all that is not done in every step.

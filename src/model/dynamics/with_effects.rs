@@ -54,7 +54,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                             continue;
                         }
                         for s in 0..2 {
-                            let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+                            let (force, by) = self.mesh_linearised(&self.mesh_state(at, g, s));
                             load[g][s] = force;
                             position[g][s] = self.block(s, &by.by_position);
                             rate[g][s] = self.block(s, &by.by_rate);

@@ -38,7 +38,7 @@ impl Largest<'_> {
     fn plain(&self, s: usize, at: &Point<LARGEST>) -> [f64; 2] {
         let mut mesh = [[0.0; 2]; MAX_GROUPS];
         for g in 0..self.groups() {
-            let (force, by) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
+            let (force, by) = self.teeth.mesh.linearise_apart(&self.mesh_state(at, g, s));
             mesh[g] = [force.force[0], by.by_position[0][0]];
         }
         let arm = self.teeth.sin_base[1];

@@ -15,7 +15,7 @@ use crate::model::dynamics::clock::Clock;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid_equations::RigidEquations;
-use crate::model::dynamics::sizes::{EXACT, LARGEST, LEAST};
+use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LARGEST, LEAST};
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
 use crate::model::scene::layout::MAX_GROUPS;
@@ -101,14 +101,17 @@ pub fn integrate_teeth(
     if method == Method::Adaptive && !teeth.additions.bodies.act_in(state) {
         return match teeth.layout.groups {
             1 => whole::<LEAST, 1, false>(teeth, model, state, stretch, budget),
-            2 => whole::<EXACT, 2, false>(teeth, model, state, stretch, budget),
+            2 => whole::<DIFFERENT, 2, false>(teeth, model, state, stretch, budget),
             _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, stretch, budget),
         };
     }
-    let compares = !matches!(method, Method::Adaptive | Method::FixedStep);
+    let is_default = method == Method::Adaptive;
     match teeth.layout.count() {
-        0..=LEAST if !compares => whole::<LEAST, 1, true>(teeth, model, state, stretch, budget),
-        EXACT if !compares => whole::<EXACT, 2, true>(teeth, model, state, stretch, budget),
+        0..=LEAST if is_default || method == Method::FixedStep => {
+            whole::<LEAST, 1, true>(teeth, model, state, stretch, budget)
+        }
+        DIFFERENT if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
+        EXACT if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
         0..=MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
         _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
     }
@@ -181,7 +184,7 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
-            Method::FixedStep if ANY_METHOD => {
+            Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT) => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
                 let observe = |step: Step<N, Power>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
