@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand};
 use fmu_build::command_line::LABORATORY;
 use fmu_build::tools::program::{Program, Stop};
 
+use crate::all::AllCommand;
 use crate::check::CheckCommand;
 use crate::measure::MeasureCommand;
 
@@ -25,6 +26,7 @@ pub enum AnyCommand {
     Measure(MeasureCommand),
     #[command(flatten)]
     Check(CheckCommand),
+    All(AllCommand),
     /// Shows this overview, or the options of a command
     #[command(hide = true)]
     Help {
@@ -39,6 +41,7 @@ impl AnyCommand {
         match self {
             Self::Measure(command) => command.run(),
             Self::Check(command) => command.run(),
+            Self::All(command) => command.run(),
             // answered while the command line is read
             Self::Help { .. } => Ok(()),
         }
@@ -63,8 +66,19 @@ fn program() -> Program {
             ("Measuring:", MeasureCommand::augment_subcommands(blank())),
             ("Checking:", CheckCommand::augment_subcommands(blank())),
         ],
-        end: format!("Options of a command: {LABORATORY} COMMAND --help"),
+        end: format!(
+            "All of them in one go, in short forms, and one table: {LABORATORY} all\n\
+             Options of a command: {LABORATORY} COMMAND --help"
+        ),
     }
+}
+
+/// Names of all commands that measure or check.
+#[cfg(test)]
+pub(crate) fn names() -> Vec<String> {
+    let groups = program().groups;
+    let commands = groups.iter().flat_map(|(_, group)| group.get_subcommands());
+    commands.map(|command| command.get_name().to_owned()).collect()
 }
 
 #[cfg(test)]

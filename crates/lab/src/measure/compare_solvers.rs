@@ -5,15 +5,17 @@ use std::ffi::OsString;
 use anyhow::Result;
 use clap::Args;
 
+use crate::tools::scripted::Document;
 use crate::tools::{environments, places};
 use fmu_build::fmu::package;
+use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::for_terminal;
-use fmu_build::tools::{paths, script, sections};
 
-/// The document with the table, and the table's place.
-const DOCUMENT: &str = "docs/foreign-solvers.md";
-const MARKS: [&str; 2] = ["<!-- foreign:begin -->", "<!-- foreign:end -->"];
+const DOCUMENT: Document = Document {
+    file: "docs/foreign-solvers.md",
+    marks: ["<!-- foreign:begin -->", "<!-- foreign:end -->"],
+    pictures: &[],
+};
 
 /// Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)
 #[derive(Args, Clone, Debug)]
@@ -43,14 +45,6 @@ fn run(quick: bool, write: bool) -> Result<()> {
     if quick {
         arguments.push("--quick".into());
     }
-    progress.begin_bar("comparing");
-    let table = script::run(&environment, &places::solvers_benchmark().join("compare.py"), &arguments, &progress)?;
-    progress.finish();
-    print!("{}", for_terminal(&table));
-    println!("\nresults: {}", paths::shown(&folder.join("foreign.csv")));
-    if write {
-        sections::renew(DOCUMENT, MARKS, &table)?;
-        println!("renewed: {DOCUMENT}");
-    }
-    Ok(())
+    let script = places::solvers_benchmark().join("compare.py");
+    DOCUMENT.make(progress, "comparing", (&environment, &script, &arguments), &folder, write)
 }

@@ -8,15 +8,14 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 
 use crate::tools::places;
+use crate::tools::scripted::Document;
 use fmu_build::fmu::package;
+use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
-use fmu_build::tools::table::for_terminal;
-use fmu_build::tools::{paths, script, sections};
 
-const DOCUMENT: &str = "docs/prices.md";
-/// The marks around the tables.
-const MARKS: [&str; 2] = ["<!-- prices:begin -->", "<!-- prices:end -->"];
+const DOCUMENT: Document =
+    Document { file: "docs/prices.md", marks: ["<!-- prices:begin -->", "<!-- prices:end -->"], pictures: &[] };
 /// Prices of each alone, by which the command `accuracy` counts and the page shows.
 const DATA: &str = "prices.csv";
 /// Runs of each, and for a quick look.
@@ -54,15 +53,12 @@ impl PricesCommand {
         arguments.push(if self.quick { FEW } else { RUNS }.to_string().into());
         arguments.push(if self.quick { "alone" } else { "pairs" }.into());
         arguments.extend(self.against.iter().map(OsString::from));
-        progress.begin_bar("timing");
-        let tables = script::run(&environment, &places::script("prices.py"), &arguments, &progress)?;
-        progress.finish();
-        print!("{}", for_terminal(&tables));
+        let script = places::script("prices.py");
+        DOCUMENT.make(progress, "timing", (&environment, &script, &arguments), &folder, self.write)?;
         if self.write {
-            sections::renew(DOCUMENT, MARKS, &tables)?;
             let data = paths::workspace().join("fmu-build").join("data").join(DATA);
             fs::copy(folder.join(DATA), &data).with_context(|| format!("{} cannot be written", paths::shown(&data)))?;
-            println!("renewed: {DOCUMENT}, {}", paths::shown(&data));
+            println!("renewed: {}", paths::shown(&data));
         }
         Ok(())
     }

@@ -4,3 +4,4 @@ pub mod environments;
 pub mod machine;
 pub mod places;
 pub mod random;
+pub mod scripted;

@@ -1,0 +1,130 @@
+//! All commands of the laboratory in one go, each in a process of its own, and one table of how they went.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+
+use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::table::{Table, for_terminal};
+
+/// The commands with their options for a run of all, checks that need no idle machine last.
+const COMMANDS: [&[&str]; 18] = [
+    &["prices", "--quick"],
+    &["cost", "--quick"],
+    &["real-time"],
+    &["zero-cost", "--quick"],
+    &["stiffness"],
+    &["solids", "--quick"],
+    &["survey", "--scenes", "20"],
+    &["compare-solvers", "--quick"],
+    &["compare-simulators", "--quick"],
+    &["drivetrain", "--quick"],
+    &["fuzz", "--calls", "100000"],
+    &["memcheck"],
+    &["hosts"],
+    &["platforms"],
+    &["test-wheel"],
+    &["test-page"],
+    &["test-python"],
+    &["mutants", "--shard", "0/600"],
+];
+
+/// Runs every command here in its short form and prints one table of how they went (about an hour)
+#[derive(Args, Clone, Debug)]
+pub struct AllCommand {
+    /// Only these commands
+    #[arg(value_name = "NAME")]
+    only: Vec<String>,
+}
+
+/// How a command went.
+struct Outcome {
+    /// It with its options.
+    call: String,
+    seconds: f64,
+    failed: bool,
+    /// The last line it wrote.
+    said: String,
+}
+
+impl AllCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        if let Some(unknown) = self.only.iter().find(|name| COMMANDS.iter().all(|words| words[0] != name.as_str())) {
+            let names = COMMANDS.map(|words| words[0]).join(", ");
+            anyhow::bail!("{unknown} is no command that is run here; there are {names}");
+        }
+        let folder = paths::target().join("all");
+        fs::create_dir_all(&folder)?;
+        let progress = Progress::start("running all commands");
+        let chosen =
+            COMMANDS.iter().filter(|words| self.only.is_empty() || self.only.iter().any(|name| name == words[0]));
+        let mut outcomes = Vec::new();
+        for words in chosen {
+            progress.stage(&format!("running {}", words.join(" ")));
+            outcomes.push(outcome(words, &folder)?);
+        }
+        progress.finish();
+        let mut table = Table::new(["command", "seconds", "outcome", "last line"]).left([0, 2, 3]);
+        for one in &outcomes {
+            let word = if one.failed { "FAILED" } else { "held" };
+            table.push([one.call.clone(), format!("{:.0}", one.seconds), word.to_owned(), one.said.clone()]);
+        }
+        print!("{}", for_terminal(&table.markdown()));
+        println!("\nwhat each printed: {}", paths::shown(&folder));
+        let failed: Vec<&str> = outcomes.iter().filter(|one| one.failed).map(|one| one.call.as_str()).collect();
+        ensure!(failed.is_empty(), "these failed: {}", failed.join(", "));
+        Ok(())
+    }
+}
+
+/// Runs a command; what it prints goes to a file.
+fn outcome(words: &[&str], folder: &Path) -> Result<Outcome> {
+    let file: PathBuf = folder.join(format!("{}.txt", words[0]));
+    let printed = File::create(&file).with_context(|| format!("{} cannot be written", paths::shown(&file)))?;
+    let begin = Instant::now();
+    let status = Command::new(std::env::current_exe()?)
+        .args(words)
+        .stdin(Stdio::null())
+        .stdout(printed.try_clone()?)
+        .stderr(printed)
+        .status()
+        .with_context(|| format!("{} cannot be run", words[0]))?;
+    let seconds = begin.elapsed().as_secs_f64();
+    let text = String::from_utf8_lossy(&fs::read(&file)?).into_owned();
+    let said = text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim();
+    let said = said.chars().take(LONGEST).collect();
+    Ok(Outcome { call: words.join(" "), seconds, failed: !status.success(), said })
+}
+
+/// Letters of a last line that the table shows.
+const LONGEST: usize = 90;
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::ffi::OsString;
+
+    use super::*;
+
+    #[test]
+    fn every_command_of_the_laboratory_is_run_and_takes_its_options() {
+        for words in COMMANDS {
+            let arguments = ["lab"].iter().chain(words).map(OsString::from);
+            let parsed = crate::command_line::parse(arguments);
+            assert!(parsed.is_ok(), "{words:?}");
+        }
+        let run: BTreeSet<&str> = COMMANDS.iter().map(|words| words[0]).collect();
+        assert_eq!(run.len(), COMMANDS.len());
+        let missing: Vec<String> = crate::command_line::names()
+            .into_iter()
+            .filter(|name| name != "all" && !run.contains(name.as_str()))
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
+}
