@@ -123,7 +123,7 @@ pub trait Method {
 }
 
 /// Degrees of freedom up to which sums over stages are compiled into the steps: longer ones are not worth the space.
-const UNROLLED: usize = 8;
+const UNROLLED: usize = 7;
 
 /// Degrees of freedom up to which all of a point is in registers at once, and how many numbers are at a time beyond.
 const IN_REGISTERS: usize = 5;

@@ -24,7 +24,7 @@ from bevel_differential import DifferentialError, Fmu
 from effects_list import effects
 
 # where the list of effects is
-FMU = Path(__file__).resolve().parents[2] / "target" / "fmu" / "BevelDifferential.fmu"
+FMU = Path(__file__).resolve().parents[3] / "target" / "fmu" / "BevelDifferential.fmu"
 # keeps a library from wider vector instructions; a platform whose name ends so is kept from them
 VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
 # what is timed, each as one step of this length [s], and how often
