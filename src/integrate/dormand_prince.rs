@@ -48,8 +48,15 @@ const QUARTIC: [f64; 7] = [
 const DURATION: f64 = 0.2;
 
 impl Method for DormandPrince {
-    const ESTIMATE: u32 = 4;
-    const IMPLICIT: bool = false;
+    #[inline]
+    fn estimate(&self) -> u32 {
+        4
+    }
+
+    #[inline]
+    fn is_implicit(&self) -> bool {
+        false
+    }
 
     #[inline]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(

@@ -163,7 +163,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 statistics.evaluations += 1;
                 system.evaluate_at(&pending.extension.at(0.5 * pending.part), course.time + 0.5 * h).1
             };
-            begin = (!done).then(|| linearise::<N, M, S>(system, (&end, reached), &mut lin, Some(statistics)));
+            begin = (!done).then(|| linearise(method, system, (&end, reached), &mut lin, Some(statistics)));
             let (last, energy) = match begin {
                 Some(energy) => (lin.power, energy),
                 None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
@@ -174,12 +174,12 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
                 (unbalanced, after_rejection) = (pending.attempt.unbalanced + 1, true);
                 statistics.rejected_ledger += 1;
-                control.next = h / (M::root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
+                control.next = h / (method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK);
                 (course.pending, begin) = (None, None);
                 continue;
             }
             (unbalanced, after_rejection) = (0, false);
-            control.accept::<M>(size, cut, error, pending.attempt.after_rejection);
+            control.accept(method, size, cut, error, pending.attempt.after_rejection);
             control.on_kink = to_kink && pending.part == 1.0;
             statistics.accepted += 1;
             let start = std::mem::replace(&mut course.point, end);
@@ -196,7 +196,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
         let point = &course.point;
         let energy = *begin.get_or_insert_with(|| {
             let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
-            linearise::<N, M, S>(system, (point, course.time), &mut lin, counts)
+            linearise(method, system, (point, course.time), &mut lin, counts)
         });
         let wanted = if control.on_kink { control.next.min(control.after_kink) } else { control.next };
         let remaining = course.remaining();
@@ -233,7 +233,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             statistics.rejected_error += 1;
             in_a_row += 1;
             let least = (0..in_a_row).fold(1.0, |least, _| LEAST_SHRINK * least).min(LARGEST_SHRINK);
-            (M::root(error) / SAFETY).clamp(least, LARGEST_SHRINK)
+            (method.root(error) / SAFETY).clamp(least, LARGEST_SHRINK)
         } else {
             statistics.rejected_invalid += 1;
             LARGEST_SHRINK
@@ -270,6 +270,7 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 /// Writes the equations linearised, as far as the method asks for it, to `lin`; returns the energies.
 #[inline(never)]
 fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
+    method: &M,
     system: &S,
     (point, time): (&Point<N>, f64),
     lin: &mut Linearisation<N, S::Power>,
@@ -277,9 +278,9 @@ fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
 ) -> [f64; 2] {
     if let Some(statistics) = &mut statistics {
         statistics.evaluations += 1;
-        statistics.jacobians += u64::from(M::IMPLICIT);
+        statistics.jacobians += u64::from(method.is_implicit());
     }
-    if M::IMPLICIT {
+    if method.is_implicit() {
         return system.linearise_with_energy(point, time, lin);
     }
     (lin.acceleration, lin.power) = system.evaluate_at(point, time);
@@ -289,10 +290,10 @@ fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
 impl Control {
     /// Predicts the step after an accepted one of size `h` with `error` as a fraction of the tolerance.
     #[inline(never)]
-    fn accept<M: Method>(&mut self, h: f64, cut: bool, error: f64, just_rejected: bool) {
-        let mut factor = M::root(error) / SAFETY;
+    fn accept(&mut self, method: &impl Method, h: f64, cut: bool, error: f64, just_rejected: bool) {
+        let mut factor = method.root(error) / SAFETY;
         if self.last > 0.0 && !self.on_kink && !just_rejected {
-            let predictive = (self.last / h) * M::root(error * error / self.last_error) / SAFETY;
+            let predictive = (self.last / h) * method.root(error * error / self.last_error) / SAFETY;
             factor = factor.max(predictive);
         }
         let mut next = h / factor.clamp(1.0 / LARGEST_GROWTH, LARGEST_SHRINK);

@@ -4,6 +4,7 @@
 //! steps. Nothing here is specific to gears.
 
 mod block;
+mod compared;
 mod complex;
 mod course;
 mod curve;
@@ -19,6 +20,7 @@ mod rosenbrock;
 mod statistics;
 mod system;
 
+pub use compared::Compared;
 pub use course::{Attempt, Course, Extension, Pending, bent};
 pub use curve::Curve;
 pub use dormand_prince::DormandPrince;

@@ -56,7 +56,10 @@ const LEFT_OVER: f64 = 0.01;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Method for Radau {
-    const ESTIMATE: u32 = 3;
+    #[inline]
+    fn estimate(&self) -> u32 {
+        3
+    }
 
     #[inline]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(

@@ -13,7 +13,10 @@ use super::system::{Linearisation, Point, SecondOrder};
 pub struct Rodas4;
 
 impl Method for Rodas4 {
-    const ESTIMATE: u32 = 3;
+    #[inline(always)]
+    fn estimate(&self) -> u32 {
+        3
+    }
 
     #[inline]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(

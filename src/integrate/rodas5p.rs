@@ -13,7 +13,10 @@ use super::system::{Linearisation, Point, SecondOrder};
 pub struct Rodas5P;
 
 impl Method for Rodas5P {
-    const ESTIMATE: u32 = 4;
+    #[inline(always)]
+    fn estimate(&self) -> u32 {
+        4
+    }
 
     #[inline(always)]
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(

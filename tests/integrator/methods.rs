@@ -93,7 +93,7 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
     (at, time): (&Point<N>, f64),
     h: f64,
 ) -> Trial<N, S::Power> {
-    let lin = if M::IMPLICIT {
+    let lin = if M::METHOD.is_implicit() {
         s.linearise_at(at, time)
     } else {
         let (acceleration, power) = s.evaluate_at(at, time);

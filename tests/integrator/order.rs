@@ -32,7 +32,7 @@ const STEP: f64 = 0.0125;
 
 fn error_estimate_is_of_its_order<M: Known>() {
     let estimate = |h| distance(&step::<M, 2, _>(&Logarithmic, &Logarithmic::exact(0.0), h).error, &Point::ZERO);
-    assert_order("estimate", M::ESTIMATE + 1, estimate(STEP), estimate(STEP / 2.0));
+    assert_order("estimate", M::METHOD.estimate() + 1, estimate(STEP), estimate(STEP / 2.0));
 }
 
 fn continuous_extension_is_of_its_order<M: Known>() {

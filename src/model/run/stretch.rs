@@ -6,7 +6,7 @@ use super::hints;
 use super::ledger::{Recorded, Records};
 use crate::contact::mesh::Law;
 use crate::integrate::{
-    self, AfterStep, Course, DormandPrince, Failure, Pending, Radau, Rodas4, Rodas5P, SecondOrder, SolverContext, Step,
+    self, AfterStep, Compared, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
 };
 use crate::model::assembly::model::{Gears, Model};
 use crate::model::assembly::rigid::MOST;
@@ -189,14 +189,13 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
                 let observe = |step: Step<N, Power>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            Method::Radau if ANY_METHOD && N > EXACT => {
-                compared(&Radau, system, &mut course, clock.now, context, &mut observe)
-            }
-            Method::Rodas4 if ANY_METHOD && N > EXACT => {
-                compared(&Rodas4, system, &mut course, clock.now, context, &mut observe)
-            }
-            Method::DormandPrince if ANY_METHOD && N > EXACT => {
-                compared(&DormandPrince, system, &mut course, clock.now, context, &mut observe)
+            Method::Radau | Method::Rodas4 | Method::DormandPrince if ANY_METHOD && N > EXACT => {
+                let method = match solver.method {
+                    Method::Radau => Compared::Radau,
+                    Method::Rodas4 => Compared::Rodas4,
+                    _ => Compared::DormandPrince,
+                };
+                compared(&method, system, &mut course, clock.now, context, &mut observe)
             }
             _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
                 observe(step, Some(pending))
@@ -227,8 +226,8 @@ type Observer<'a, const N: usize> =
 
 /// Integrates by another method of variable steps than the default.
 #[inline(never)]
-fn compared<const N: usize, M: integrate::Method>(
-    method: &M,
+fn compared<const N: usize>(
+    method: &Compared,
     system: &(impl SecondOrder<N, Power = Power> + ?Sized),
     course: &mut Course<N, Power>,
     until: f64,

@@ -1,0 +1,49 @@
+//! Methods that are there to compare with, chosen at run time: the loop of steps is compiled once for all of them.
+
+use super::dormand_prince::DormandPrince;
+use super::method::{ErrorNorm, Method, Trial};
+use super::radau::Radau;
+use super::rodas4::Rodas4;
+use super::statistics::Statistics;
+use super::system::{Linearisation, Point, SecondOrder};
+
+/// A method of variable steps other than the default.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Compared {
+    /// [`Radau`].
+    Radau,
+    /// [`Rodas4`].
+    Rodas4,
+    /// [`DormandPrince`].
+    DormandPrince,
+}
+
+impl Method for Compared {
+    fn estimate(&self) -> u32 {
+        match self {
+            Self::Radau => Radau.estimate(),
+            Self::Rodas4 => Rodas4.estimate(),
+            Self::DormandPrince => DormandPrince.estimate(),
+        }
+    }
+
+    fn is_implicit(&self) -> bool {
+        *self != Self::DormandPrince
+    }
+
+    fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
+        &self,
+        system: &S,
+        start: (&Point<N>, f64),
+        lin: &Linearisation<N, S::Power>,
+        h: f64,
+        norm: &ErrorNorm<N>,
+        counts: &mut Statistics,
+    ) -> Option<Trial<N, S::Power>> {
+        match self {
+            Self::Radau => Radau.step(system, start, lin, h, norm, counts),
+            Self::Rodas4 => Rodas4.step(system, start, lin, h, norm, counts),
+            Self::DormandPrince => DormandPrince.step(system, start, lin, h, norm, counts),
+        }
+    }
+}
