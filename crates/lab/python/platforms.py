@@ -66,6 +66,7 @@ class Platform:
     def end(self, instance):
         """Frees an instance; under wine with its server, as fmpy's client waits forever for one it did not start."""
         if self.windows:
+            instance.forget()
             self.close()
         else:
             instance.close()

@@ -188,6 +188,10 @@ class Instance:
             # what is called after this gets no instance, and is refused
             self._component = self.raw.component = None
 
+    def forget(self) -> None:
+        """Lets go of the instance without a call, where what held it is gone, such as the server of another system's library."""
+        self._component = self.raw.component = None
+
     def __del__(self) -> None:
         # of a thread that has ended, or where nobody has closed it
         if getattr(self, "_component", None):
