@@ -125,39 +125,29 @@ pub trait Method {
     }
 }
 
-/// Degrees of freedom up to which sums over stages are compiled into the steps: longer ones are not worth the space.
-const UNROLLED: usize = 7;
-
-/// Degrees of freedom up to which all of a point is in registers at once, and how many numbers are at a time beyond.
-const IN_REGISTERS: usize = 5;
+/// Degrees of freedom up to which all of a point is in registers at once, and sums over stages are compiled into the steps.
+const IN_REGISTERS: usize = 7;
+/// Numbers that are summed at a time beyond.
 const TOGETHER: usize = 8;
 
 /// y += scale Σ weight_j u_j over the first stages.
 #[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    if N > UNROLLED {
-        return combine_many(y, weights, scale, u);
+    if N > IN_REGISTERS {
+        return combine_in_parts(y, weights, scale, u);
     }
-    add_stages(y, weights, scale, u);
-}
-
-#[inline(never)]
-fn combine_many<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    add_stages(y, weights, scale, u);
-}
-
-#[inline(always)]
-fn add_stages<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
-    if N <= IN_REGISTERS {
-        for (weight, u) in weights.iter().zip(u) {
-            let weight = weight * scale;
-            for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
-                *y += weight * u;
-            }
+    for (weight, u) in weights.iter().zip(u) {
+        let weight = weight * scale;
+        for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
+            *y += weight * u;
         }
-        return;
     }
-    // a few numbers after the other, so that each sum stays in a register instead of going to memory once a stage
+}
+
+/// The same a few numbers after the other, so that each sum stays in a register instead of going to memory once a stage.
+#[inline(never)]
+fn combine_in_parts<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {
+    const { assert!(N <= IN_REGISTERS || (2 * N).is_multiple_of(TOGETHER), "all of a point is in one of the parts") };
     for (k, part) in y.row_mut().chunks_exact_mut(TOGETHER).enumerate() {
         let mut sum = [0.0; TOGETHER];
         sum.copy_from_slice(part);
@@ -168,12 +158,6 @@ fn add_stages<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: 
             }
         }
         part.copy_from_slice(&sum);
-    }
-    let done = 2 * N - 2 * N % TOGETHER;
-    for (k, y) in y.row_mut().iter_mut().enumerate().skip(done) {
-        for (weight, u) in weights.iter().zip(u) {
-            *y += weight * scale * u.row()[k];
-        }
     }
 }
 

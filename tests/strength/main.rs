@@ -1,6 +1,7 @@
 //! Strength: pressure, root stress, load over the face, damage along steps.
 
 mod along_steps;
+mod carried_loads;
 #[path = "../common/mod.rs"]
 mod common;
 mod face;

@@ -5,6 +5,10 @@ from pathlib import Path
 
 from bevel_differential.batches import CALLS
 
+# what a host reads at each communication point, where reading counts
+TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
+       "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
+
 
 class Calls:
     """The C program; `folder` is where it is built and finds its start values."""

@@ -1,20 +1,19 @@
 """What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
 
-usage: prices.py FMU EFFECTS FOLDER RUNS PAIRS [OTHER_FMU]
+usage: prices.py FMU EFFECTS FOLDER MACHINE RUNS PAIRS [OTHER_FMU]
 
 Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
 also writes FOLDER/prices.csv."""
 
 import csv
 import json
-import platform
 import statistics
 import sys
 from pathlib import Path
 
 from bevel_differential import Differential, Fmu
 
-from calls import Calls
+from calls import TEN, Calls
 
 STEP = 1e-3
 COUNTED = 0.5
@@ -27,8 +26,6 @@ LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_conta
 ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag", "strength",
        "tooth_errors"]
 OF_ALL = {"tooth_errors.accuracy_grade": 6, "tooth_errors.planet_tip_relief": 0.0}
-TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
-       "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 
 
 def effects(file):
@@ -93,12 +90,6 @@ def table(rows):
 
 def say(fraction, what):
     print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
-
-
-def machine():
-    """Processor and system."""
-    names = [line.split(":", 1)[1].strip() for line in Path("/proc/cpuinfo").read_text().splitlines() if line.startswith("model name")]
-    return f"{names[0] if names else platform.processor()}, {len(names)} cores, {platform.system()} {platform.machine()}"
 
 
 class Prices:
@@ -178,10 +169,10 @@ def builds(bench, fmu, other, switches):
 
 
 def main():
-    file, described, folder, runs, with_pairs, *other = sys.argv[1:]
+    file, described, folder, machine, runs, with_pairs, *other = sys.argv[1:]
     bench, fmu, switches = Bench(folder, int(runs)), Fmu.of(file), effects(described)
     text = builds(bench, fmu, Fmu.of(other[0]), switches) if other else prices(bench, fmu, switches, with_pairs == "pairs", folder)
-    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
+    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine}.")
 
 
 if __name__ == "__main__":

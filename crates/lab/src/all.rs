@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use fmu_build::tools::paths;
@@ -57,7 +57,7 @@ impl AllCommand {
     pub fn run(&self) -> Result<()> {
         if let Some(unknown) = self.only.iter().find(|name| COMMANDS.iter().all(|words| words[0] != name.as_str())) {
             let names = COMMANDS.map(|words| words[0]).join(", ");
-            anyhow::bail!("{unknown} is no command that is run here; there are {names}");
+            bail!("{unknown} is no command that is run here; there are {names}");
         }
         let folder = paths::target().join("all");
         fs::create_dir_all(&folder)?;

@@ -143,7 +143,8 @@ fn by_table<const N: usize, const G: usize>(
     integrate_stretch::<N, true, _>(equations, model, state, stretch, budget)
 }
 
-/// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes.
+/// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes, and steps of
+/// fixed size in the least of them alone: [`integrate_teeth`] knows.
 fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
@@ -189,17 +190,14 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
                 let observe = |step: Step<N, Power>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
-            Method::Radau | Method::Rodas4 | Method::DormandPrince if ANY_METHOD && N > EXACT => {
-                let method = match solver.method {
-                    Method::Radau => Compared::Radau,
-                    Method::Rodas4 => Compared::Rodas4,
-                    _ => Compared::DormandPrince,
-                };
-                compared(&method, system, &mut course, clock.now, context, &mut observe)
-            }
-            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
-                observe(step, Some(pending))
-            }),
+            other => match other_than_default(other) {
+                Some(other) if ANY_METHOD && N > EXACT => {
+                    compared(&other, system, &mut course, clock.now, context, &mut observe)
+                }
+                _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, pending| {
+                    observe(step, Some(pending))
+                }),
+            },
         };
         equations.anchor(&anchors);
         if switched {
@@ -218,6 +216,16 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
         _ => state.ahead = None,
     }
     outcome.map_err(|failure| explain(failure, begin + clock.time, model))
+}
+
+/// The method that `method` names, if it is one to compare the default with.
+fn other_than_default(method: Method) -> Option<Compared> {
+    match method {
+        Method::Radau => Some(Compared::Radau),
+        Method::Rodas4 => Some(Compared::Rodas4),
+        Method::DormandPrince => Some(Compared::DormandPrince),
+        Method::Adaptive | Method::FixedStep => None,
+    }
 }
 
 /// What looks at completed steps, each with what it was while pending.

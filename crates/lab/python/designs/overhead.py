@@ -20,12 +20,10 @@ from bevel_differential.text import aligned
 from page import write
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from calls import Calls  # noqa: E402
+from calls import TEN, Calls  # noqa: E402
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
-TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
-       "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 STOP = 0.5
 # most that Python may take over the calls
 LIMIT_FINAL, LIMIT_RECORD, LIMIT_DRAWN, LIMIT_MONTE_CARLO = 1.3, 3.0, 1.3, 10.0

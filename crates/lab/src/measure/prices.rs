@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
+use crate::tools::machine::machine;
 use crate::tools::places;
 use crate::tools::scripted::Document;
 use fmu_build::fmu::package;
@@ -22,7 +23,7 @@ const DATA: &str = "prices.csv";
 const RUNS: u32 = 9;
 const FEW: u32 = 3;
 
-/// Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some twenty minutes)
+/// Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some minutes)
 #[derive(Args, Clone, Debug)]
 pub struct PricesCommand {
     /// The FMU of another build: prints the ratios of this build's times to its own
@@ -49,7 +50,7 @@ impl PricesCommand {
         let folder = paths::target().join("prices");
         fs::create_dir_all(&folder)?;
         let described = fmu.with_file_name("effects.json");
-        let mut arguments: Vec<OsString> = vec![fmu.into(), described.into(), folder.clone().into()];
+        let mut arguments: Vec<OsString> = vec![fmu.into(), described.into(), folder.clone().into(), machine().into()];
         arguments.push(if self.quick { FEW } else { RUNS }.to_string().into());
         arguments.push(if self.quick { "alone" } else { "pairs" }.into());
         arguments.extend(self.against.iter().map(OsString::from));

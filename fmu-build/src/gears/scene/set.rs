@@ -1,7 +1,7 @@
 //! A value for a variable: taken from a file, checked, and put where the table's access leads.
 
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variability, Variable, check_value, table};
+use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table};
 use toml::Value;
 
 use super::units;
@@ -43,15 +43,14 @@ impl Setting {
 
     /// Puts the value in its place.
     pub fn apply(&self, parameters: &mut Parameters, inputs: &mut Inputs) {
-        match (self.row.access, self.value) {
-            (Access::Real(access), SettingValue::Real(value)) => *access(parameters) = value,
-            (Access::Input(access), SettingValue::Real(value)) => *access(inputs) = value,
-            (Access::Integer(access), SettingValue::Integer(value)) => *access(parameters) = value,
-            (Access::Boolean(access), SettingValue::Boolean(value)) => *access(parameters) = value,
-            (Access::Enumeration(_, _, set), SettingValue::Literal(value)) => set(parameters, value),
-            // `known` gives every access its own type, and outputs none
-            _ => {}
-        }
+        let number = match self.value {
+            SettingValue::Real(value) => value,
+            SettingValue::Integer(value) | SettingValue::Literal(value) => f64::from(value),
+            SettingValue::Boolean(value) => f64::from(u8::from(value)),
+        };
+        // `known` has found that it fits
+        let fits = assign(self.row, number, parameters, inputs);
+        debug_assert_eq!(fits, Ok(()));
     }
 
     /// The value as a reader wants it.
