@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use anyhow::Result;
 use bevel_differential::variables::table;
 use fmu_build::fmu::page::data::data;
-use fmu_build::gears::scene;
+use answers::scene;
 use serde_json::Value;
 
 fn page() -> Result<Value> {

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use fmu_build::fmu::{libraries, wheel};
-use fmu_build::gears::scene;
+use answers::scene;
 use fmu_build::tools::paths;
 use fmu_build::tools::python::Environment;
 use zip::ZipArchive;

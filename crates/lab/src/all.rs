@@ -10,7 +10,7 @@ use clap::Args;
 
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::{Table, for_terminal};
+use answers::text::table::{Table, for_terminal};
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
 const COMMANDS: [&[&str]; 18] = [

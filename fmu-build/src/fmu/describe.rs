@@ -14,7 +14,7 @@ use clap::Args;
 
 use crate::fmu::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use crate::fmu::effect_list;
-use crate::fmu::xml::Element;
+use answers::text::xml::Element;
 use crate::tools::paths;
 
 /// Fixed, so that the same sources give the same bytes.

@@ -11,7 +11,7 @@ use crate::fmu::libraries::Library;
 use crate::fmu::package::{self, Packing};
 use crate::fmu::page::{self, Page};
 use crate::fmu::platforms::{self, Platform};
-use crate::gears::scene;
+use answers::scene;
 use crate::tools::files::{copy_file, copy_folder};
 use crate::tools::paths;
 use crate::tools::progress::Progress;

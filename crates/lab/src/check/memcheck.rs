@@ -17,7 +17,7 @@ use crate::tools::places;
 use fmu_build::fmu::own;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
+use answers::text::table::Table;
 
 /// Calls at random: of the host in C, and of the driver in Rust.
 const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];

@@ -14,7 +14,7 @@ use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
+use answers::text::table::Table;
 
 /// Names a Chromium that is not on the search path.
 const CHROME: &str = "CHROME";

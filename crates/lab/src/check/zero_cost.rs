@@ -12,7 +12,7 @@ use crate::check::executed::{Executed, Kind};
 use crate::check::stepping::{self, Vectors};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::sections;
-use fmu_build::tools::table::{Table, for_terminal};
+use answers::text::table::{Table, for_terminal};
 
 /// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];

@@ -9,8 +9,8 @@ use bevel_differential::variables::{Access, Variable, guid, table};
 use serde::Serialize;
 
 use crate::fmu::describe::{causality, variability};
-use crate::gears::scene::set::{Setting, SettingValue};
-use crate::gears::scene::{self, Scene, load, units};
+use answers::scene::set::{Setting, SettingValue};
+use answers::scene::{self, Scene, load, units};
 use crate::tools::paths;
 
 /// All of it; values are SI.

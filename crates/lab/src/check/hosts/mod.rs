@@ -10,7 +10,7 @@ use clap::Args;
 use compare::{Deviation, HostRecord};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
+use answers::text::table::Table;
 use fmu_build::tools::{paths, sections};
 use list::{HOSTS, Host};
 use run::{HostBench, HostOutcome, HostScene};

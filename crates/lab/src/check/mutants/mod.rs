@@ -9,7 +9,7 @@ use clap::Args;
 
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::sections;
-use fmu_build::tools::table::for_terminal;
+use answers::text::table::for_terminal;
 
 /// The page with the report, and the marks around it.
 const PAGE: &str = "docs/mutants.md";

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::outcomes::{Fate, Mutant, Run};
 use fmu_build::tools::paths;
-use fmu_build::tools::table::Table;
+use answers::text::table::Table;
 
 /// The explanations.
 const EXPLANATIONS: &str = "docs/mutants.toml";

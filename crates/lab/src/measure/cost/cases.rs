@@ -11,7 +11,7 @@ use bevel_differential::model::{GearContact, Inputs, Method, Parameters, PlanetS
 use bevel_differential::problem;
 use cpu_time::ThreadTime;
 
-use fmu_build::gears::scene;
+use answers::scene;
 use fmu_build::gears::study::published;
 
 /// A motion.

@@ -4,13 +4,13 @@ use anyhow::Result;
 
 use super::measured_here;
 use super::summary::TitledTable;
-use fmu_build::gears::accuracy::answer::Answer;
-use fmu_build::gears::accuracy::gears::Gears;
-use fmu_build::gears::accuracy::words::{effects_on, percent, solver, two};
-use fmu_build::gears::accuracy::{Question, answer};
-use fmu_build::gears::scene;
-use fmu_build::tools::csv_file::{number, number_or_nan};
-use fmu_build::tools::table::Table;
+use answers::accuracy::answer::Answer;
+use answers::accuracy::gears::Gears;
+use answers::accuracy::words::{effects_on, percent, solver, two};
+use answers::accuracy::{Question, answer};
+use answers::scene;
+use answers::text::csv_file::{number, number_or_nan};
+use answers::text::table::Table;
 
 /// What is asked: in words, scene, wanted quantity, accuracy.
 pub type Decision = (&'static str, &'static str, &'static str, f64);

@@ -6,12 +6,12 @@ use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Parameters};
 
 use super::summary::TitledTable;
-use fmu_build::gears::accuracy::gears::Gears;
-use fmu_build::gears::accuracy::record::{Record, in_one_line};
-use fmu_build::gears::accuracy::want::{self, Want};
-use fmu_build::gears::accuracy::words::percent;
-use fmu_build::gears::scene::{self, Scene};
-use fmu_build::tools::table::Table;
+use answers::accuracy::gears::Gears;
+use answers::accuracy::record::{Record, in_one_line};
+use answers::accuracy::want::{self, Want};
+use answers::accuracy::words::percent;
+use answers::scene::{self, Scene};
+use answers::text::table::Table;
 
 /// Gear pairs: teeth of planet and side gear, module [m], face width as a part of the cone distance, bores [m].
 const PAIRS: [(i32, i32, f64, f64, [f64; 2]); 4] = [

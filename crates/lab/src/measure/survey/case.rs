@@ -7,12 +7,12 @@ use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::Method;
 
 use super::draw;
-use fmu_build::gears::accuracy::bench::{Reference, Trial};
-use fmu_build::gears::accuracy::record::Record;
-use fmu_build::gears::accuracy::reference::at_tolerance;
-use fmu_build::gears::accuracy::want::Want;
-use fmu_build::gears::accuracy::{Question, answer};
-use fmu_build::gears::scene::{Scene, ssv};
+use answers::accuracy::bench::{Reference, Trial};
+use answers::accuracy::record::Record;
+use answers::accuracy::reference::at_tolerance;
+use answers::accuracy::want::Want;
+use answers::accuracy::{Question, answer};
+use answers::scene::{Scene, ssv};
 
 /// Accuracies that are asked for.
 const WITHIN: [f64; 2] = [0.01, 0.05];

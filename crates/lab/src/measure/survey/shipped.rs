@@ -4,11 +4,11 @@ use std::time::Instant;
 
 use anyhow::Result;
 
-use fmu_build::gears::accuracy::words::{setting, two};
-use fmu_build::gears::accuracy::{Question, answer};
-use fmu_build::gears::scene::{self, load};
+use answers::accuracy::words::{setting, two};
+use answers::accuracy::{Question, answer};
+use answers::scene::{self, load};
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
+use answers::text::table::Table;
 
 /// The accuracy that is asked for, as a fraction.
 const WITHIN: f64 = 0.01;
