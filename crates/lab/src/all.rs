@@ -8,9 +8,9 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
+use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use answers::text::table::{Table, for_terminal};
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
 const COMMANDS: [&[&str]; 18] = [

@@ -10,9 +10,9 @@ use super::reference::{self, Richest};
 use super::search::{Found, is_within, search};
 use super::switches::{Standing, Switch, effects, put};
 use super::want::{self, Want};
+use crate::problem::wrong;
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
-use crate::problem::wrong;
 use crate::watch::Watch;
 
 /// Price of all runs, in that of a reference run; and of a reference that is not certain, as little can be told.

@@ -11,8 +11,8 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 use super::answer::Answer;
 use super::input_paths::moved;
 use super::words::{percent, setting};
-use crate::scene::set::literal;
 use crate::scene::load;
+use crate::scene::set::literal;
 use crate::text::shown;
 
 /// The scene with the chosen setting, as a file at `to`: paths in it lead to the same files.

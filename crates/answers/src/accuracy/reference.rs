@@ -11,8 +11,8 @@ use super::price;
 use super::record::{Record, in_one_line};
 use super::switches::{Standing, effects, settled};
 use super::want::Want;
-use crate::scene::Scene;
 use crate::problem::wrong;
+use crate::scene::Scene;
 use crate::watch::Watch;
 
 /// Tolerance of the first run, as a part of the accuracy, and at most.
@@ -43,9 +43,8 @@ pub fn richest(scene: &Scene) -> Result<Richest> {
     for switch in effects().filter(|switch| switch.standing(scene) == Standing::NotAsked) {
         switch.set(&mut base.parameters, false);
     }
-    let first = gears
-        .of_scene(&base)
-        .map_err(|found| wrong(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
+    let first =
+        gears.of_scene(&base).map_err(|found| wrong(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
     let mut refused: Vec<_> = first.without.iter().map(|&name| (name, format!("not with {}", gears.text()))).collect();
     let mut rich = first.scene;
     let candidate = |standing| matches!(standing, Standing::Off) || standing == Standing::NotAsked;
@@ -87,12 +86,7 @@ struct Run {
 }
 
 /// Runs the richest scene, finer and finer, until its integrator's error does not matter; with it what the runs cost.
-pub fn run(
-    richest: &Scene,
-    wants: &[Want],
-    question: &Question,
-    watch: &mut Watch,
-) -> Result<(Reference, f64)> {
+pub fn run(richest: &Scene, wants: &[Want], question: &Question, watch: &mut Watch) -> Result<(Reference, f64)> {
     let mut tolerance = (FIRST * question.within).min(COARSEST).min(richest.parameters.solver.relative_tolerance);
     let mut at = |tolerance: f64| {
         let scene = Scene { parameters: at_tolerance(&richest.parameters, tolerance), ..richest.clone() };

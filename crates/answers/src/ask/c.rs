@@ -65,8 +65,8 @@ pub unsafe extern "C" fn bd_free(reply: *mut c_char) {
 
 fn answer(question: &CStr, numbers: &[f64], watch: &mut Watch) -> Result<serde_json::Value, Refusal> {
     let text = question.to_str().map_err(|why| Refusal::unreadable(format!("the question is not UTF-8: {why}")))?;
-    let question = serde_json::from_str(text)
-        .map_err(|why| Refusal::unreadable(format!("the question cannot be read: {why}")))?;
+    let question =
+        serde_json::from_str(text).map_err(|why| Refusal::unreadable(format!("the question cannot be read: {why}")))?;
     // what has panicked is gone with its question
     match catch_unwind(AssertUnwindSafe(|| ask(&question, numbers, watch))) {
         Ok(answer) => answer.map_err(Refusal::from),

@@ -64,6 +64,24 @@ struct FigureQuestion {
     phase: Option<usize>,
 }
 
+/// What a word for a statistic means.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WordQuestion {
+    statistic: String,
+}
+
+impl WordQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let statistic = Statistic::parse(&self.statistic).map_err(wrong)?;
+        let angle = match statistic {
+            Statistic::Order { of, .. } => Some(of.word()),
+            _ => None,
+        };
+        Ok(json!({"word": statistic.to_string(), "angle": angle}))
+    }
+}
+
 impl AccuracyQuestion {
     pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
         let scene = self.of.scene()?;
@@ -136,7 +154,8 @@ impl StatisticsQuestion {
             let values = |i: usize| record.values.get(i).with_context(|| format!("there is no series {i}"));
             values(figure.series)?;
             if let Statistic::Order { of, .. } = statistic {
-                let phase = figure.phase.with_context(|| format!("{statistic}: an order needs what it is counted by"))?;
+                let phase =
+                    figure.phase.with_context(|| format!("{statistic}: an order needs what it is counted by"))?;
                 let phase = values(phase)?.clone();
                 record.phases[usize::from(of == Rotation::Shaft)] = phase;
             }

@@ -43,6 +43,8 @@ pub enum Question {
     Geometry(gears::GeometryQuestion),
     /// The published study.
     Study(study::StudyQuestion),
+    /// What a word for a statistic means.
+    Word(judged::WordQuestion),
     /// Figures of series over time.
     Statistics(judged::StatisticsQuestion),
 }
@@ -59,6 +61,7 @@ pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Va
         Question::Pattern(question) => question.answer(watch),
         Question::Geometry(question) => question.answer(watch),
         Question::Study(question) => question.answer(),
+        Question::Word(question) => question.answer(),
         Question::Statistics(question) => question.answer(numbers),
     }
 }

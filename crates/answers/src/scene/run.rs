@@ -11,8 +11,8 @@ use bevel_differential::variables::{Access, Variable, check_ranges};
 use super::units;
 use super::{InputTable, Scene};
 use crate::problem::Problems;
-use crate::watch::Watch;
 use crate::text::table::Table;
+use crate::watch::Watch;
 
 /// Times that differ by less than this part of a communication step are the same.
 const SAME: f64 = 1e-9;
@@ -33,7 +33,9 @@ pub struct SceneRun<'a> {
 impl<'a> SceneRun<'a> {
     /// Starts `scene` with communication steps of `step` [s].
     pub fn start(scene: &'a Scene, step: f64) -> Result<Self> {
-        Self::attempt(scene, step).map_err(|found| Problems(found.iter().map(Into::into).collect())).with_context(|| refused(scene))
+        Self::attempt(scene, step)
+            .map_err(|found| Problems(found.iter().map(Into::into).collect()))
+            .with_context(|| refused(scene))
     }
 
     /// The same; contradictions are returned by variable.

@@ -6,7 +6,7 @@ use bevel_differential::variables::units::Unit;
 use crate::text::numbers;
 
 /// Units of time, and how many of each make a second.
-const TIMES: [(&str, f64); 4] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0)];
+const TIMES: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0), ("h", 1.0 / 3600.0)];
 
 /// SI value of `text`, a number with a unit of `row`.
 pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {

@@ -14,10 +14,10 @@ use clap::Args;
 
 use crate::check::fuzz;
 use crate::tools::places;
+use answers::text::table::Table;
 use fmu_build::fmu::own;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use answers::text::table::Table;
 
 /// Calls at random: of the host in C, and of the driver in Rust.
 const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];

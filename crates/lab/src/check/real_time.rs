@@ -8,8 +8,8 @@ use clap::Args;
 
 use crate::check::stepping::{self, Vectors};
 use answers::text::numbers::Spread;
-use fmu_build::tools::progress::Progress;
 use answers::text::table::Table;
+use fmu_build::tools::progress::Progress;
 use fmu_build::tools::{paths, sections};
 
 /// Scenes, by the names that the stepping program knows.

@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 use super::case::Judged;
 use answers::accuracy::words::{percent, two};
 use answers::text::numbers::Spread;
-use fmu_build::tools::paths;
 use answers::text::table::{Table, wrapped};
+use fmu_build::tools::paths;
 
 /// The reference of an answer is not certain where its own error is above this part of the accuracy.
 const THIRD: f64 = 1.0 / 3.0;

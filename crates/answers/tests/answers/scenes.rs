@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
-use anyhow::Result;
 use answers::scene::run::{SceneResult, SceneRun, run};
-use answers::scene::{InputTable, Scene, files, find, load, loads, plan};
+use answers::scene::{InputTable, Scene, all, files, find, load, loads, plan};
+use answers::watch::Watch;
+use anyhow::Result;
+
+use crate::{folder, workspace};
 
 /// Communication steps that every scene has to take here.
 const STEPS: u64 = 20;
@@ -17,14 +20,14 @@ fn named(outcome: &SceneResult, name: &str) -> answers::scene::run::Summary {
 
 #[test]
 fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
-    let files = files()?;
+    let files = files(&folder())?;
     assert!(files.len() >= 10);
     for file in files {
         let scene = load::load(&file)?;
         assert!(!scene.description.is_empty() && !scene.outputs.is_empty(), "{}", scene.name);
         let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
         assert!(text.contains("cost class") && text.contains("states"), "{text}");
-        let outcome = run(&scene, Some(STEPS), None)?;
+        let outcome = run(&scene, Some(STEPS), None, &mut Watch::nobody())?;
         for output in &outcome.outputs {
             let finite = [output.min, output.mean, output.max, output.end].iter().all(|x| x.is_finite());
             assert!(finite, "{}: {}", scene.name, output.row.name);
@@ -38,7 +41,7 @@ fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
 
 #[test]
 fn the_study_is_the_study() -> Result<()> {
-    let turning = run(&find("study_turning")?, None, None)?;
+    let turning = run(&find("study_turning", &folder())?, None, None, &mut Watch::nobody())?;
     for (name, wanted) in [("left.speed", 1079f64), ("right.speed", 829.0), ("carrier.speed", 954.0)] {
         let mean = named(&turning, name).mean.to_degrees();
         assert!((mean / wanted - 1.0).abs() < 2e-3, "{name}: {mean}");
@@ -49,7 +52,7 @@ fn the_study_is_the_study() -> Result<()> {
 
 #[test]
 fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
-    let outcome = run(&find("clunk")?, None, None)?;
+    let outcome = run(&find("clunk", &folder())?, None, None, &mut Watch::nobody())?;
     let peak = named(&outcome, "left.shaft_torque").max + named(&outcome, "right.shaft_torque").max;
     println!("clunk: {peak} N.m");
     assert!((peak / 265.58 - 1.0).abs() < 0.01, "{peak}");
@@ -59,7 +62,7 @@ fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
 
 #[test]
 fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
-    let outcome = run(&find("one_wheel_on_ice")?, None, None)?;
+    let outcome = run(&find("one_wheel_on_ice", &folder())?, None, None, &mut Watch::nobody())?;
     let difference = named(&outcome, "left.wheel_speed").end - named(&outcome, "right.wheel_speed").end;
     assert!((difference / (835.0 * 0.2) - 1.0).abs() < 2e-3, "{difference}");
     Ok(())
@@ -67,7 +70,7 @@ fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
 
 #[test]
 fn half_shafts_start_wound_up_by_what_accelerates_their_wheels() -> Result<()> {
-    let scene = find("split_friction")?;
+    let scene = find("split_friction", &folder())?;
     let mut run = SceneRun::start(&scene, scene.step)?;
     // carrier imposed: both wheels part with a = (T_R - T_L)/(J_L + J_R), but for the light gears
     let ([left, right], [j_left, j_right]) = ([700.0, 835.0], [0.9, 1.1]);
@@ -80,10 +83,10 @@ fn half_shafts_start_wound_up_by_what_accelerates_their_wheels() -> Result<()> {
 
 #[test]
 fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
-    let mut scene = find("study_turning")?;
+    let mut scene = find("study_turning", &folder())?;
     scene.stop_time = 0.02;
     let mut text = Vec::new();
-    let lines = loads::write(&scene, Some(2e-3), &mut text)?;
+    let lines = loads::write(&scene, Some(2e-3), &mut text, &mut Watch::nobody())?;
     let text = String::from_utf8(text)?;
     let rows: Vec<Vec<&str>> =
         text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect()).collect();
@@ -109,15 +112,20 @@ fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
 
 #[test]
 fn scenes_without_teeth_have_no_loads() -> Result<()> {
-    let problem = loads::write(&find("hil")?, None, &mut Vec::new()).expect_err("no teeth").to_string();
+    let problem = loads::write(&find("hil", &folder())?, None, &mut Vec::new(), &mut Watch::nobody())
+        .expect_err("no teeth")
+        .to_string();
     assert!(problem.contains("scene.gear_contact = ideal"), "{problem}");
     Ok(())
 }
 
 #[test]
-fn the_documentation_lists_the_scenes_as_the_command_does() -> Result<()> {
-    let page = std::fs::read_to_string(fmu_build::tools::paths::workspace().join("docs").join("scenes.md"))?;
-    assert!(page.contains(&answers::scene::list()?), "docs/scenes.md: renew the list by `fmu-build scene`");
+fn the_documentation_lists_all_scenes() -> Result<()> {
+    let page = std::fs::read_to_string(workspace().join("docs").join("scenes.md"))?;
+    for scene in all(&folder())? {
+        let row = page.lines().find(|line| line.starts_with(&format!("{} ", scene.name)));
+        assert!(row.is_some_and(|row| row.ends_with(&scene.description)), "docs/scenes.md: {}", scene.name);
+    }
     Ok(())
 }
 
@@ -171,7 +179,7 @@ fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
     assert_eq!(both.lines().count(), 2, "{both}");
     let outputs = load::parse("test", Path::new("t"), &FRAME.replace("left.speed", "left.sped")).err().expect("wrong");
     assert!(format!("{outputs:#}").contains("did you mean left.speed?"));
-    let missing = find("study_strait").err().expect("no such scene").to_string();
+    let missing = find("study_strait", &folder()).err().expect("no such scene").to_string();
     assert!(missing.contains("did you mean 'study_straight'?"), "{missing}");
 }
 

@@ -1,19 +1,14 @@
 //! The derived dimensions: golden numbers, the same in text and JSON, set by name and unit, refused with all reasons.
 
 use std::fs;
-use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use answers::geometry::command::{GeometryCommand, files};
 use answers::geometry::design::{Design, parameters};
 use answers::geometry::dimensions::{DimensionGroup, of_gears, of_pair};
-use answers::geometry::interference::InterferenceCheck;
 use answers::geometry::{json, text, tredgold};
+use anyhow::{Context, Result};
 use serde_json::Value;
 
-fn workspace() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use crate::workspace;
 
 fn document(design: &Design) -> Result<Value> {
     Ok(serde_json::from_str(&json::text(design, None)?)?)
@@ -122,7 +117,7 @@ const GEAR: [(&str, &str); 35] = [
 
 #[test]
 fn the_table_agrees_with_every_golden_number() -> Result<()> {
-    let golden: Value = serde_json::from_str(include_str!("../../tests/data/golden_geometry.json"))?;
+    let golden: Value = serde_json::from_str(include_str!("../../../../tests/data/golden_geometry.json"))?;
     let gears = [("gear1_planet", "planet"), ("gear2_side", "side_gear")];
     let (mut wrong, mut worst, mut count) = (Vec::new(), (0.0f64, String::new()), 0);
     for (name, mut settings) in variants() {
@@ -275,36 +270,6 @@ fn errors_are_reported_at_once_with_name_range_and_unit() {
     assert!(refused(&["geometry.planet_addendum=1.2"]).contains("changes nothing without"));
     assert!(refused(&["contact.law=line"]).contains("does not change the geometry"));
     assert!(refused(&["geometry.shaft_angle=80deg"]).contains("only at 90 deg"));
-}
-
-#[test]
-fn gears_that_cannot_be_built_are_refused_with_all_reasons_and_nothing_is_written() {
-    let folder = std::env::temp_dir().join(format!("geometry-refused-{}", std::process::id()));
-    let set = ["geometry.face_width=41mm", "geometry.planet_count=3", "geometry.planet_bore=60mm"];
-    let command = GeometryCommand {
-        set: set.map(str::to_owned).to_vec(),
-        facets: Some("0".into()),
-        out: Some(folder.clone()),
-        ..GeometryCommand::default()
-    };
-    let told = command.run().err().map_or_else(String::new, |error| format!("{error:#}"));
-    for reason in ["no teeth at the toe", "cannot be assembled", "root circle at the toe", "--facets 0: must be"] {
-        assert!(told.contains(reason), "{told}");
-    }
-    assert!(!folder.exists());
-}
-
-#[test]
-fn the_command_writes_what_it_makes() -> Result<()> {
-    let folder = std::env::temp_dir().join(format!("geometry-written-{}", std::process::id()));
-    GeometryCommand { out: Some(folder.clone()), ..GeometryCommand::default() }.run()?;
-    let design = Design::new::<&str>(&[])?;
-    let made = files(&design, &InterferenceCheck::new(&design, 0.0)?, 32)?;
-    assert!(made.iter().any(|file| file.name == "dimensions.txt"));
-    for file in made {
-        assert_eq!(fs::read(folder.join(&file.name))?, file.content, "{}", file.name);
-    }
-    Ok(fs::remove_dir_all(folder)?)
 }
 
 #[test]

@@ -1,15 +1,15 @@
 //! Questions of accuracy about scenes whose answer is known in closed form.
 
 use std::path::Path;
-use std::process::Command;
 
-use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::GearContact;
 use answers::accuracy::answer::{Answer, Role};
 use answers::accuracy::gears::Gears;
 use answers::accuracy::{Question, answer, chosen, report};
 use answers::scene::run::run;
 use answers::scene::{Scene, load};
+use answers::watch::Watch;
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::GearContact;
 
 /// No teeth, 50 rad/s, 99 N.m on each side.
 const IDEAL: &str = r#"
@@ -55,7 +55,7 @@ fn parsed(text: &str) -> Scene {
 fn asked(text: &str, wants: &[&str], within: f64) -> Answer {
     let wants = wants.iter().map(|want| (*want).to_owned()).collect();
     let question = Question { wants, within, from: 0.0, timed: false };
-    answer(&parsed(text), &question, &mut |_, _| {}).expect("an answer")
+    answer(&parsed(text), &question, &mut Watch::nobody()).expect("an answer")
 }
 
 fn role<'a>(found: &'a Answer, name: &str) -> &'a Role {
@@ -143,44 +143,16 @@ fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
     let text = chosen::text(&found, TEETH).expect("a file");
     let scene = parsed(&text);
     assert_eq!(scene.parameters, found.choice().expect("a setting").scene.parameters);
-    let result = run(&scene, None, None).expect("a run");
+    let result = run(&scene, None, None, &mut Watch::nobody()).expect("a run");
     let trial = found.choice().expect("a setting");
     // this one summarises from the start on
     assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);
 }
 
 #[test]
-fn questions_that_make_no_sense_get_one_line_and_exit_status_2() {
-    for (options, parts) in [
-        (&["--want", "left.sped:mean", "--within", "1%"][..], &["left.sped", "did you mean left.speed?"][..]),
-        (&["--want", "left.speed:meen", "--within", "1%"], &["meen", "did you mean mean?"]),
-        (&["--want", "left.load_torque:mean", "--within", "1%"], &["not an output"]),
-        (&["--want", "left.speed:mesh_order_1", "--within", "1%"], &["mesh_order_1", "period"]),
-        (&["--want", "left.speed:mean", "--within", "0"], &["above 0"]),
-        (&["--want", "left.speed:mean", "--within", "200%"], &["below 100 %"]),
-        (&["--want", "left.speed:mean", "--within", "1%", "--from", "2s"], &["--from", "0.5 s"]),
-        (
-            &["--within", "1%", "--set", "scene.gear_contact=lumped", "--set", "effects.tooth_friction=true"],
-            &["effects.tooth_friction"],
-        ),
-    ] {
-        // straight ahead no teeth mesh
-        let output = Command::new(env!("CARGO_BIN_EXE_fmu-build"))
-            .args(["accuracy", "--scene", "study_straight", "--no-picture"])
-            .args(options)
-            .output()
-            .expect("the program runs");
-        let text = String::from_utf8_lossy(&output.stderr);
-        let lines: Vec<&str> = text.lines().filter(|line| line.starts_with("error")).collect();
-        assert_eq!(output.status.code(), Some(2), "{options:?}: {text}");
-        assert!(lines.len() == 1 && parts.iter().all(|part| lines[0].contains(part)), "{options:?}: {text}");
-    }
-}
-
-#[test]
 fn a_scene_that_cannot_run_says_why() {
     let text = format!("{TEETH}scene.left_drive = \"speed\"\nscene.right_drive = \"speed\"\n");
     let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0, timed: false };
-    let failed = answer(&parsed(&text), &question, &mut |_, _| {}).err().expect("three imposed speeds");
+    let failed = answer(&parsed(&text), &question, &mut Watch::nobody()).err().expect("three imposed speeds");
     assert!(format!("{failed:#}").contains("two independent speeds"), "{failed:#}");
 }

@@ -1,16 +1,15 @@
 """One style for all pictures of the project: colours, fonts, widths, caption and file.
 
-Scripts outside this folder add it to their search path. Units are written the same everywhere: N·m, deg/s, N/mm; a
+`apply` makes it that of the process, `styled` that of a block. Units are written the same everywhere: N·m, deg/s, N/mm; a
 label is "quantity, unit". Every picture ends with a caption that says what to see.
 """
 
 import textwrap
 
 import matplotlib
+from cycler import cycler
+from matplotlib.figure import Figure
 from PIL import Image
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
 PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
@@ -27,22 +26,34 @@ COLOURS = 256
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
 SMALL = 10
 
-plt.rcParams.update({
+STYLE = {
     "font.size": 11.5, "axes.titlesize": 12.5, "axes.titleweight": "bold", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
-    "axes.prop_cycle": plt.cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
+    "axes.prop_cycle": cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.7,
     "figure.facecolor": "white", "savefig.dpi": DPI,
-})
+}
+
+
+def apply() -> None:
+    """Makes it the style of the process, which draws into files."""
+    matplotlib.use("Agg")
+    matplotlib.rcParams.update(STYLE)
+
+
+def styled():
+    """The style, for pictures made within the block."""
+    return matplotlib.rc_context(STYLE)
 
 
 def figure(height):
     """An empty picture of the common width; panels arrange themselves."""
-    return plt.figure(figsize=(WIDTH, height), layout="constrained")
+    return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
 def panels(rows, columns, height, **options):
-    """A picture of the common width with its panels, as `plt.subplots` returns them."""
-    return plt.subplots(rows, columns, figsize=(WIDTH, height), layout="constrained", **options)
+    """A picture of the common width with its panels, as `Figure.subplots` returns them."""
+    picture = figure(height)
+    return picture, picture.subplots(rows, columns, **options)
 
 
 def caption(picture, text, above=0.0):
@@ -61,11 +72,10 @@ def note(axes, x, y, text, **options):
 
 
 def save(picture, path, shaded=False):
-    """Writes the file and forgets the picture. Lines and letters need few colours: a table of them makes a third of the file;
+    """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
     `shaded` surfaces keep all."""
     picture.savefig(path)
-    plt.close(picture)
-    if shaded:
+    if shaded or not str(path).lower().endswith(".png"):
         return
     with Image.open(path) as drawn:
         few = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)

@@ -1,20 +1,15 @@
-"""Simulates the study's two cases with the packaged FMU; writes CSV, figures and results.json.
+"""The study's two cases: simulated, evaluated and drawn."""
 
-usage: study.py FMU FOLDER
-
-FOLDER/order.json says what to simulate and what theory expects (written by `fmu-build study`). A line
-"progress FRACTION WHAT" on standard error reports progress.
-"""
-
-import json
-import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-import study_figures
-from bevel_differential import Differential, DifferentialError
+from ..answers import Progress
+from ..differential import Differential
+from ..values import DifferentialError, FileName
+from . import figures
 
 MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
                 "left_transmission_error", "right_transmission_error"]
@@ -34,9 +29,8 @@ LINE_FLOOR = 1e-6
 FIGURES_SHARE = 0.15
 
 
-def main():
-    fmu, folder = Path(sys.argv[1]), Path(sys.argv[2])
-    order = json.loads((folder / "order.json").read_text(encoding="utf-8"))
+def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
+    """Simulates both cases, writes their records and pictures into `folder`, and returns what came out, by case."""
     runs = {}
     for index, case in enumerate(["straight", "turning"]):
         progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
@@ -50,18 +44,12 @@ def main():
         runs[case]["results"] = evaluate(runs[case], order, case) | {"seconds_per_second": seconds / order["record"]}
         write_csv(folder / f"{case}.csv", cut(record, order["duration"]), variables)
         write_csv(folder / f"{case}_start.csv", start, variables)
-    results = {case: run["results"] for case, run in runs.items()}
-    (folder / "results.json").write_text(json.dumps(results, indent=2) + "\n", encoding="utf-8")
     write_spectra(folder / "force_spectrum.csv", {case: run["spectrum"] for case, run in runs.items()})
-    drawings = [study_figures.speeds, study_figures.tooth_forces, study_figures.force_spectrum]
+    drawings = [figures.speeds, figures.tooth_forces, figures.force_spectrum]
     for index, draw in enumerate(drawings):
         progress(1.0 - FIGURES_SHARE * (1.0 - index / len(drawings)), f"drawing {draw.__name__}.png")
         draw(folder, order, runs)
-    progress(1.0, "done")
-
-
-def progress(fraction, what):
-    print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
+    return {case: run["results"] for case, run in runs.items()}
 
 
 def simulate(differential, order, case, duration, interval):
@@ -70,7 +58,7 @@ def simulate(differential, order, case, duration, interval):
     try:
         return differential.set(values).run(outputs=OUTPUTS, stop=duration, step=interval)
     except DifferentialError as error:
-        raise SystemExit(f"the {case} case fails: {error}") from error
+        raise DifferentialError(f"the {case} case fails: {error}") from error
 
 
 def cut(record, end):
@@ -159,7 +147,3 @@ def save(path, columns):
     header = ",".join(title for title, _ in columns)
     np.savetxt(path, np.column_stack([values for _, values in columns]), delimiter=",", header=header, comments="",
                fmt="%.10g")
-
-
-if __name__ == "__main__":
-    main()

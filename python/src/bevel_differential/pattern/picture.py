@@ -1,16 +1,12 @@
-"""Draws contact patterns from the CSV files of `fmu-build pattern`.
+"""Pictures of contact patterns, from the files of the command."""
 
-usage: pattern.py FOLDER
-"""
-
-import sys
 from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
-import style
-from records import read
+from .. import style
+from ..records import read
 
 PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
 # what to see in the cases of the documentation
@@ -38,8 +34,8 @@ COLUMNS = 3
 LEGEND = 0.4
 
 
-def main():
-    folder = Path(sys.argv[1])
+def draw(folder: Path) -> list[str]:
+    """Draws the patterns whose files are in `folder`. Returns the names of the pictures."""
     data = {name: read(folder / f"{name}.csv")[1] for name in ["pattern", "contacts", "summary", "outline"]}
     outlines = {}
     for row in data["outline"]:
@@ -47,6 +43,7 @@ def main():
     cases = [(row["case"], row["title"]) for row in data["summary"]]
     patterns(folder, data, outlines, cases)
     lines(folder, data, outlines, cases)
+    return ["contact_pattern.png", "contact_lines.png"]
 
 
 def tooth(axes, outline, names=False):
@@ -220,7 +217,3 @@ def draw_line(axes, line, colour, indent):
 def force_of(rows):
     """N."""
     return sum(row["line_load"] * row["width"] for row in rows)
-
-
-if __name__ == "__main__":
-    main()

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-import style
-from readable import spaced
-from style import BLUE, FAINT, GREY, INK, OCHRE, PALE_BLUE, RED
+from .. import style
+from ..readable import spaced
+from ..style import BLUE, FAINT, GREY, INK, OCHRE, PALE_BLUE, RED
 
 # highest frequency shown [Hz]
 SPECTRUM_END = 120.0

@@ -3,10 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::Result;
 use answers::scene::run::run;
 use answers::scene::{Scene, find, find_with, load};
-use fmu_build::tools::paths;
+use answers::watch::Watch;
+use anyhow::Result;
+
+use crate::folder;
 
 const FRAME: &str = "description = \"d\"\nstop_time = \"100 ms\"\nstep = \"1 ms\"\noutputs = [\"left.speed\"]\n";
 const INPUTS: &str = "[[inputs]]\nfile = \"cycle.csv\"\n";
@@ -16,7 +18,7 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(test: &str) -> Result<Self> {
-        let folder = paths::target().join("test-scenes").join(format!("{}-{test}", std::process::id()));
+        let folder = std::env::temp_dir().join("test-scenes").join(format!("{}-{test}", std::process::id()));
         fs::create_dir_all(&folder)?;
         Ok(Self(folder))
     }
@@ -95,8 +97,8 @@ fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
     ))?;
     assert_eq!(scene.inputs, same.inputs);
     let (mut first, mut second) = (Vec::new(), Vec::new());
-    run(&scene, None, Some(&mut first))?;
-    run(&same, None, Some(&mut second))?;
+    run(&scene, None, Some(&mut first), &mut Watch::nobody())?;
+    run(&same, None, Some(&mut second), &mut Watch::nobody())?;
     assert_eq!(String::from_utf8(first)?, String::from_utf8(second)?);
     let tables = |scene: &Scene| -> Vec<_> {
         scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
@@ -156,8 +158,8 @@ fn a_scene_is_changed_as_by_its_file() -> Result<()> {
         "stop_time=\u{20}20 ms",
         "step=0.002",
     ];
-    let changed = find_with("one_wheel_on_ice", &changes)?;
-    let before = find("one_wheel_on_ice")?;
+    let changed = find_with("one_wheel_on_ice", &folder(), &changes)?;
+    let before = find("one_wheel_on_ice", &folder())?;
     assert_eq!((changed.stop_time, changed.step), (0.02, 2e-3));
     assert_eq!(changed.inputs.load_torque, [500.0, before.inputs.load_torque[1]]);
     let text = |name: &str| {
@@ -171,15 +173,15 @@ fn a_scene_is_changed_as_by_its_file() -> Result<()> {
     );
     assert_ne!(changed.parameters, before.parameters);
     let none: [&str; 0] = [];
-    assert_eq!(find_with("one_wheel_on_ice", &none)?.parameters, before.parameters);
+    assert_eq!(find_with("one_wheel_on_ice", &folder(), &none)?.parameters, before.parameters);
     Ok(())
 }
 
 #[test]
 fn a_shorter_run_leaves_out_what_comes_after_its_end() -> Result<()> {
     let times = |scene: Scene| scene.events.iter().map(|event| event.time).collect::<Vec<_>>();
-    assert_eq!(times(find("limited_slip")?), [0.1, 0.25]);
-    assert_eq!(times(find_with("limited_slip", &["stop_time=0.2"])?), [0.1]);
+    assert_eq!(times(find("limited_slip", &folder())?), [0.1, 0.25]);
+    assert_eq!(times(find_with("limited_slip", &folder(), &["stop_time=0.2"])?), [0.1]);
     Ok(())
 }
 
@@ -200,14 +202,16 @@ fn wrong_changes_are_told_with_what_was_probably_meant() {
         ("left.load_torque", &["name=value"]),
         ("left.speed_command=1", &["left.speed_command follows a table", "change the table"]),
     ] {
-        let problem = find_with("hil", &[change]).err().map(|error| format!("{error:#}")).unwrap_or_default();
+        let problem =
+            find_with("hil", &folder(), &[change]).err().map(|error| format!("{error:#}")).unwrap_or_default();
         println!("{problem}");
         assert!(problem.starts_with("--set: ") && problem.lines().count() == 1, "{change}: {problem}");
         for part in wanted {
             assert!(problem.contains(part), "\"{part}\" is not in: {problem}");
         }
     }
-    let twice = find_with("hil", &["step=1e-4", "step=1e-3", "left.speed=1"]).err().map(|error| error.to_string());
+    let twice =
+        find_with("hil", &folder(), &["step=1e-4", "step=1e-3", "left.speed=1"]).err().map(|error| error.to_string());
     let twice = twice.unwrap_or_default();
     assert!(twice.contains("step is set twice") && twice.lines().count() == 2, "{twice}");
 }
