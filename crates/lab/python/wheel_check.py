@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from bevel_differential import Differential, Scene, shipped_scenes
 from bevel_differential.fmu import shipped
-from bevel_differential.scene_file import folder
+from bevel_differential.answers import scenes as folder
 from fmpy import simulate_fmu
 
 # a turn and its closed form: the side gears turn at the carrier's speed plus and minus 10/16 of the planets' spin, deg/s

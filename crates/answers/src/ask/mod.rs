@@ -31,6 +31,8 @@ pub enum Question {
     Scene(scenes::SceneQuestion),
     /// What a scene will simulate, in words.
     Plan(scenes::SceneQuestion),
+    /// A run of a scene by this library itself, recorded in a file.
+    Run(scenes::RunQuestion),
     /// A scene as a file for others: `ssv`, a parameter set of SSP, or `python`, a script.
     Export(scenes::ExportQuestion),
     /// The force on each loaded tooth pair, written to a file.
@@ -55,6 +57,7 @@ pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Va
         Question::Scenes(question) => question.answer(),
         Question::Scene(question) => question.values(),
         Question::Plan(question) => question.plan(),
+        Question::Run(question) => question.answer(watch),
         Question::Export(question) => question.answer(),
         Question::Loads(question) => question.answer(watch),
         Question::Accuracy(question) => question.answer(watch),

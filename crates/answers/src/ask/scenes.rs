@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use serde::Deserialize;
@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 use super::source::{Source, seconds};
 use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
-use crate::scene::run::SceneRun;
+use crate::scene::run::{SceneRun, run};
 use crate::scene::set::{Setting, SettingValue};
 use crate::scene::start_values::changed_values;
 use crate::scene::{self, Scene, loads, plan, script, ssv};
@@ -45,6 +45,15 @@ pub struct ExportQuestion {
 enum Format {
     Ssv,
     Python,
+}
+
+/// A run.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunQuestion {
+    of: Source,
+    /// The CSV file to write.
+    out: PathBuf,
 }
 
 /// Loads of tooth pairs.
@@ -117,20 +126,33 @@ impl ExportQuestion {
 impl LoadsQuestion {
     pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
         let (scene, every) = (self.of.scene()?, seconds("every", self.every.as_deref())?);
-        let failed = || format!("{} cannot be written", shown(&self.out));
-        // nothing is left of a file whose loads came to no end
-        let part = self.out.with_added_extension("part");
-        let mut file = BufWriter::new(File::create(&part).with_context(failed)?);
-        let written = loads::write(&scene, every, &mut file, watch).and_then(|lines| {
-            file.flush().with_context(failed)?;
-            std::fs::rename(&part, &self.out).with_context(failed)?;
-            Ok(lines)
-        });
-        if written.is_err() {
-            let _ = std::fs::remove_file(&part);
-        }
-        Ok(json!({"lines": written?, "file": self.out}))
+        let lines = written(&self.out, |file| loads::write(&scene, every, file, watch))?;
+        Ok(json!({"lines": lines, "file": self.out}))
     }
+}
+
+impl RunQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let outcome = written(&self.out, |file| run(&scene, None, Some(file), watch))?;
+        Ok(json!({"text": outcome.text(), "file": self.out}))
+    }
+}
+
+/// What `write` returns, after its file is at `path`. Where it fails nothing is left of the file.
+fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+    let failed = || format!("{} cannot be written", shown(path));
+    let part = path.with_added_extension("part");
+    let mut file = BufWriter::new(File::create(&part).with_context(failed)?);
+    let done = write(&mut file).and_then(|done| {
+        file.flush().with_context(failed)?;
+        std::fs::rename(&part, path).with_context(failed)?;
+        Ok(done)
+    });
+    if done.is_err() {
+        let _ = std::fs::remove_file(&part);
+    }
+    done
 }
 
 impl PatternQuestion {

@@ -159,8 +159,8 @@ fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
     match before {
         _ if !time.is_finite() => Err("is not a finite number".into()),
         None if time < 0.0 => Err("times begin at 0 or later".into()),
-        Some(before) if time <= before => {
-            Err("is not after the line before; sort the lines by time, and give a jump two times close together".into())
+        Some(before) if time < before => {
+            Err("is before the line before; sort the lines by time, and give a jump two lines of one time".into())
         }
         _ => Ok(time),
     }

@@ -34,6 +34,7 @@ use toml::{Table, Value};
 
 use super::set::{Setting, closest, real, variable, written};
 use super::times::{check_step, seconds, span};
+use super::units::digits;
 use super::{Event, InputTable, Scene, input_file};
 use crate::problem::Problems;
 use crate::text::shown;
@@ -169,9 +170,10 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
         }
     };
     if !stop_time.is_nan() && !(0.0..=stop_time).contains(&time) {
+        let [time, stop_time] = [time, stop_time].map(digits);
         problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
     }
-    let place = format!("[[at]] time = {time}:");
+    let place = format!("[[at]] time = {} s:", digits(time));
     let settings = settings(&place, &table, problems);
     for setting in settings.iter().filter(|setting| !setting.may_come_later()) {
         let name = setting.row.name;
@@ -185,9 +187,9 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
     for event in events {
         for name in event.settings.iter().map(|setting| setting.row.name) {
             if input_tables.iter().any(|table| table.row.name == name) {
-                let time = event.time;
+                let time = digits(event.time);
                 problems
-                    .push(format!("[[at]] time = {time}: {name} follows a table, which overrides a value; remove one"));
+                    .push(format!("[[at]] time = {time} s: {name} follows a table, which overrides a value; remove one"));
             }
         }
     }
@@ -224,9 +226,9 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
         wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
     }
-    let rising = times.windows(2).all(|pair| pair[0] < pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
+    let rising = times.windows(2).all(|pair| pair[0] <= pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
     if !rising || !times.iter().all(|time| time.is_finite()) {
-        wrong("times must rise from 0 on".into());
+        wrong("times must not fall, from 0 on".into());
     }
     let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(wrong).ok()?;
     let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();

@@ -64,7 +64,7 @@ pub struct Event {
 pub struct InputTable {
     /// The input.
     pub row: &'static Variable,
-    /// Times [s], rising.
+    /// Times [s], rising; two equal ones are a jump.
     pub times: Vec<f64>,
     /// Values there, in the unit of the interface.
     pub values: Vec<f64>,
@@ -73,7 +73,12 @@ pub struct InputTable {
 }
 
 impl InputTable {
-    /// Value at `time` [s].
+    /// Times at which the value jumps [s]: those of two points.
+    pub fn jumps(&self) -> impl Iterator<Item = f64> + '_ {
+        self.times.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0])
+    }
+
+    /// Value at `time` [s], just after a jump.
     pub fn at(&self, time: f64) -> f64 {
         let time = self.period.map_or(time, |period| time.rem_euclid(period));
         let after = self.times.partition_point(|&t| t <= time);

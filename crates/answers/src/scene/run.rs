@@ -26,6 +26,8 @@ pub struct SceneRun<'a> {
     /// Whole communication steps done, and events.
     done: u64,
     events: usize,
+    /// Times at which inputs change at once [s], rising; the last of them first.
+    stops: Vec<f64>,
     /// The simulation.
     pub simulation: Simulation,
 }
@@ -45,7 +47,11 @@ impl<'a> SceneRun<'a> {
             return Err(out_of_range);
         }
         let simulation = Simulation::start(&scene.parameters, &scene.inputs, 0.0)?;
-        Ok(Self { scene, parameters: scene.parameters, inputs: scene.inputs, step, done: 0, events: 0, simulation })
+        let events = scene.events.iter().map(|event| event.time);
+        let mut stops: Vec<f64> = events.chain(scene.input_tables.iter().flat_map(InputTable::jumps)).collect();
+        stops.sort_by(|a, b| b.total_cmp(a));
+        let Scene { parameters, inputs, .. } = *scene;
+        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, stops, simulation })
     }
 
     /// Time [s].
@@ -64,15 +70,14 @@ impl<'a> SceneRun<'a> {
         self.feed(time + slack);
         let regular = (self.done + 1) as f64 * self.step;
         let mut next = if regular > self.scene.stop_time - slack { self.scene.stop_time } else { regular };
-        let whole = match self.scene.events.get(self.events) {
-            Some(event) if event.time < next - slack => {
-                next = event.time;
-                false
-            }
-            _ => true,
-        };
+        // what has been fed is over
+        while self.stops.last().is_some_and(|&stop| stop <= time + slack) {
+            self.stops.pop();
+        }
+        let change = self.stops.last().copied().filter(|&stop| stop < next - slack);
+        next = change.unwrap_or(next);
         self.simulation.advance(next).map_err(|failure| anyhow!("{failure}")).with_context(|| refused(self.scene))?;
-        self.done += u64::from(whole);
+        self.done += u64::from(change.is_none());
         Ok(())
     }
 

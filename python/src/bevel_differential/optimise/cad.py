@@ -1,13 +1,11 @@
-"""A chosen design for other programs: a scene file, and the gears as curves and solids by the command `geometry`."""
+"""A chosen design for other programs: a scene file, and the gears."""
 
-import shlex
-import subprocess
 from pathlib import Path
 
-from ..values import DifferentialError, FileName
+from ..answers import ask, assignments
+from ..values import FileName
 from .design_task import DesignRow
 from .problem import Problem
-from .quantities import Catalogue
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
@@ -26,35 +24,23 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def arguments(problem: Problem, row: DesignRow, folder: FileName) -> list[str]:
-    """Arguments of the command `geometry` for the design's gears."""
-    catalogue = Catalogue(problem.scene.fmu)
-    starts = catalogue.starts()
-    values = {**problem.scene.values, **problem.complete(row.values)}
-    wanted = {name: value for name, value in values.items() if name.startswith("geometry.") and value != starts[name]}
-    if values.get("effects.backlash") is False:
-        wanted["effects.backlash"] = False
-    told = ["geometry"]
-    for name, value in wanted.items():
-        told += ["--set", f"{name}={_toml(catalogue.variable(name), value).strip(chr(34))}"]
-    return [*told, "--out", str(folder)]
-
-
-def command_line(problem: Problem, row: DesignRow, folder: FileName) -> str:
-    """The same as a line for the shell, at the top of the repository."""
-    return shlex.join(["cargo", "run", "--release", "--", *arguments(problem, row, folder)])
-
-
-def write_gears(program: FileName, problem: Problem, row: DesignRow, folder: FileName) -> bool:
-    """Writes curves and solids by `program`; whether its check with fillets finds the gears free of interference."""
+def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
+    """Writes dimensions and curves of the design's gears; whether the check with fillets finds them free of interference."""
     folder = Path(folder)
-    try:
-        done = subprocess.run([str(program), *arguments(problem, row, folder)], capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise DifferentialError(f"{program}: {error}; name the program fmu-build by --program") from None
-    if done.returncode:
-        raise DifferentialError(f"{program} geometry: {done.stderr.strip() or done.stdout.strip()}")
-    return "INTERFERENCE" not in (folder / "interference.txt").read_text(encoding="utf-8")
+    found = ask({"ask": "geometry", "set": settings(problem, row)})
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in found["files"].items():
+        (folder / name).write_text(content, encoding="utf-8")
+    return not found["interference"]
+
+
+def settings(problem: Problem, row: DesignRow) -> list[str]:
+    """What the design's gears have otherwise than the FMU's own, each "name=value"."""
+    fmu = problem.scene.fmu
+    values = {**problem.scene.values, **problem.complete(row.values)}
+    changed = {name: value for name, value in values.items()
+               if name.startswith("geometry.") and value != fmu.variable(name).start or name == "effects.backlash" and not value}
+    return assignments({name: fmu.variable(name).written(value) for name, value in changed.items()})
 
 
 def _toml(variable, value) -> str:
