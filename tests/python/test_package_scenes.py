@@ -83,7 +83,7 @@ def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
     ("103.3", "fast", ["cycle.csv, line 3", "carrier.speed_command", "fast"]),
     ("[rpm]", "[kg]", ["cycle.csv", "kg", "rpm"]),
     ("time [ms]", "clock [ms]", ["no column time"]),
-    (",90", "", ["line 4", "1 cells", "2"]),
+    (",90", "", ["line 6", "1 cells", "2"]),
     ("11.1", "1.1", ["is before the line before"]),
 ])
 def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything, fmu_file):

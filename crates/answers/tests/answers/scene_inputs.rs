@@ -124,7 +124,7 @@ fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<(
         ("time,left.load_torque\n0,1\n1,x\n2,\n", &["line 3, column left.load_torque, value \"x\"", "and 1 more"]),
         ("time,left.load_torque\n0,1\n1,1e9\n", &["line 3", "value \"1e9\"", "is outside [-100000000, 100000000] N.m"]),
         ("time,carrier.speed_command [rpm]\n0,inf\n", &["line 2", "value \"inf\"", "finite"]),
-        ("time,left.load_torque\n0,1\n0,2\n", &["line 3, column time, value \"0\"", "sort the lines"]),
+        ("time,left.load_torque\n1,1\n0,2\n", &["line 3, column time, value \"0\"", "sort the lines"]),
         ("time [ms],left.load_torque\n-1,1\n", &["line 2, column time [ms], value \"-1\"", "begin at 0"]),
         ("time,left.load_torque\nnan,1\n", &["line 2", "finite"]),
         ("time,left.load_torque\n0,1\n# c\n1\n", &["line 4", "1 cells where the header has 2"]),
