@@ -18,7 +18,7 @@ pub const PACKAGE: &str = "bevel-differential";
 /// The commands of the Python package; those who type one here are told where it is.
 pub const IN_THE_PACKAGE: [&str; 6] = ["scene", "loads", "report", "accuracy", "geometry", "pattern"];
 /// The commands of the laboratory; those who type one here are told where it is.
-pub const IN_THE_LABORATORY: [&str; 22] = [
+pub const IN_THE_LABORATORY: [&str; 23] = [
     "cost",
     "solids",
     "stiffness",
@@ -37,6 +37,7 @@ pub const IN_THE_LABORATORY: [&str; 22] = [
     "real-time",
     "fuzz",
     "memcheck",
+    "questions",
     "memory",
     "mutants",
     "hosts",

@@ -43,7 +43,7 @@ impl StudyCommand {
             .args(["-m", "bevel_differential", "study", "--progress", "lines", "--fmu"])
             .arg(&fmu)
             .arg("--out")
-            .arg(&folder);
+            .arg(text::shown(&folder));
         let told = script::follow(&mut study, "the study", &progress)?;
         progress.finish();
         print!("{told}");

@@ -63,6 +63,27 @@ pub unsafe extern "C" fn bd_free(reply: *mut c_char) {
     }
 }
 
+/// The reply to `question` as a caller in C gets it, for checks; `go_on` is asked from time to time.
+pub fn as_in_c(question: &CStr, numbers: &[f64], mut go_on: impl FnMut() -> bool) -> String {
+    unsafe extern "C" fn told<F: FnMut() -> bool>(context: *mut c_void, _: f64, _: *const c_char) -> c_int {
+        // SAFETY: the context is the closure below, which outlives the call
+        let go_on = unsafe { &mut *context.cast::<F>() };
+        c_int::from(!go_on())
+    }
+    fn of<F: FnMut() -> bool>(_: &F) -> bd_progress {
+        Some(told::<F>)
+    }
+    let progress = of(&go_on);
+    let context = ptr::from_mut(&mut go_on).cast();
+    // SAFETY: question and numbers live until the end, and the reply is freed once
+    unsafe {
+        let reply = bd_ask(question.as_ptr(), numbers.as_ptr(), numbers.len(), progress, context);
+        let text = CStr::from_ptr(reply).to_string_lossy().into_owned();
+        bd_free(reply);
+        text
+    }
+}
+
 fn answer(question: &CStr, numbers: &[f64], watch: &mut Watch) -> Result<serde_json::Value, Refusal> {
     let text = question.to_str().map_err(|why| Refusal::unreadable(format!("the question is not UTF-8: {why}")))?;
     let question =

@@ -188,8 +188,9 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
         for name in event.settings.iter().map(|setting| setting.row.name) {
             if input_tables.iter().any(|table| table.row.name == name) {
                 let time = digits(event.time);
-                problems
-                    .push(format!("[[at]] time = {time} s: {name} follows a table, which overrides a value; remove one"));
+                problems.push(format!(
+                    "[[at]] time = {time} s: {name} follows a table, which overrides a value; remove one"
+                ));
             }
         }
     }

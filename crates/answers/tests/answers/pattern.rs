@@ -82,5 +82,10 @@ fn scenes_without_solid_teeth_and_scenes_too_short_are_refused() {
     scene.stop_time = 0.1;
     assert!(Engagement::new(&scene, &mut Watch::nobody()).expect_err("too short").to_string().contains("parted again"));
     scene.parameters.scene.gear_contact = GearContact::Tooth;
-    assert!(Engagement::new(&scene, &mut Watch::nobody()).expect_err("no solids").to_string().contains("scene.gear_contact"));
+    assert!(
+        Engagement::new(&scene, &mut Watch::nobody())
+            .expect_err("no solids")
+            .to_string()
+            .contains("scene.gear_contact")
+    );
 }

@@ -84,6 +84,9 @@ fn run() -> Result<()> {
     checked.push(memcheck("life of instances, in C", &life, &host_arguments)?);
     progress.stage("memcheck on calls at random");
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
+    progress.stage("memcheck on questions at random");
+    let questions = ["questions", "--count", "2000", "--threads", "1"].map(OsString::from);
+    checked.push(memcheck("questions at random", &this, &questions)?);
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
     let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);
