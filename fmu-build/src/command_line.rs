@@ -13,6 +13,8 @@ use crate::tools::program::{Program, Stop};
 pub const PROGRAM: &str = "cargo run --release --";
 /// The same of the laboratory, which is a program of its own.
 pub const LABORATORY: &str = "cargo run -p lab --release --";
+/// The same without a command.
+const PROGRAM_ALONE: &str = "cargo run --release";
 /// How users call the Python package.
 pub const PACKAGE: &str = "bevel-differential";
 /// The commands of the Python package; those who type one here are told where it is.
@@ -91,7 +93,8 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
     if let Some(name) = named.and_then(|word| IN_THE_PACKAGE.iter().find(|name| word == *name)) {
         let there = if *name == "scene" { "plan and run" } else { name };
         return Err(Stop::Wrong(format!(
-            "{name} is in the Python package: make it by {PROGRAM} wheel, install it with pip, then {PACKAGE} {there}"
+            "{name} is in the Python package: {PACKAGE} {there}, where its wheel is installed; in this checkout, after \
+             {PROGRAM_ALONE}, target/python/bin/{PACKAGE} {there}"
         )));
     }
     let program = program();

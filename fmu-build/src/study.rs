@@ -1,5 +1,5 @@
 //! The command `study`: packages the FMU and lets the Python package compare it with the published study and with theory. The
-//! reports of both cases come with the comparison.
+//! reports of both cases come with the comparison, and the package's own program for this checkout.
 
 use std::fs;
 use std::path::Path;
@@ -48,6 +48,8 @@ impl StudyCommand {
         progress.finish();
         print!("{told}");
         println!("FMU: {}", paths::shown(&fmu));
+        let program = paths::shown(&environment.launcher(&fmu)?);
+        println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");
         if self.readme {
             for (document, table) in [(DOCUMENT, "table.md"), ("README.md", "excerpt.md")] {
                 let text = fs::read_to_string(folder.join(table)).with_context(|| format!("{table} cannot be read"))?;

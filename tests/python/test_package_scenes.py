@@ -1,4 +1,4 @@
-"""Scenes in the Python package: the bits of the command `scene`, and errors in files."""
+"""Scenes in the Python package: the bits of the library itself, and errors in files."""
 
 import csv
 import pickle

@@ -10,6 +10,7 @@
 //! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`watch`]: who waits, and may stop the work
 
 #![warn(missing_docs)]
+#![deny(unsafe_code)]
 
 pub mod accuracy;
 pub mod ask;

@@ -13,12 +13,13 @@ use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 19] = [
+const COMMANDS: [&[&str]; 20] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time"],
     &["zero-cost", "--quick"],
     &["stiffness"],
+    &["pattern"],
     &["solids", "--quick"],
     &["survey", "--scenes", "20"],
     &["compare-solvers", "--quick"],

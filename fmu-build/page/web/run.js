@@ -1,4 +1,4 @@
-// A run of a scene, point by point: the steps of the command `scene`, to the same bits.
+// A run of a scene, point by point: the steps of the command `run`, to the same bits.
 
 const SLACK = 1e-9; // times that differ by less than this part of a step are the same
 

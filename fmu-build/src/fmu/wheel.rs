@@ -102,6 +102,8 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     for Library { platform, answers, .. } in libraries {
         copy_file(answers, &package.join("answers").join(platform))?;
     }
+    let header = from.join("crates").join("answers").join("include").join("bd_answers.h");
+    copy_file(&header, &package.join("answers"))?;
     // what the FMU's library links too has its texts in the FMU
     let known: Vec<String> =
         licences::collected(CRATES[0], &[])?.files.into_iter().map(|licence| licence.path).collect();

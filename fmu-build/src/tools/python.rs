@@ -158,6 +158,33 @@ impl Environment {
         command
     }
 
+    /// Writes the program `bevel-differential` of this checkout into the environment, with `fmu`; where it is.
+    pub fn launcher(&self, fmu: &Path) -> Result<PathBuf> {
+        let source = paths::workspace().join("python").join("src");
+        let values = [("FMU", fmu.to_path_buf()), ("ANSWERS", paths::built("answers")?), ("SCENES", paths::scenes())];
+        let set: String = values
+            .iter()
+            .map(|(name, value)| {
+                format!("os.environ.setdefault('BEVEL_DIFFERENTIAL_{name}', {:?})\n", value.display().to_string())
+            })
+            .collect();
+        let python = self.programs().join(if cfg!(windows) { "python.exe" } else { "python" });
+        let text = format!(
+            "#!{}\nimport os, sys\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nsys.exit(main())\n",
+            python.display(),
+            source.display().to_string()
+        );
+        let program = self.programs().join(if cfg!(windows) { "bevel-differential.py" } else { "bevel-differential" });
+        let failed = || format!("{} cannot be written", paths::shown(&program));
+        fs::write(&program, text).with_context(failed)?;
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).with_context(failed)?;
+        }
+        Ok(program)
+    }
+
     /// Runs pytest on tests/python with the packaged `fmu` and this `program`; its report is the error if a test fails.
     pub fn test(&self, fmu: &Path, program: &Path, arguments: &[impl AsRef<OsStr>]) -> Result<String> {
         let output = self

@@ -60,7 +60,7 @@ class Steps:
         """Steps to multiples of `step`, to jumps of inputs, and to `stop`; without a step to jumps and to `stop` alone.
 
         Hosts begin a step where the one before was asked to end. With `exact` beginning and size add up to the end to the last
-        bit, as in the command `scene`."""
+        bit, as in the library itself."""
         if len(jumps) == 0:
             return _regular_steps(stop, step, exact)
         slack = SLACK * (step or stop)

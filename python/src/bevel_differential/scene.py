@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class Scene:
-    """A scene, with the meaning that its TOML file has for the command `scene`: the same steps and the same bits.
+    """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
     `tables`: [(input, times, values, period or None)], straight from point to point. All times in s or with a unit.

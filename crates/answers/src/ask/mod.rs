@@ -7,6 +7,7 @@
 //! assert!(answer["text"].as_str().unwrap().contains("4.0000"));
 //! ```
 
+#[allow(unsafe_code)] // the one place that handles foreign pointers
 pub mod c;
 mod gears;
 mod judged;

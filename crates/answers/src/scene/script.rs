@@ -17,8 +17,8 @@ pub fn text(scene: &Scene) -> Result<String> {
     let plain = |text: &str| text.replace('\\', "/").replace('"', "'");
     Ok(format!(
         "\"\"\"{}: {}\n\n\
-         A scene of the bevel gear differential, written by the command `scene`. It needs the Python package bevel_differential\n\
-         and records the same numbers, to the last bit, as `scene` with --csv.\n\"\"\"\n\n\
+         A scene of the bevel gear differential, written by the command `plan`. It needs the Python package bevel_differential\n\
+         and records the same numbers, to the last bit, as the library by itself.\n\"\"\"\n\n\
          from bevel_differential import Scene\n\n\
          scene = Scene(\n{})\n\n\
          if __name__ == \"__main__\":\n    \

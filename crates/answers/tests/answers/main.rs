@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod geometry;
+mod header;
 mod interference;
 mod pattern;
 mod refusals;

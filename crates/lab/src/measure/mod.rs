@@ -5,6 +5,7 @@ pub mod compare_simulators;
 pub mod compare_solvers;
 pub mod cost;
 pub mod drivetrain;
+pub mod pattern;
 pub mod prices;
 pub mod solids;
 pub mod stiffness;
@@ -26,6 +27,7 @@ pub enum MeasureCommand {
     #[command(alias = "foreign")]
     CompareSolvers(compare_solvers::CompareSolversCommand),
     Drivetrain(drivetrain::DrivetrainCommand),
+    Pattern(pattern::PatternCommand),
     Prices(prices::PricesCommand),
 }
 
@@ -40,6 +42,7 @@ impl MeasureCommand {
             Self::CompareSimulators(command) => command.run(),
             Self::CompareSolvers(command) => command.run(),
             Self::Drivetrain(command) => command.run(),
+            Self::Pattern(command) => command.run(),
             Self::Prices(command) => command.run(),
         }
     }

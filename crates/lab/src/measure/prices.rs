@@ -57,7 +57,7 @@ impl PricesCommand {
         let script = places::script("prices.py");
         DOCUMENT.make(progress, "timing", (&environment, &script, &arguments), &folder, self.write)?;
         if self.write {
-            let data = paths::workspace().join("fmu-build").join("data").join(DATA);
+            let data = paths::workspace().join("crates").join("answers").join("data").join(DATA);
             fs::copy(folder.join(DATA), &data).with_context(|| format!("{} cannot be written", paths::shown(&data)))?;
             println!("renewed: {}", paths::shown(&data));
         }

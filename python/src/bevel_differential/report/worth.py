@@ -67,7 +67,7 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
         found.add(Picture("worth", _draw(tried), _caption(tried)))
     found.add(_table(run, tried))
     found.say("What accuracy of what quantity needs which of these is the question of the command accuracy: "
-              "cargo run --release -- accuracy --scene NAME --want OUTPUT:STATISTIC --within 1%.")
+              "bevel-differential accuracy NAME --want OUTPUT:STATISTIC --within 1%.")
     return found
 
 

@@ -84,7 +84,7 @@ pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> 
         ]);
     }
     let table = table.all_left();
-    let title = "The cheapest setting by quantity, each found and proved by `cargo run --release -- accuracy` with the options of its row";
+    let title = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy` with the options of its row";
     Ok((file.text()?, TitledTable::new(title, table)))
 }
 

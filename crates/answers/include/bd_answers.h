@@ -1,0 +1,51 @@
+/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs; do not edit. */
+
+#ifndef BD_ANSWERS_H
+#define BD_ANSWERS_H
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/**
+ * Told the part of the work that is done, from 0 to 1, and what is being done; `context` is what the caller of `bd_ask` gave.
+ * Another value than 0 stops the work.
+ */
+typedef int (*bd_progress)(void *context, double done, const char *what);
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * Answers a question.
+ *
+ * `question` is an object of JSON in UTF-8 that ends with a zero byte; `numbers` are the numbers that belong to it, `count` of
+ * them. `progress` may be null. The reply is JSON that ends with a zero byte, to be freed by `bd_free`: `{"answer": ...}`, or
+ * `{"kind": "use" | "failed" | "stopped" | "internal", "problems": [...]}`. It is null only where there is no memory.
+ *
+ * # Safety
+ * `question` is null or points to a text with a zero byte at its end, `numbers` to `count` numbers or is null with a count of 0;
+ * both stay as they are until this returns. Any thread may call, several at a time.
+ */
+char *bd_ask(const char *question,
+             const double *numbers,
+             size_t count,
+             bd_progress progress,
+             void *context);
+
+/**
+ * Frees a reply; null is nothing to free.
+ *
+ * # Safety
+ * `reply` is what `bd_ask` gave, and is not used again.
+ */
+void bd_free(char *reply);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* BD_ANSWERS_H */

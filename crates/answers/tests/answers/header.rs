@@ -1,0 +1,35 @@
+//! The C header is made from the source.
+
+use std::fs;
+
+use cbindgen::{Builder, Config, Language};
+
+use crate::workspace;
+
+/// Where the header stands.
+fn file() -> std::path::PathBuf {
+    workspace().join("crates").join("answers").join("include").join("bd_answers.h")
+}
+
+#[test]
+fn the_header_is_that_of_the_source() {
+    let config = Config {
+        language: Language::C,
+        header: Some("/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs; do not edit. */".into()),
+        include_guard: Some("BD_ANSWERS_H".into()),
+        cpp_compat: true,
+        documentation: true,
+        usize_is_size_t: true,
+        ..Config::default()
+    };
+    let source = workspace().join("crates").join("answers").join("src").join("ask").join("c.rs");
+    let made = Builder::new().with_config(config).with_src(source).generate().expect("a header");
+    let mut text = Vec::new();
+    made.write(&mut text);
+    let text = String::from_utf8(text).expect("UTF-8");
+    if std::env::var_os("RENEW").is_some() {
+        fs::create_dir_all(file().parent().expect("a folder")).and_then(|()| fs::write(file(), &text)).expect("written");
+    }
+    let kept = fs::read_to_string(file()).unwrap_or_default().replace("\r\n", "\n");
+    assert!(kept == text, "renew it: RENEW=1 cargo test --release -p answers header");
+}

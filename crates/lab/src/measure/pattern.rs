@@ -1,0 +1,46 @@
+//! The contact patterns of the documentation, by the command `pattern` of the Python package.
+
+use std::fs;
+
+use anyhow::{Context, Result};
+use clap::Args;
+use fmu_build::tools::progress::Progress;
+use fmu_build::tools::python::Environment;
+use fmu_build::tools::{paths, script, sections};
+
+/// The document and the marks of the findings.
+const DOCUMENT: &str = "docs/pattern.md";
+const MARKS: [&str; 2] = ["<!-- pattern:begin -->", "<!-- pattern:end -->"];
+
+/// Shows the contact patterns of docs/pattern.md: aligned teeth, and one thing out of place at a time
+#[derive(Args, Clone, Debug)]
+pub struct PatternCommand {
+    /// Also renew docs/pattern.md and its figures
+    #[arg(long)]
+    write: bool,
+}
+
+impl PatternCommand {
+    /// Runs it.
+    pub fn run(&self) -> Result<()> {
+        let progress = Progress::start("looking for Python");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        let folder = paths::target().join("pattern");
+        progress.begin_bar("simulating");
+        let mut command = environment.command();
+        command.args(["-m", "bevel_differential", "pattern", "--progress", "lines", "--out"]).arg(&folder);
+        let told = script::follow(&mut command, "the command pattern", &progress)?;
+        progress.finish();
+        print!("{told}");
+        if self.write {
+            let findings = fs::read_to_string(folder.join("findings.md")).context("findings.md cannot be read")?;
+            sections::renew(DOCUMENT, MARKS, &findings)?;
+            for name in ["contact_pattern.png", "contact_lines.png"] {
+                fs::copy(folder.join(name), paths::workspace().join("docs").join("figures").join(name))
+                    .with_context(|| format!("{name} cannot be copied"))?;
+            }
+            println!("renewed: {DOCUMENT}, docs/figures");
+        }
+        Ok(())
+    }
+}
