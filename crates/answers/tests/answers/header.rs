@@ -15,7 +15,9 @@ fn file() -> std::path::PathBuf {
 fn the_header_is_that_of_the_source() {
     let config = Config {
         language: Language::C,
-        header: Some("/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs; do not edit. */".into()),
+        header: Some(
+            "/* Questions to the library of answers. Made from crates/answers/src/ask/c.rs; do not edit. */".into(),
+        ),
         include_guard: Some("BD_ANSWERS_H".into()),
         cpp_compat: true,
         documentation: true,
@@ -28,7 +30,9 @@ fn the_header_is_that_of_the_source() {
     made.write(&mut text);
     let text = String::from_utf8(text).expect("UTF-8");
     if std::env::var_os("RENEW").is_some() {
-        fs::create_dir_all(file().parent().expect("a folder")).and_then(|()| fs::write(file(), &text)).expect("written");
+        fs::create_dir_all(file().parent().expect("a folder"))
+            .and_then(|()| fs::write(file(), &text))
+            .expect("written");
     }
     let kept = fs::read_to_string(file()).unwrap_or_default().replace("\r\n", "\n");
     assert!(kept == text, "renew it: RENEW=1 cargo test --release -p answers header");

@@ -25,6 +25,12 @@ pub fn hosts(report: impl Fn(&str)) -> Result<Environment> {
     Wanted { folder: target().join("hosts").join("venv"), requirements, holds }.made(report)
 }
 
+/// What reads the source.
+pub fn parser(report: impl Fn(&str)) -> Result<Environment> {
+    let requirements = places::script("mutants").join("requirements.txt");
+    Wanted { folder: target().join("mutants").join("venv"), requirements, holds: "tree-sitter" }.made(report)
+}
+
 /// What drives a browser.
 pub fn browser(report: impl Fn(&str)) -> Result<Environment> {
     let requirements = places::browser_tests().join("requirements.txt");

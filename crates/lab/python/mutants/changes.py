@@ -1,0 +1,122 @@
+"""Possible changes of the source, each an expression that becomes another one; and the source with some of them built in, each
+asleep until it is chosen."""
+
+import random
+from dataclasses import dataclass
+from pathlib import Path
+
+import tree_sitter_rust
+from tree_sitter import Language, Parser
+
+BINARY = {"+": "-", "-": "+", "*": "/", "/": "*", "<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "!=", "!=": "==", "&&": "||",
+          "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
+NAMES = {"min": "max", "max": "min", "sin": "cos", "cos": "sin"}
+# a literal becomes so much larger
+LARGER = 1.2
+# nothing within is calculated by a running program, or stands where an expression with a branch cannot
+CLOSED = {"const_item", "static_item", "attribute_item", "inner_attribute_item", "macro_invocation", "macro_definition", "array_type",
+          "type_arguments", "const_block", "match_pattern", "range_pattern", "tuple_struct_pattern", "or_pattern", "const_parameter",
+          "enum_variant", "let_chain"}
+
+
+@dataclass(frozen=True)
+class Change:
+    """A change: bytes `begin` to `end` of `file` become `after`; `before` is what stands there, `line` where (1, 2, …)."""
+
+    file: str
+    begin: int
+    end: int
+    before: str
+    after: str
+    line: int
+
+    @property
+    def name(self) -> str:
+        """The change in words, the same when lines move."""
+        return f"{' '.join(self.before.split())} → {' '.join(self.after.split())}"
+
+    @property
+    def room(self) -> str:
+        """The folder of the file, of the model the folder within."""
+        parts = self.file.split("/")
+        return "/".join(parts[:3 if parts[1] == "model" else 2])
+
+
+def drawn(root: Path, rooms: list[str], count: int, seed: int, without: set[Change] = frozenset()) -> list[Change]:
+    """So many changes of the files in `rooms`, drawn by a seed; none within another, none of `without`."""
+    files = sorted(file.relative_to(root).as_posix() for room in rooms for file in (root / room).rglob("*.rs") if not file.stem.endswith("tests"))
+    everything = [change for file in files for change in possible(root, file)]
+    random.Random(seed).shuffle(everything)
+    taken: list[Change] = []
+    for change in everything:
+        apart = all(change.file != other.file or change.end <= other.begin or other.end <= change.begin for other in taken)
+        if len(taken) < count and apart and change not in without:
+            taken.append(change)
+    return sorted(taken, key=lambda change: (change.file, change.begin))
+
+
+def possible(root: Path, file: str) -> list[Change]:
+    """All changes of a file but for its tests."""
+    text = (root / file).read_bytes()
+    found: list[Change] = []
+    _walk(Parser(Language(tree_sitter_rust.language())).parse(text).root_node, text, file, found)
+    return found
+
+
+def _walk(node, text, file, found):
+    if node.type in CLOSED or _is_const(node, text) or _is_tests(node, text):
+        return
+    after = _changed(node, text)
+    if after is not None:
+        before = text[node.start_byte:node.end_byte].decode()
+        found.append(Change(file, node.start_byte, node.end_byte, before, after, node.start_point[0] + 1))
+    for child in node.children:
+        _walk(child, text, file, found)
+
+
+def _changed(node, text):
+    """What an expression becomes; None if it is none of those that change."""
+    def piece(begin, end):
+        return text[begin:end].decode()
+
+    if node.type in ("binary_expression", "compound_assignment_expr"):
+        operator = node.child_by_field_name("operator")
+        other = BINARY.get(operator.type)
+        return other and piece(node.start_byte, operator.start_byte) + other + piece(operator.end_byte, node.end_byte)
+    if node.type == "unary_expression" and node.children[0].type == "-":
+        return piece(node.children[1].start_byte, node.end_byte)
+    if node.type == "float_literal":
+        number = piece(node.start_byte, node.end_byte)
+        value = float(number.removesuffix("f64").replace("_", ""))
+        return (repr(value * LARGER) + ("f64" if number.endswith("f64") else "")) if value else None
+    if node.type == "call_expression":
+        function = node.child_by_field_name("function")
+        name = function.child_by_field_name("field") if function.type == "field_expression" else function
+        other = NAMES.get(piece(name.start_byte, name.end_byte))
+        return other and piece(node.start_byte, name.start_byte) + other + piece(name.end_byte, node.end_byte)
+    return None
+
+
+def _is_const(node, text):
+    return node.type == "function_item" and any(child.type == "function_modifiers" and b"const" in text[child.start_byte:child.end_byte]
+                                                for child in node.children)
+
+
+def _is_tests(node, text):
+    return node.type == "mod_item" and text[node.start_byte:node.end_byte].startswith(b"mod tests")
+
+
+def build_in(root: Path, changes: list[Change]) -> dict[str, list[tuple[int, int, Change]]]:
+    """Writes the changes into the files under `root`; number k, from 1 on, acts where `MUTANT=k`. Returns by file which bytes of what
+    was written belong to which change."""
+    places: dict[str, list[tuple[int, int, Change]]] = {}
+    for file in {change.file for change in changes}:
+        text, out, at = (root / file).read_bytes(), b"", 0
+        for number, change in enumerate(changes, 1):
+            if change.file == file:
+                out += text[at:change.begin]
+                written = f"(if crate::mutants::on({number}) {{ {change.after} }} else {{ {change.before} }})".encode()
+                places.setdefault(file, []).append((len(out), len(out) + len(written), change))
+                out, at = out + written, change.end
+        (root / file).write_bytes(out + text[at:])
+    return places
