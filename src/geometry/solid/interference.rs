@@ -85,6 +85,11 @@ pub enum Verdict {
 impl Interference {
     /// Examines `pair`, made from `spec`, in one stance; `None` if its surface cannot be built. Backlash may be negative.
     pub fn new(pair: &Pair, spec: &GearSpec, stance: Stance) -> Option<Self> {
+        Self::watched(pair, spec, stance, &mut || true)
+    }
+
+    /// The same; `go_on` is asked at every position, and there is nothing when it says no.
+    pub fn watched(pair: &Pair, spec: &GearSpec, stance: Stance, go_on: &mut dyn FnMut() -> bool) -> Option<Self> {
         let skins = [Skin::new(pair, spec, 0, FACETS)?, Skin::new(pair, spec, 1, FACETS)?];
         let resolution = 2.0 * skins.iter().map(|skin| skin.coarseness(pair, spec, FACETS)).sum::<f64>();
         let nodes = [0, 1].map(|i| Vec::from_iter(skins[i].nodes.iter().map(|n| direction(n.polar, n.azimuth))));
@@ -96,10 +101,12 @@ impl Interference {
         let mut found = Vec::new();
         let mut step = pair.gears[0].tooth_pitch() / POSITIONS as f64;
         for k in 0..POSITIONS {
+            go_on().then_some(())?;
             cycle.examine(step * (k as f64 - (POSITIONS / 2) as f64), &mut found);
         }
         // refine about the worst position
         for _ in 0..HALVINGS {
+            go_on().then_some(())?;
             step /= 2.0;
             let middle = worst(&found).map_or(0.0, |approach| approach.turn);
             cycle.examine(middle - step, &mut found);

@@ -37,8 +37,7 @@ impl GeometryQuestion {
     pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
         let (design, thicken) = self.checked()?;
         watch.say(0.0, "turning the gears through a tooth pitch");
-        let check = InterferenceCheck::new(&design, thicken)?;
-        watch.go_on()?;
+        let check = InterferenceCheck::watched(&design, thicken, watch)?;
         let (dimensions, found) = (text::text(&design), check.text());
         let mut files = Map::new();
         let mut add = |name: String, content: String| files.insert(name, Value::String(content));

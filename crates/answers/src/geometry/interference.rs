@@ -4,6 +4,8 @@
 //! Depth, gap and resolution are those of `bevel_differential::geometry::solid::interference`, in millimetres at the heel
 //! and at the toe. The teeth may be taken thicker than they are made: backlash less that.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use anyhow::{Context, Result};
 use bevel_differential::geometry::assembly::phases;
 use bevel_differential::geometry::solid::Part;
@@ -13,6 +15,7 @@ use serde::Serialize;
 
 use super::design::Design;
 use crate::text::table::wrapped;
+use crate::watch::Watch;
 
 const MM: f64 = 1e3;
 const GEARS: [&str; 2] = ["planet", "side gear"];
@@ -65,13 +68,27 @@ struct ApproachReport {
 impl InterferenceCheck {
     /// Checks `design` with teeth thicker by `thicken` [m].
     pub fn new(design: &Design, thicken: f64) -> Result<Self> {
+        Self::watched(design, thicken, &mut Watch::nobody())
+    }
+
+    /// The same; `watch` may stop it.
+    pub fn watched(design: &Design, thicken: f64, watch: &mut Watch) -> Result<Self> {
         let spec = GearSpec { backlash: design.spec.backlash - thicken, ..design.spec };
         let pair = Pair::new(&spec);
-        let look = |stance| Interference::new(&pair, &spec, stance).context("the gears have no surface to look at");
+        let stopped = AtomicBool::new(false);
+        let look = |stance, go_on: &mut dyn FnMut() -> bool| {
+            let found = Interference::watched(&pair, &spec, stance, go_on);
+            found.context("the gears have no surface to look at")
+        };
         let (middle, driving) = std::thread::scope(|scope| {
-            let driving = scope.spawn(|| look(Stance::Driving));
-            (look(Stance::Middle), driving.join())
+            let driving = scope.spawn(|| look(Stance::Driving, &mut || !stopped.load(Ordering::Relaxed)));
+            let middle = look(Stance::Middle, &mut || {
+                stopped.store(watch.go_on().is_err(), Ordering::Relaxed);
+                !stopped.load(Ordering::Relaxed)
+            });
+            (middle, driving.join())
         });
+        watch.go_on()?;
         let driving = driving.map_err(|_| anyhow::anyhow!("the check of interference broke off"))??;
         Ok(Self { stances: [middle?, driving], pair, spec, thicken })
     }

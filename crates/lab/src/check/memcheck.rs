@@ -63,16 +63,20 @@ struct Checked {
 
 /// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
 #[derive(Args, Clone, Debug)]
-pub struct MemcheckCommand {}
+pub struct MemcheckCommand {
+    /// Questions at random
+    #[arg(long, default_value_t = 200)]
+    questions: usize,
+}
 
 impl MemcheckCommand {
     /// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
     pub fn run(&self) -> Result<()> {
-        run()
+        run(self.questions)
     }
 }
 
-fn run() -> Result<()> {
+fn run(count: usize) -> Result<()> {
     let progress = Progress::start("building the library and the host");
     let library = own::beside_program()?;
     let life = compiled("life", &[])?;
@@ -85,7 +89,7 @@ fn run() -> Result<()> {
     progress.stage("memcheck on calls at random");
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
     progress.stage("memcheck on questions at random");
-    let questions = ["questions", "--count", "2000", "--threads", "1"].map(OsString::from);
+    let questions = ["questions", "--threads", "1", "--count", &count.to_string()].map(OsString::from);
     checked.push(memcheck("questions at random", &this, &questions)?);
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
