@@ -12,6 +12,7 @@ pub mod interference;
 pub mod json;
 pub mod models;
 mod pair_rows;
+pub mod shape;
 pub mod stl;
 pub mod text;
 mod tooth_rows;

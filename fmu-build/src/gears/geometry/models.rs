@@ -6,6 +6,7 @@ use bevel_differential::geometry::solid::GearSolid;
 use super::assembly::{Body, IDENTITY, Position, bodies};
 use super::design::Design;
 use super::geometry_file::GeometryFile;
+use super::shape::CadShape;
 use super::{gltf, stl, xyz};
 
 /// All of them, with `facets` per flank. Solids are not crowned.
@@ -22,5 +23,7 @@ pub fn files(design: &Design, facets: usize) -> Result<Vec<GeometryFile>> {
         made.push(GeometryFile { name: format!("{name}.stl"), content: stl::binary(placed) });
         made.push(GeometryFile { name: format!("{name}.glb"), content: gltf::binary(&solids, &bodies) });
     }
+    let shape = CadShape::new(pair, spec, facets).map_err(|problem| anyhow!("{problem}"))?;
+    made.push(GeometryFile::text("shape.json", serde_json::to_string(&shape)?));
     Ok(made)
 }

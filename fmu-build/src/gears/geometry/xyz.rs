@@ -9,6 +9,7 @@ use std::fmt::Write;
 use bevel_differential::geometry::involute::{Gear, direction};
 use bevel_differential::geometry::solid::Outline;
 use bevel_differential::geometry::{GearSpec, Pair};
+use serde::Serialize;
 
 /// Default of points of a flank's curve.
 pub const POINTS: usize = 101;
@@ -17,7 +18,7 @@ pub const POINTS: usize = 101;
 pub const NAMES: [&str; 2] = ["planet", "side_gear"];
 
 /// A curve in space.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Curve {
     /// Name of its file without extension, such as `planet_left_flank_heel`.
     pub name: String,
