@@ -23,7 +23,8 @@ pub fn files(design: &Design, facets: usize) -> Result<Vec<GeometryFile>> {
         made.push(GeometryFile { name: format!("{name}.stl"), content: stl::binary(placed) });
         made.push(GeometryFile { name: format!("{name}.glb"), content: gltf::binary(&solids, &bodies) });
     }
-    let shape = CadShape::new(pair, spec, facets).map_err(|problem| anyhow!("{problem}"))?;
+    let shape = CadShape::new(pair, spec, design.parameters.material.density, facets)
+        .map_err(|problem| anyhow!("{problem}"))?;
     made.push(GeometryFile::text("shape.json", serde_json::to_string(&shape)?));
     Ok(made)
 }

@@ -31,8 +31,8 @@ from OCP.TopoDS import TopoDS
 from ..values import DifferentialError
 
 MM = 1e3
-# gaps that sewing closes: splines through the same points differ from arcs by nanometres
-SEAM = 1e-5
+# gaps that sewing closes, over the cone distance: splines through the same points differ from arcs by nanometres
+SEAM = 1e-6
 # what Open CASCADE takes for one point
 POINT = 1e-7
 # azimuths [rad] and vectors of length 1 that differ by less are equal
@@ -44,7 +44,7 @@ def gear_solid(shape, i):
     """Gear `i` of the shape, 0 planet and 1 side gear, in its own frame."""
     gear, cones = shape["gears"][i], [MM * shape[name] for name in ("inner_cone", "outer_cone")]
     foot, flank = np.array(gear["foot"]), np.array(gear["flank"])
-    sewing, teeth = BRepBuilderAPI_Sewing(SEAM), gear["teeth"]
+    sewing, teeth = BRepBuilderAPI_Sewing(SEAM * cones[1]), gear["teeth"]
     faces = [face for side in (1.0, -1.0) for face in _side(gear, cones, foot * [1, side, 1], flank * [1, side, 1])]
     faces += _lands(gear, cones, foot, flank)
     for tooth in range(teeth):

@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
     parser.add_argument("--scheduler", help="address of a dask scheduler")
-    parser.add_argument("--program", type=Path, help="fmu-build, which writes curves and solids of the chosen gears")
+    parser.add_argument("--program", type=Path, help="fmu-build, for the chosen gears as STEP, GLB and DXF")
     add_fmu(parser)
 
 
