@@ -1,13 +1,14 @@
 """The picture of the comparison: what a run of the turn costs, and whether its ripple converges."""
 
 
-import style
+from bevel_differential import style
 
 MARKERS = {"this program": "o", "MuJoCo": "s", "Drake": "^"}
 
 
 def draw(path, results):
     """Cost and ripple of the turn; a line goes from coarse to fine. `results` hold runs that keep their teeth."""
+    style.apply()
     figure, axes = style.panels(1, 1, 7.4)
     for group in dict.fromkeys(result["row"].group for result in results):
         turns = [result["cases"]["turn"] for result in results if result["row"].group == group]

@@ -12,9 +12,8 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path += [str(ROOT / "python" / "src"), str(ROOT / "fmu-build" / "python")]
-import style  # noqa: E402
-from bevel_differential import Differential  # noqa: E402
+sys.path.append(str(ROOT / "python" / "src"))
+from bevel_differential import Differential, style  # noqa: E402
 
 FIGURES = ROOT / "docs" / "figures"
 FMU = sys.argv[1] if len(sys.argv) > 1 else str(ROOT / "target" / "fmu" / "BevelDifferential.fmu")
@@ -154,6 +153,7 @@ def both(values):
 
 
 def main():
+    style.apply()
     print("| variant | TE₁, µm | TE₂, µm | TE₁ − TE₂, µm | ripple measured, % | quasi-static, % | κ√(a₁c), % |")
     print("|---|---:|---:|---:|---:|---:|---:|")
     points = []

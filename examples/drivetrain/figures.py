@@ -1,6 +1,8 @@
 """Pictures: the launch, errors by communication step, and the flow of signals."""
 
-import style
+from matplotlib.patches import Rectangle
+
+from bevel_differential import style
 from masters import ALL
 from parameters import CONNECTIONS, STEP
 
@@ -79,7 +81,7 @@ def signals(file):
     figure, axis = style.panels(1, 1, 5.2)
     for name, (x, y, text) in BOXES.items():
         own = name == "differential"
-        axis.add_patch(style.plt.Rectangle((x, y), WIDTH, HEIGHT, facecolor="#dbe9f6" if own else "#f3f3f3", edgecolor=style.TEXT))
+        axis.add_patch(Rectangle((x, y), WIDTH, HEIGHT, facecolor="#dbe9f6" if own else "#f3f3f3", edgecolor=style.TEXT))
         axis.text(x + WIDTH / 2, y + HEIGHT / 2, text, ha="center", va="center", fontsize=style.SMALL)
     for (to, _), (source, output) in CONNECTIONS.items():
         arrow(axis, source, to, output)

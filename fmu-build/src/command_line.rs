@@ -3,19 +3,22 @@
 use std::ffi::OsString;
 
 use anyhow::Result;
-use clap::{Parser, Subcommand};
+use clap::{Args as _, Parser, Subcommand};
 
 use crate::fmu::BuildCommand;
-use crate::gears::GearsCommand;
-use crate::gears::study::StudyCommand;
+use crate::study::StudyCommand;
 use crate::tools::program::{Program, Stop};
 
 /// How users call this program, and the laboratory.
 pub const PROGRAM: &str = "cargo run --release --";
 /// The same of the laboratory, which is a program of its own.
 pub const LABORATORY: &str = "cargo run -p lab --release --";
+/// How users call the Python package.
+pub const PACKAGE: &str = "bevel-differential";
+/// The commands of the Python package; those who type one here are told where it is.
+pub const IN_THE_PACKAGE: [&str; 6] = ["scene", "loads", "report", "accuracy", "geometry", "pattern"];
 /// The commands of the laboratory; those who type one here are told where it is.
-pub const IN_THE_LABORATORY: [&str; 22] = [
+pub const IN_THE_LABORATORY: [&str; 23] = [
     "cost",
     "solids",
     "stiffness",
@@ -34,6 +37,7 @@ pub const IN_THE_LABORATORY: [&str; 22] = [
     "real-time",
     "fuzz",
     "memcheck",
+    "questions",
     "memory",
     "mutants",
     "hosts",
@@ -54,8 +58,7 @@ struct CommandLine {
 #[derive(Subcommand)]
 #[allow(missing_docs)] // each command describes itself
 pub enum AnyCommand {
-    #[command(flatten)]
-    Gears(GearsCommand),
+    Study(StudyCommand),
     #[command(flatten)]
     Build(BuildCommand),
     /// Shows this overview, or the options of a command
@@ -70,7 +73,7 @@ impl AnyCommand {
     /// Runs the command.
     pub fn run(self) -> Result<()> {
         match self {
-            Self::Gears(command) => command.run(),
+            Self::Study(command) => command.run(),
             Self::Build(command) => command.run(),
             // answered while the command line is read
             Self::Help { .. } => Ok(()),
@@ -85,10 +88,16 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
     if let Some(name) = named.and_then(|word| IN_THE_LABORATORY.iter().find(|name| word == *name)) {
         return Err(Stop::Wrong(format!("{name} is in the laboratory: {LABORATORY} {name}")));
     }
+    if let Some(name) = named.and_then(|word| IN_THE_PACKAGE.iter().find(|name| word == *name)) {
+        let there = if *name == "scene" { "plan and run" } else { name };
+        return Err(Stop::Wrong(format!(
+            "{name} is in the Python package: make it by {PROGRAM} wheel, install it with pip, then {PACKAGE} {there}"
+        )));
+    }
     let program = program();
     let CommandLine { command, study } = program.parse(arguments)?;
     match command {
-        None => Ok(AnyCommand::Gears(GearsCommand::Study(study))),
+        None => Ok(AnyCommand::Study(study)),
         Some(AnyCommand::Help { command }) => Err(program.help::<CommandLine>(command)),
         Some(command) => Ok(command),
     }
@@ -99,7 +108,7 @@ fn program() -> Program {
     Program {
         call: PROGRAM,
         groups: vec![
-            ("For users of the gears:", GearsCommand::augment_subcommands(blank())),
+            ("For users of the gears:", blank().subcommand(StudyCommand::augment_args(clap::Command::new("study")))),
             ("Building the FMU:", BuildCommand::augment_subcommands(blank())),
         ],
         end: format!(
@@ -134,10 +143,7 @@ mod tests {
     fn without_a_command_the_study_runs() {
         for (words, readme) in [(&[][..], false), (&["--readme"], true), (&["study", "--readme"], true)] {
             let found = parsed(words);
-            assert!(
-                matches!(&found, Ok(AnyCommand::Gears(GearsCommand::Study(study))) if study.readme == readme),
-                "{words:?}"
-            );
+            assert!(matches!(&found, Ok(AnyCommand::Study(study)) if study.readme == readme), "{words:?}");
         }
     }
 
@@ -146,16 +152,13 @@ mod tests {
         for words in [&["cost"][..], &["cost", "--quick"], &["help", "cost"]] {
             assert_eq!(told(words), "cost is in the laboratory: cargo run -p lab --release -- cost");
         }
-        // a file may be called like one
-        assert!(parsed(&["geometry", "--out", "cost"]).is_ok());
     }
 
     #[test]
     fn a_usage_error_is_one_line_with_a_suggestion() {
         for (words, parts) in [
-            (&["geometri"][..], &["'geometri'", "'geometry'"][..]),
-            (&["geometry", "--facet", "4"], &["'--facet'", "'--facets'", "geometry --help"]),
-            (&["loads", "--out", "x"], &["--scene"]),
+            (&["pakage"][..], &["'pakage'", "'package'"][..]),
+            (&["package", "--integer"], &["'--integer'", "'--integers'", "package --help"]),
             (&["--quik"], &["'--quik'"]),
         ] {
             let line = told(words);
@@ -165,6 +168,6 @@ mod tests {
 
     #[test]
     fn a_repeated_option_counts_last() {
-        assert!(parsed(&["geometry", "--out", "a", "--out", "b"]).is_ok());
+        assert!(parsed(&["wheel", "--platforms", "linux64", "--platforms", "this-machine"]).is_ok());
     }
 }

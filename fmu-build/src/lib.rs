@@ -1,13 +1,13 @@
-//! What builds the FMU and what users ask, in rooms by reader. A room uses only rooms above it in this list;
+//! What builds the FMU and its Python package, and runs the study with them. A room uses only rooms above it in this list;
 //! [`command_line`] joins the commands of all rooms. What measures and checks is the crate `lab`.
 //!
 //! - [`tools`]: shared tools without gears in them
 //! - [`fmu`]: builds the FMU
-//! - [`gears`]: what a user of gears runs
+//! - [`study`]: the first command
 
 #![warn(missing_docs)]
 
 pub mod command_line;
 pub mod fmu;
-pub mod gears;
+pub mod study;
 pub mod tools;

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use answers::scene;
 use anyhow::Result;
 use bevel_differential::variables::table;
 use fmu_build::fmu::page::data::data;
-use fmu_build::gears::scene;
+use fmu_build::tools::paths;
 use serde_json::Value;
 
 fn page() -> Result<Value> {
@@ -37,7 +38,7 @@ fn every_scene_sets_variables_that_the_page_knows() -> Result<()> {
         .filter_map(|variable| Some((variable["name"].as_str()?, variable["kind"].as_str()?)))
         .collect();
     let scenes = page["scenes"].as_array().expect("a list");
-    assert_eq!(scenes.len(), scene::files()?.len());
+    assert_eq!(scenes.len(), scene::files(&paths::scenes())?.len());
     for scene in scenes {
         for (name, value) in scene["set"].as_object().expect("values by name") {
             let fits = match kinds[name.as_str()] {

@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::io::{Cursor, Read};
 use std::path::Path;
 
+use answers::scene;
 use anyhow::{Context, Result};
 use fmu_build::fmu::{libraries, wheel};
-use fmu_build::gears::scene;
 use fmu_build::tools::paths;
 use fmu_build::tools::python::Environment;
 use zip::ZipArchive;
@@ -58,7 +58,7 @@ fn a_wheel_has_all_it_needs_and_the_same_bytes_every_time() -> Result<()> {
         let own = fs::read_to_string(paths::workspace().join(licence))?;
         assert_eq!(text(&format!("{about}/licenses/{licence}"))?, own);
     }
-    let scenes = scene::files()?;
+    let scenes = scene::files(&paths::scenes())?;
     assert!(scenes.len() >= 10);
     for scene in scenes {
         let name = scene.file_name().context("a file")?.to_string_lossy();

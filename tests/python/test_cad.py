@@ -6,15 +6,15 @@ integrals."""
 import io
 import json
 import math
-import os
 import re
-import subprocess
 
 import numpy as np
 import outline_solids
 import pytest
 
-from bevel_differential import DifferentialError, cad
+from bevel_differential import cad
+from bevel_differential.answers import ask, assignments
+from bevel_differential.command import main
 
 MM = 1e3
 MICROMETRE = 1e-3
@@ -38,12 +38,11 @@ BOTH = pytest.mark.parametrize("i", [0, 1], ids=cad.GEARS)
 class Pair:
     """A pair of gears as the program answers with it, and as it should be."""
 
-    def __init__(self, folder, changes):
+    def __init__(self, changes):
         values = {**START, **changes}
-        told = [f"--set=geometry.{name}={value if isinstance(value, str) else repr(value)}" for name, value in changes.items()]
-        subprocess.run([os.environ["FMU_BUILD"], "geometry", *told, "--out", str(folder)], check=True, capture_output=True)
-        self.folder = folder
-        self.shape = json.loads((folder / "shape.json").read_text(encoding="utf-8"))
+        told = assignments({f"geometry.{name}": value for name, value in changes.items()})
+        self.found = ask({"ask": "geometry", "set": told, "solids": True})
+        self.shape = self.found["shape"]
         self.bores = [values["planet_bore"], values["side_bore"]]
         self.gears, cones = outline_solids.gears(values["addendum_system"], values.get)
         self.cones = np.array(cones)
@@ -58,15 +57,15 @@ class Pair:
 
 
 @pytest.fixture(scope="module", params=PAIRS)
-def pair(request, tmp_path_factory):
+def pair(request):
     """Each pair."""
-    return Pair(tmp_path_factory.mktemp(request.param), PAIRS[request.param])
+    return Pair(PAIRS[request.param])
 
 
 @pytest.fixture(scope="module")
-def bored(tmp_path_factory):
+def bored():
     """The pair with bores and four planets."""
-    return Pair(tmp_path_factory.mktemp("one"), PAIRS["bored"])
+    return Pair(PAIRS["bored"])
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -264,7 +263,7 @@ def test_a_drawing_has_the_exact_outlines_and_the_dimensions_of_the_table(bored,
         flanks = np.concatenate([points for points in curves if polar_of(points).max() > gear.tip - 1e-6])
         off = cone * np.sin(gear.base) * (beside(flanks, gear.teeth) - gear.half_angle(polar_of(flanks)))
         assert np.abs(off).max() < MICROMETRE
-    table = json.loads((bored.folder / "dimensions.json").read_text(encoding="utf-8"))[cad.GEARS[i]]
+    table = json.loads(bored.found["files"]["dimensions.json"])[cad.GEARS[i]]
     names = ["outer_tip_diameter_on_sphere", "outer_root_diameter_on_sphere", "apex_to_crown_on_sphere",
              "apex_to_outer_root_on_sphere", "apex_to_inner_root_on_sphere", "pitch_angle_delta", "face_angle_delta_a",
              "root_angle_delta_f"]
@@ -273,25 +272,12 @@ def test_a_drawing_has_the_exact_outlines_and_the_dimensions_of_the_table(bored,
         assert min(abs(value - wanted) for value in drawn) < 1e-9
 
 
-def test_curves_as_texts_lie_on_the_involute_within_a_nanometre(pair):
-    for gear, name in zip(pair.gears, cad.GEARS, strict=True):
-        texts = cad.curves(pair.shape, name)
-        ends = {"heel": MM * pair.cones[1], "toe": MM * pair.cones[0]}
-        assert set(texts) == {f"{name}_{what}_{end}" for what in ("left_flank", "right_flank", "outline") for end in ends}
-        for side, sign in (("left", 1.0), ("right", -1.0)):
-            for end, cone in ends.items():
-                points = np.loadtxt(io.BytesIO(texts[f"{name}_{side}_flank_{end}"]))
-                polar, azimuth = polar_of(points), np.arctan2(points[:, 1], points[:, 0])
-                assert np.abs(np.linalg.norm(points, axis=1) - cone).max() < 1e-6
-                assert np.abs(cone * np.sin(polar) * (sign * azimuth - gear.half_angle(polar))).max() < 1e-6
-                assert [polar[0], polar[-1]] == pytest.approx([max(gear.base, gear.root), gear.tip], abs=1e-9)
-
-
-def test_files_are_written_by_kind_and_part_or_not_at_all(bored, tmp_path):
-    written = cad.write(bored.shape, tmp_path / "new", ["step", "dxf", "stl"], ["planet", "assembly"])
-    assert [path.name for path in written] == ["planet.step", "planet.dxf", "planet.stl", "assembly.step", "assembly.stl"]
-    assert all(path.stat().st_size > 10_000 for path in written)
-    for kinds, parts, wrong in ((["iges"], ["planet"], "iges"), (["step"], ["carrier"], "carrier")):
-        with pytest.raises(DifferentialError, match=wrong):
-            cad.write(bored.shape, tmp_path / "none", kinds, parts)
-    assert not (tmp_path / "none").exists()
+def test_files_are_written_by_kind_and_part_or_not_at_all(tmp_path, capsys):
+    told = ["geometry", "--out", str(tmp_path / "new"), "--step", "--dxf", "--stl", "--part", "planet", "--part", "assembly"]
+    assert main(told) == 0
+    made = {"planet.step", "planet.dxf", "planet.stl", "assembly.step", "assembly.stl"}
+    files = {path.name: path.stat().st_size for path in (tmp_path / "new").iterdir()}
+    assert {name for name in files if not name.endswith((".txt", ".json"))} == made and made < set(capsys.readouterr().out.split())
+    assert all(files[name] > 10_000 for name in made)
+    assert main(["geometry", "--out", str(tmp_path / "none"), "--stl", "--facets", "201"]) == 2
+    assert "facets 201: must be a whole number from 2 to 200" in capsys.readouterr().err and not (tmp_path / "none").exists()

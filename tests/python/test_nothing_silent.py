@@ -1,6 +1,5 @@
 """A value that changes nothing in a scene is a warning by name, with what would let it act; wherever a scene is set up."""
 
-import os
 import subprocess
 import sys
 import warnings
@@ -9,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene, shipped_scenes
+from bevel_differential.answers import about, ask
 from bevel_differential.command import main
 from bevel_differential.instance import UNFELT
 from bevel_differential.spectrum import Event, spectrum
@@ -130,7 +130,7 @@ def test_the_plan_of_a_scene_says_it_of_the_start_and_of_what_is_set_later(tmp_p
     file.write_text((SCENES / "study_turning.toml").read_text() + "limited_slip.preload = 80.0\n"
                     "[[at]]\ntime = 0.1\nleft.brake_torque = 90.0\n[[at]]\ntime = 0.2\nleft.brake_torque = 95.0\n"
                     "[[table]]\ninput = \"right.brake_torque\"\ntime = [0.0, 0.3]\nvalue = [0.0, 20.0]\n", encoding="utf-8")
-    printed = subprocess.run([os.environ["FMU_BUILD"], "scene", str(file)], capture_output=True, text=True, check=True).stdout
+    printed = ask({"ask": "plan", "of": about(file)})["text"]
     said = [line.split()[1].rstrip(":") for line in printed.splitlines() if UNFELT in line]
     assert said == ["limited_slip.preload", "left.brake_torque", "right.brake_torque"]
 

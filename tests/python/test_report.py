@@ -67,7 +67,7 @@ def test_effects_that_are_off_are_tried_and_refusals_are_the_fmus_own(fmu_file):
 
 
 def test_report_and_accuracy_agree_on_the_kinds_of_effects():
-    source = Path(__file__).parents[2] / "fmu-build" / "src" / "gears" / "accuracy" / "switches.rs"
+    source = Path(__file__).parents[2] / "crates" / "answers" / "src" / "accuracy" / "switches.rs"
     text = source.read_text(encoding="utf-8")
 
     def of(name):

@@ -1,4 +1,4 @@
-"""Scenes reach the FMU: the parameter sets and scripts that the command `scene` writes, against its own record."""
+"""Scenes reach the FMU: the parameter sets and scripts that the command `plan` writes, against a record by the library itself."""
 
 import csv
 import os
@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pytest
 from fmpy.ssp.ssd import read_ssv
+
+from bevel_differential.answers import about, ask
+from bevel_differential.command import main
 
 ROOT = Path(__file__).parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
@@ -51,20 +54,18 @@ period = "7 ms"
 [[inputs]]
 file = "cycle.csv"
 """
-CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n11.1,90\n"
+CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n4.25,97\n4.25,101\n11.1,90\n"
 
 
 @pytest.fixture(scope="module")
 def scene_command():
-    """scene_command(NAME, …): runs the command `scene` of the program under test."""
-    program = os.environ.get("FMU_BUILD", "")
-    if not os.path.isfile(program):
-        pytest.fail("FMU_BUILD does not name the program; use: cargo run -p lab --release -- test-python")
-
-    def run(*arguments):
-        done = subprocess.run([program, "scene", *map(str, arguments)], capture_output=True, text=True, encoding="utf-8")
-        assert done.returncode == 0, done.stderr
-        return done.stdout
+    """scene_command(NAME, options of `plan`, csv=FILE): writes the scene for others, and a record by the library itself."""
+    def run(name, *arguments, csv=None):
+        assert main(["plan", *map(str, (name, *arguments))]) == 0
+        if csv is None:
+            return None
+        changes = dict(arguments[i + 1].split("=") for i, word in enumerate(arguments) if word == "--set")
+        return ask({"ask": "run", "of": about(name, changes), "out": csv})["text"]
 
     return run
 
@@ -100,7 +101,7 @@ def run_script(script, fmu_file):
 
 def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tmp_path):
     own = tmp_path / "own.csv"
-    printed = scene_command(scene, "--csv", own, "--python", tmp_path / "script.py")
+    printed = scene_command(scene, "--python", tmp_path / "script.py", csv=own)
     shown, theirs = run_script(tmp_path / "script.py", fmu_file)
     (own_comments, own_head, own_rows), (comments, head, rows) = recorded(own), recorded(theirs)
     assert (comments, head, len(rows)) == (own_comments, own_head, len(own_rows))
@@ -123,7 +124,7 @@ def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_fi
     changes = ["--set", "stop_time=20.5 ms", "--set", "step=0.3ms", "--set", "left.load_torque=600 N.m",
                "--set", "scene.start=equilibrium"]
     own = tmp_path / "own.csv"
-    scene_command("one_wheel_on_ice", *changes, "--csv", own, "--python", tmp_path / "script.py")
+    scene_command("one_wheel_on_ice", *changes, "--python", tmp_path / "script.py", csv=own)
     _, theirs = run_script(tmp_path / "script.py", fmu_file)
     assert recorded(theirs) == recorded(own)
     assert len(recorded(own)[2]) == 70 and float.fromhex(recorded(own)[2][-1][0]) == 0.0205
@@ -131,7 +132,7 @@ def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_fi
 
 def test_a_parameter_set_is_valid_and_starts_the_scene(scene_command, scene, fmu, tmp_path):
     file, record = tmp_path / "set.ssv", tmp_path / "own.csv"
-    scene_command(scene, "--ssv", file, "--csv", record, "--set", "stop_time=1e-4", "--set", "step=1e-4")
+    scene_command(scene, "--ssv", file, "--set", "stop_time=1e-4", "--set", "step=1e-4", csv=record)
     # against the schema of SSP 1.0 that fmpy has
     parameters = read_ssv(str(file), validate=True).parameters
     names = [parameter.name for parameter in parameters]

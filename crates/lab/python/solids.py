@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import style
-from records import read
-from style import BLUE, FAINT, INK, RED, TEXT
+from bevel_differential import style
+from bevel_differential.records import read
+from bevel_differential.style import BLUE, FAINT, INK, RED, TEXT
 
 # smoothing: colour, marker, name
 KINDS = {0.02: (RED, "s", "deepest point"), 1.0: (BLUE, "o", "patch (default)")}
@@ -29,6 +29,7 @@ PANELS = [
 
 
 def main():
+    style.apply()
     folder = Path(sys.argv[1])
     machine, rows = read(folder / "solids.csv")
     convergence(folder, machine, rows)

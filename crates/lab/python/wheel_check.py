@@ -17,7 +17,7 @@ import numpy as np
 import pandas as pd
 from bevel_differential import Differential, Scene, shipped_scenes
 from bevel_differential.fmu import shipped
-from bevel_differential.scene_file import folder
+from bevel_differential.answers import scenes as folder
 from fmpy import simulate_fmu
 
 # a turn and its closed form: the side gears turn at the carrier's speed plus and minus 10/16 of the planets' spin, deg/s
@@ -86,6 +86,29 @@ def sweep():
     return f"bevel-differential sweep: {len(table)} runs"
 
 
+# each with what it prints and the files that it leaves
+COMMANDS = [
+    (["plan", "torque_bias", "--ssv", "bias.ssv", "--python", "bias.py"], "cost class", ["bias.ssv", "bias.py"]),
+    (["accuracy", "torque_bias", "--within", "1%", "--csv", "runs.csv", "--plot", "front.png", "--write", "reduced.toml"],
+     "Needed", ["runs.csv", "front.png", "reduced.toml"]),
+    (["run", "reduced.toml", "--csv", "reduced.csv"], "torque_bias_ratio", ["reduced.csv"]),
+    (["loads", "study_turning", "--every", "10 ms", "--out", "loads.csv"], "loads of tooth pairs", ["loads.csv"]),
+    (["geometry", "--set", "geometry.module=4mm", "--out", "gears"], "no interference", ["gears/dimensions.json"]),
+    (["pattern", "study_turning", "--set", "scene.gear_contact=solid", "--out", "marks"], "toe / heel", ["marks/contact_pattern.png"]),
+    (["report", "--scene", "clunk", "--quick", "--out", "clunk.html"], "written", ["clunk.html"]),
+    (["study", "--out", "study"], "turn: left, deg/s", ["study/speeds.png", "study/study_turning.html"]),
+]
+
+
+def commands():
+    for arguments, printed, files in COMMANDS:
+        found = called(Path(sys.executable).with_name("bevel-differential"), *arguments)
+        assert printed in found, f"{arguments}: prints\n{found}"
+        for file in files:
+            assert Path(file).stat().st_size > 100, f"{arguments}: {file}"
+    return f"bevel-differential {', '.join(arguments[0] for arguments, *_ in COMMANDS)}"
+
+
 def called(*command):
     """What a program prints; its messages are the error if it fails."""
     done = subprocess.run([str(word) for word in command], check=False, capture_output=True, text=True, encoding="utf-8",
@@ -96,7 +119,7 @@ def called(*command):
 
 def main():
     pages = [Path(page) for page in sys.argv[1:]]
-    for check in [no_rust_and_no_checkout, scenes, *(lambda page=page: examples(page) for page in pages), same_bits, sweep]:
+    for check in [no_rust_and_no_checkout, scenes, *(lambda page=page: examples(page) for page in pages), same_bits, sweep, commands]:
         print(check())
 
 

@@ -8,12 +8,12 @@ use std::time::Instant;
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
+use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::{Table, for_terminal};
 
 /// The commands with their options for a run of all, checks that need no idle machine last.
-const COMMANDS: [&[&str]; 18] = [
+const COMMANDS: [&[&str]; 19] = [
     &["prices", "--quick"],
     &["cost", "--quick"],
     &["real-time"],
@@ -25,6 +25,7 @@ const COMMANDS: [&[&str]; 18] = [
     &["compare-simulators", "--quick"],
     &["drivetrain", "--quick"],
     &["fuzz", "--calls", "100000"],
+    &["questions"],
     &["memcheck"],
     &["hosts"],
     &["platforms"],

@@ -18,12 +18,11 @@ import numpy as np
 import trimesh
 from matplotlib.patheffects import withStroke
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
-import style  # noqa: E402
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "python" / "src"))
+from bevel_differential import style  # noqa: E402
 
 mitsuba.set_variant("scalar_rgb")
-
-ROOT = Path(__file__).resolve().parents[3]
 STEEL, BRASS, SHAFT, CARRIER = (0.24, 0.40, 0.64), (0.84, 0.53, 0.14), (0.42, 0.44, 0.47), (0.16, 0.17, 0.19)
 # metres: radius of half-shafts and pin, and the carrier as a hoop about both
 SHAFT_RADIUS, PIN_RADIUS = 12e-3, 7.5e-3
@@ -46,6 +45,7 @@ RAYS, ICON_RAYS, QUICK_RAYS = 144, 400, 16
 
 
 def main():
+    style.apply()
     arguments = [argument for argument in sys.argv[1:] if argument != "--quick"]
     folder, picture, icon = (Path(argument) for argument in arguments + [
         ROOT / "target" / "geometry", ROOT / "docs" / "figures" / "gears.png",

@@ -14,8 +14,8 @@ use clap::Args;
 
 use crate::fmu::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use crate::fmu::effect_list;
-use crate::fmu::xml::Element;
 use crate::tools::paths;
+use answers::text::xml::Element;
 
 /// Fixed, so that the same sources give the same bytes.
 const GENERATION_TIME: &str = "2026-01-01T00:00:00Z";

@@ -6,8 +6,8 @@ use bevel_differential::variables::{Access, Causality, MODEL_NAME, Variability, 
 
 use crate::fmu::libraries::Library;
 use crate::fmu::licences::LinkedPart;
-use crate::fmu::xml::Element;
-use crate::tools::numbers::short;
+use answers::text::numbers::short;
+use answers::text::xml::Element;
 
 /// Significant digits of start values and of limits.
 const START_DIGITS: u32 = 6;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::fmu::documentation::{start, unit};
 use crate::tools::paths;
 use crate::tools::sections::{self, MarkedSection};
-use crate::tools::table::Table;
+use answers::text::table::Table;
 
 type Declared = bevel_differential::model::effects::Declared;
 

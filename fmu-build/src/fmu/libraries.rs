@@ -11,8 +11,8 @@ use crate::fmu::toolchains::{self, GLIBC, UnpackedToolchain, WINDOWS, WINDOWS_TA
 use crate::tools::python::Environment;
 use crate::tools::{paths, progress};
 
-/// The crate that is the FMU.
-pub const CRATE: &str = "bevel-differential";
+/// The crate that is the FMU, and the one that answers questions for the Python package.
+pub const CRATES: [&str; 2] = ["bevel-differential", "answers"];
 
 /// Whether the tool chains for other machines run here.
 pub(super) const CROSS: bool = cfg!(all(target_os = "linux", target_arch = "x86_64"));
@@ -35,6 +35,8 @@ pub struct Library {
     pub ending: &'static str,
     /// What was built.
     pub file: PathBuf,
+    /// The library of answers, which was built along with it.
+    pub answers: PathBuf,
     /// What a machine needs, in words.
     pub needs: String,
     /// What the linker adds to the crates and Rust's standard library.
@@ -111,13 +113,13 @@ pub fn for_this_machine() -> Result<Library> {
         "win64" => "Windows on x86-64",
         _ => "macOS",
     };
-    let file = own::packable().or_else(|why| {
+    let [file, answers] = own::packable().or_else(|why| {
         progress::note(&format!("{why:#}: the library is compiled once more, which takes minutes"));
         let mut command = Command::new(cargo());
         command.arg("build");
         distributable(command, "this-machine", HOST.1, &[])
     })?;
-    Ok(Library { platform: HOST.0, ending: HOST.1, file, needs: needs.into(), added: Vec::new() })
+    Ok(Library { platform: HOST.0, ending: HOST.1, file, answers, needs: needs.into(), added: Vec::new() })
 }
 
 /// Builds the dynamic library of `package`, which is not the FMU's, for this machine with cargo and returns its path.
@@ -125,7 +127,8 @@ pub fn build_library(package: &str) -> Result<PathBuf> {
     let mut command = Command::new(cargo());
     // with the program, whose choice of features it shares: what both stand on is compiled once
     command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
-    built_by(command, package, HOST.1)
+    let [library] = built_by(command, [package], HOST.1)?;
+    Ok(library)
 }
 
 fn for_old_linux(tools: &Environment) -> Result<Library> {
@@ -136,7 +139,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         .env("CARGO", cargo())
         .env("PATH", toolchains::path_with(&programs)?)
         .env("ZIG_GLOBAL_CACHE_DIR", paths::toolchains().join("zig-cache"));
-    let file = distributable(command, "linux64", "so", &[])?;
+    let [file, answers] = distributable(command, "linux64", "so", &[])?;
     let unwinder = AddedPart {
         name: "LLVM libunwind",
         licence: "Apache-2.0 WITH LLVM-exception",
@@ -146,6 +149,7 @@ fn for_old_linux(tools: &Environment) -> Result<Library> {
         platform: "linux64",
         ending: "so",
         file,
+        answers,
         needs: format!("Linux on x86-64 with glibc {GLIBC} or newer"),
         added: vec![unwinder],
     })
@@ -179,7 +183,7 @@ fn for_windows_by_rustup() -> Result<Library> {
 
 /// The library that `command` builds with the MinGW under `root`.
 fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Library> {
-    let file = distributable(command, "win64", "dll", options)?;
+    let [file, answers] = distributable(command, "win64", "dll", options)?;
     let text = |package: &str| root.join("usr").join("share").join("doc").join(package).join("copyright");
     let added = vec![
         AddedPart {
@@ -193,12 +197,19 @@ fn windows_library(command: Command, root: &Path, options: &[&str]) -> Result<Li
             text: text("gcc-mingw-w64-base"),
         },
     ];
-    Ok(Library { platform: "win64", ending: "dll", file, needs: "Windows on x86-64, no other software".into(), added })
+    Ok(Library {
+        platform: "win64",
+        ending: "dll",
+        file,
+        answers,
+        needs: "Windows on x86-64, no other software".into(),
+        added,
+    })
 }
 
-/// Builds the library for an FMU by `options` of the compiler, without paths of this machine. It has a separate
+/// Builds the libraries of [`CRATES`] by `options` of the compiler, without paths of this machine. It has a separate
 /// target folder, because the compiler may differ, and its options always do.
-fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<PathBuf> {
+fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str]) -> Result<[PathBuf; 2]> {
     let options: Vec<String> =
         without_folders().into_iter().chain(options.iter().map(|&option| option.into())).collect();
     command
@@ -207,7 +218,7 @@ fn distributable(mut command: Command, name: &str, ending: &str, options: &[&str
         // whatever the rest is built with: one unit inlines what matters
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
-    built_by(command, CRATE, ending).with_context(|| format!("the library for {name}"))
+    built_by(command, CRATES, ending).with_context(|| format!("the library for {name}"))
 }
 
 /// Options that replace the folders of this machine in the locations of panics.
@@ -233,28 +244,34 @@ pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
     known
 }
 
-/// The library that `command`, cargo with a target, builds of `package`.
-fn built_by(mut command: Command, package: &str, ending: &str) -> Result<PathBuf> {
+/// The libraries that `command`, cargo with a target, builds of `packages`. In one go, so that what they share is compiled once.
+fn built_by<const N: usize>(mut command: Command, packages: [&str; N], ending: &str) -> Result<[PathBuf; N]> {
     let output = command
         .current_dir(paths::workspace())
-        .args(["--release", "-p", package, "--lib", "--quiet", "--message-format", "json-render-diagnostics"])
+        .args(["--release", "--lib", "--quiet", "--message-format", "json-render-diagnostics"])
+        .args(packages.iter().flat_map(|package| ["-p", package]))
         .output()
         .with_context(|| format!("{} cannot be run", command.get_program().display()))?;
     if !output.status.success() {
         bail!("the library does not build:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
     }
     let artifacts = String::from_utf8_lossy(&output.stdout);
-    let library = artifacts.lines().filter_map(|line| library_in(line, ending)).next_back();
-    library.with_context(|| format!("cargo built no .{ending} file"))
+    let built = packages.map(|package| {
+        let crate_name = package.replace('-', "_");
+        artifacts.lines().filter_map(|line| library_in(line, &crate_name, ending)).next_back()
+    });
+    let complete: Option<Vec<PathBuf>> = built.into_iter().collect();
+    complete.and_then(|built| built.try_into().ok()).with_context(|| format!("cargo built no .{ending} file"))
 }
 
-/// The dynamic library named in one line of cargo's messages.
-fn library_in(line: &str, ending: &str) -> Option<PathBuf> {
+/// The dynamic library of a crate named in one line of cargo's messages.
+fn library_in(line: &str, crate_name: &str, ending: &str) -> Option<PathBuf> {
     let message: serde_json::Value = serde_json::from_str(line).ok()?;
     let is_cdylib = message["target"]["kind"].as_array()?.iter().any(|kind| kind == "cdylib");
     let files = message["filenames"].as_array()?.iter().filter_map(|name| name.as_str()).map(Path::new);
     let mut libraries = files.filter(|file| file.extension().is_some_and(|found| found == ending));
-    if is_cdylib { libraries.next().map(Path::to_path_buf) } else { None }
+    let is_meant = is_cdylib && message["target"]["name"] == crate_name;
+    if is_meant { libraries.next().map(Path::to_path_buf) } else { None }
 }
 
 /// The cargo that runs this program, or the one in PATH.

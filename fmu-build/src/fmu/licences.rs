@@ -9,7 +9,7 @@ use std::process::Command;
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
 
-use crate::fmu::libraries::{CRATE, Library, cargo};
+use crate::fmu::libraries::{Library, cargo};
 use crate::tools::paths;
 
 /// Beginnings of the names of files that hold licences, in small letters.
@@ -43,10 +43,10 @@ pub struct Licences {
     pub linked: Vec<LinkedPart>,
 }
 
-/// Collects the licences of `libraries`. A part without a text is an error.
-pub fn collected(libraries: &[Library]) -> Result<Licences> {
+/// Collects the licences of `libraries` of the crate `package`. A part without a text is an error.
+pub fn collected(package: &str, libraries: &[Library]) -> Result<Licences> {
     let mut found = Licences { files: Vec::new(), linked: Vec::new() };
-    for (name, folder) in linked_crates()? {
+    for (name, folder) in linked_crates(package)? {
         let own = folder.path == paths::workspace();
         let place = if own { String::new() } else { format!("{name}/") };
         let mut texts = texts_in(&folder.path)?;
@@ -117,9 +117,9 @@ struct CrateSource {
 }
 
 /// The crates linked into the library on any platform, by name and version.
-fn linked_crates() -> Result<BTreeMap<String, CrateSource>> {
+fn linked_crates(package: &str) -> Result<BTreeMap<String, CrateSource>> {
     let tree =
-        cargo_output(&["tree", "-p", CRATE, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
+        cargo_output(&["tree", "-p", package, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
     let mut wanted: Vec<(&str, &str)> = tree
         .lines()
         .filter_map(|line| {

@@ -15,7 +15,6 @@ pub mod plain_types;
 pub mod platforms;
 pub mod toolchains;
 pub mod wheel;
-pub mod xml;
 
 use anyhow::Result;
 use clap::Subcommand;

@@ -1,29 +1,28 @@
 //! The library that cargo built along with this program. It is packed for this machine, so that nothing is compiled twice.
 
 use std::env;
-use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::fmu::libraries::folders;
+use crate::fmu::libraries::{CRATES, folders};
 use crate::tools::paths;
 
-/// The library's file, by the system's rules for names.
-const NAMES: [&str; 3] = [env::consts::DLL_PREFIX, "bevel_differential", env::consts::DLL_SUFFIX];
 /// Shorter paths are not looked for: a few bytes may mean something else.
 const SHORTEST: usize = 4;
 
-/// The library as cargo left it beside this program, as it is. An error says why it cannot be used.
+/// The FMU's library as cargo left it beside this program, as it is. An error says why it cannot be used.
 pub fn beside_program() -> Result<PathBuf> {
+    beside(CRATES[0])
+}
+
+/// The same of any crate.
+fn beside(package: &str) -> Result<PathBuf> {
     ensure!(!cfg!(debug_assertions), "this program was built without --release");
     let program = env::current_exe().context("this program does not know its own file")?;
-    let beside = program.parent().context("this program lies in no folder")?;
-    // programs of tests lie among their dependencies
-    let deps = if beside.file_name() == Some(OsStr::new("deps")) { beside.to_path_buf() } else { beside.join("deps") };
-    let library = deps.join(NAMES.concat());
+    let library = paths::built(package)?;
     // program and library are linked from one compilation, the program last; a later library is another one
     let written = |file: &Path| -> Result<SystemTime> {
         let modified = fs::metadata(file).and_then(|metadata| metadata.modified());
@@ -37,16 +36,21 @@ pub fn beside_program() -> Result<PathBuf> {
     Ok(library)
 }
 
-/// A copy of it without the folders of this machine.
-pub fn packable() -> Result<PathBuf> {
-    let library = beside_program()?;
-    let mut content = fs::read(&library).with_context(|| format!("{} cannot be read", paths::shown(&library)))?;
+/// Copies of the libraries of [`CRATES`] without the folders of this machine.
+pub fn packable() -> Result<[PathBuf; 2]> {
+    let [fmu, answers] = CRATES.map(|package| beside(package).and_then(|library| cleaned(&library)));
+    Ok([fmu?, answers?])
+}
+
+/// A copy of `library` without the folders of this machine.
+fn cleaned(library: &Path) -> Result<PathBuf> {
+    let mut content = fs::read(library).with_context(|| format!("{} cannot be read", paths::shown(library)))?;
     for (folder, name) in folders() {
         overwrite(&mut content, folder.as_os_str().as_encoded_bytes(), name.as_bytes());
     }
     let folder = paths::target().join("cross").join("this-machine");
     paths::create_folder(&folder)?;
-    let copy = folder.join(NAMES.concat());
+    let copy = folder.join(library.file_name().unwrap_or_default());
     // complete or not there, as others may pack at the same time
     let partial = copy.with_extension(format!("{}.part", std::process::id()));
     fs::write(&partial, content)

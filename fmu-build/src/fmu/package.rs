@@ -10,7 +10,7 @@ use clap::Args;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use crate::fmu::libraries::{self, Library};
+use crate::fmu::libraries::{self, CRATES, Library};
 use crate::fmu::page::{self, Page};
 use crate::fmu::{describe, documentation, effect_list, licences, plain_types};
 use crate::tools::paths;
@@ -120,7 +120,7 @@ fn entries(libraries: &[Library], page: Option<&[u8]>) -> Result<Vec<ArchiveFile
         let path = format!("binaries/{}/{MODEL_NAME}.{}", library.platform, library.ending);
         entries.push(ArchiveFile { path, content: read(&library.file)?, permissions: EXECUTABLE });
     }
-    let licences = licences::collected(libraries)?;
+    let licences = licences::collected(CRATES[0], libraries)?;
     let live = page.map(|_| page::FILE);
     let index = documentation::page(libraries, &licences.linked, live)?;
     entries.push(plain("documentation/index.html".into(), index.into_bytes()));

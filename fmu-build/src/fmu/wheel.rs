@@ -3,15 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use answers::scene;
 use anyhow::{Context, Result};
 use bevel_differential::variables::MODEL_NAME;
 use clap::Args;
 
-use crate::fmu::libraries::Library;
+use crate::fmu::libraries::{CRATES, Library};
+use crate::fmu::licences;
 use crate::fmu::package::{self, Packing};
 use crate::fmu::page::{self, Page};
 use crate::fmu::platforms::{self, Platform};
-use crate::gears::scene;
 use crate::tools::files::{copy_file, copy_folder};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -89,7 +90,7 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     for licence in LICENCES {
         copy_file(&from.join(licence), &to)?;
     }
-    for scene in scene::files()? {
+    for scene in scene::files(&paths::scenes())? {
         copy_file(&scene, &package.join("scenes"))?;
     }
     // beside the FMU, not in it: its address stays, and links to set-ups with it
@@ -97,6 +98,17 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
         let folder = package.join("page");
         paths::create_folder(&folder)?;
         fs::write(folder.join(page::FILE), page).context("the page cannot be written")?;
+    }
+    for Library { platform, answers, .. } in libraries {
+        copy_file(answers, &package.join("answers").join(platform))?;
+    }
+    // what the FMU's library links too has its texts in the FMU
+    let known: Vec<String> =
+        licences::collected(CRATES[0], &[])?.files.into_iter().map(|licence| licence.path).collect();
+    for licence in licences::collected(CRATES[1], &[])?.files.iter().filter(|licence| !known.contains(&licence.path)) {
+        let file = package.join("answers").join("licenses").join(&licence.path);
+        paths::create_folder(file.parent().unwrap_or(&file))?;
+        fs::write(&file, &licence.text).context("a licence cannot be written")?;
     }
     package::write_archive(libraries, None, Packing::Small, &package.join(format!("{MODEL_NAME}.fmu")))
 }

@@ -1,14 +1,10 @@
 //! Shared tools: tables, marked sections of documents, paths, progress, Python. Nothing here knows gears or the FMU, and
 //! nothing here uses another room.
 
-pub mod csv_file;
 pub mod files;
-pub mod numbers;
 pub mod paths;
 pub mod program;
 pub mod progress;
 pub mod python;
 pub mod script;
 pub mod sections;
-pub mod table;
-pub mod usage;

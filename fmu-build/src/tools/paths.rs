@@ -4,7 +4,7 @@ use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 
 /// Root of the workspace, known at compile time: this program belongs to its workspace.
 pub fn workspace() -> PathBuf {
@@ -23,20 +23,18 @@ pub fn target() -> PathBuf {
         .unwrap_or_else(|| workspace().join("target"))
 }
 
+/// The dynamic library of a crate that cargo built along with this program.
+pub fn built(package: &str) -> Result<PathBuf> {
+    let program = env::current_exe().context("this program does not know its own file")?;
+    let beside = program.parent().context("this program lies in no folder")?;
+    // programs of tests lie among their dependencies
+    let deps = if beside.ends_with("deps") { beside.to_path_buf() } else { beside.join("deps") };
+    Ok(deps.join([env::consts::DLL_PREFIX, &package.replace('-', "_"), env::consts::DLL_SUFFIX].concat()))
+}
+
 /// Makes `folder` and its parents unless they exist.
 pub fn create_folder(folder: &Path) -> Result<()> {
     fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", shown(folder)))
-}
-
-/// Says before long work that `file` could not be written after it, as its folder is not there.
-pub fn ensure_parent(file: &Path) -> Result<()> {
-    let parent = file.parent().filter(|parent| !parent.as_os_str().is_empty());
-    ensure!(
-        parent.is_none_or(Path::is_dir),
-        "{} cannot be written: its folder is not there; make the folder or choose another",
-        shown(file)
-    );
-    Ok(())
 }
 
 /// The packaged FMU.
@@ -62,11 +60,6 @@ pub fn toolchains() -> PathBuf {
 /// Results of the study.
 pub fn study() -> PathBuf {
     target().join("study")
-}
-
-/// Reports of scenes.
-pub fn report() -> PathBuf {
-    target().join("report")
 }
 
 /// The scenes kept in the repository.

@@ -7,7 +7,7 @@ use anyhow::Result;
 use clap::Parser;
 use clap::error::ErrorKind;
 
-use super::usage::UsageError;
+use answers::problem::Problems;
 
 /// Exit code of usage errors.
 const USAGE: u8 = 2;
@@ -116,7 +116,7 @@ pub fn end(outcome: Result<()>) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error:#}");
-            if error.is::<UsageError>() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
+            if error.is::<Problems>() { ExitCode::from(USAGE) } else { ExitCode::FAILURE }
         }
     }
 }

@@ -149,6 +149,8 @@ impl Environment {
         let mut command = self.interpreter().command();
         command
             .env("PYTHONPATH", folders.join(separator))
+            .envs(paths::built("answers").map(|library| ("BEVEL_DIFFERENTIAL_ANSWERS", library)))
+            .env("BEVEL_DIFFERENTIAL_SCENES", paths::scenes())
             .env("PYTHONDONTWRITEBYTECODE", "1")
             .env("PYTHONUTF8", "1")
             .env("MPLBACKEND", "Agg")

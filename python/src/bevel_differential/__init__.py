@@ -11,10 +11,11 @@
 1079.00 deg/s
 """
 
+from .accuracy import Accuracy, accuracy
 from .differential import Differential
 from .fmu import Fmu
 from .scene import Scene
 from .scene_file import shipped_scenes
 from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "shipped_scenes"]
+__all__ = ["Accuracy", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "Scene", "accuracy", "shipped_scenes"]

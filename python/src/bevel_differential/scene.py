@@ -48,7 +48,7 @@ class Scene:
     def load(cls, what: FileName, fmu: FileName | Fmu | None = None) -> Self:
         """The scene in the TOML file `what`, or the shipped one of that name. All errors in a file are reported at once."""
         file = find(what)
-        return cls(fmu=fmu, **read_scene(file, Fmu.of(fmu)))
+        return cls(fmu=fmu, **read_scene(file))
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""
@@ -148,6 +148,17 @@ class Scene:
     def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, self.name, self.description, file)
+
+    def contents(self) -> dict[str, Any]:
+        """The contents of a scene file with the same meaning."""
+        def plain(values):
+            return {name: self.fmu.variable(name).written(value) for name, value in values.items()}
+
+        tables = [{"input": name, "time": [seconds("time", time) for time in times],
+                   "value": [self.fmu.variable(name).number(value) for value in values], **({"period": period} if period else {})}
+                  for name, times, values, period in self.tables]
+        return {"description": self.description, "stop_time": self.stop, "step": self.step, "outputs": self.outputs,
+                "set": plain(self.values), "at": [{"time": time, **plain(values)} for time, values in self.changes], "table": tables}
 
     def close(self) -> None:
         """Frees all instances."""

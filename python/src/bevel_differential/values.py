@@ -29,11 +29,14 @@ _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2",
 class DifferentialError(ValueError):
     """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
 
-    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None."""
+    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None. `kind`: "use" if
+    what was asked makes no sense. `problems`: what is wrong as dicts, each with a `message` and, where they are known, `variable`,
+    `value`, `unit`, `range` and `hint`."""
 
-    def __init__(self, message: str, status: int | None = None):
+    def __init__(self, message: str, status: int | None = None, kind: str | None = None,
+                 problems: Sequence[Mapping[str, object]] = ()):
         super().__init__(message)
-        self.status = status
+        self.status, self.kind, self.problems = status, kind, list(problems)
 
 
 class DifferentialWarning(UserWarning):
@@ -91,6 +94,11 @@ class Variable:
         if isinstance(value, str):
             return self._whole(self._parsed(value))
         return self._whole(self._float(value, value))
+
+    def written(self, value: Value) -> Number | str:
+        """`value` as scene files have it: SI, bool, or a literal's name."""
+        number = self.number(value)
+        return next((name for name, literal in self.literals.items() if literal == number), number)
 
     def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
         """Values of the texts in a list or range, `written` as a whole. A unit that only some of them have is an error: in

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-import style
+from bevel_differential import style
 
 
 def draw_cells(axes, values, texts, colors, limits, is_dark, size=style.SMALL):

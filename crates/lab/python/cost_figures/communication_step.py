@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-import style
-from records import read
-from style import BLUE, FAINT, GREEN, OCHRE, RED
+from bevel_differential import style
+from bevel_differential.records import read
+from bevel_differential.style import BLUE, FAINT, GREEN, OCHRE, RED
 
 # coupling and fidelity: colour, marker, line, name
 CURVES = {

@@ -4,10 +4,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
-import style
+from bevel_differential import style
 from cost_figures.cells import draw_cells
-from readable import percent, ratio, with_unit, wrapped
-from records import read
+from bevel_differential.readable import percent, ratio, with_unit, wrapped
+from bevel_differential.records import read
 
 SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
 # communication steps of the turn

@@ -3,9 +3,9 @@
 import numpy as np
 from matplotlib.ticker import LogLocator, NullFormatter
 
-import style
+from bevel_differential import style
 from cost_figures.work_precision import FLOOR
-from records import read
+from bevel_differential.records import read
 
 OURS = "this program"
 # cases of the comparison and the title of their panel

@@ -2,9 +2,9 @@
 
 from matplotlib.ticker import LogLocator, NullFormatter
 
-import style
-from records import read
-from style import BLUE, FAINT, GREEN, INK, OCHRE, PALE_GREY, RED, TEXT, VIOLET
+from bevel_differential import style
+from bevel_differential.records import read
+from bevel_differential.style import BLUE, FAINT, GREEN, INK, OCHRE, PALE_GREY, RED, TEXT, VIOLET
 
 # methods: colour, marker, name in legends
 METHODS = {

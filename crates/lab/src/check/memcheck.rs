@@ -14,10 +14,10 @@ use clap::Args;
 
 use crate::check::fuzz;
 use crate::tools::places;
+use answers::text::table::Table;
 use fmu_build::fmu::own;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
 
 /// Calls at random: of the host in C, and of the driver in Rust.
 const CALLS: [usize; 2] = [5000, 2 * fuzz::CALLS];
@@ -84,6 +84,9 @@ fn run() -> Result<()> {
     checked.push(memcheck("life of instances, in C", &life, &host_arguments)?);
     progress.stage("memcheck on calls at random");
     checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
+    progress.stage("memcheck on questions at random");
+    let questions = ["questions", "--count", "2000", "--threads", "1"].map(OsString::from);
+    checked.push(memcheck("questions at random", &this, &questions)?);
     fs::remove_file(&life).context("the host cannot be removed")?;
     progress.finish();
     let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);

@@ -10,6 +10,7 @@ pub mod mutants;
 pub mod page;
 pub mod platforms;
 pub mod python_tests;
+pub mod questions;
 pub mod real_time;
 pub mod stepping;
 pub mod wheel;
@@ -29,6 +30,7 @@ pub enum CheckCommand {
     ZeroCost(zero_cost::ZeroCostCommand),
     RealTime(real_time::RealTimeCommand),
     Fuzz(fuzz::FuzzCommand),
+    Questions(questions::QuestionsCommand),
     #[command(alias = "memory")]
     Memcheck(memcheck::MemcheckCommand),
     Mutants(mutants::MutantsCommand),
@@ -46,6 +48,7 @@ impl CheckCommand {
             Self::ZeroCost(command) => command.run(),
             Self::RealTime(command) => command.run(),
             Self::Fuzz(command) => command.run(),
+            Self::Questions(command) => command.run(),
             Self::Memcheck(command) => command.run(),
             Self::Mutants(command) => command.run(),
             Self::Hosts(command) => command.run(),

@@ -10,11 +10,11 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use crate::tools::{environments, places};
+use answers::text::table::Table;
 use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
 use fmu_build::tools::paths;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
 
 /// Names a Chromium that is not on the search path.
 const CHROME: &str = "CHROME";

@@ -6,12 +6,12 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use crate::tools::places;
+use answers::text::table::for_terminal;
 use fmu_build::fmu::libraries::{self, Library};
 use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
-use fmu_build::tools::table::for_terminal;
 use fmu_build::tools::{paths, script, sections};
 
 /// The document with the tables, and their place.

@@ -7,9 +7,9 @@ use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
 use crate::check::stepping::{self, Vectors};
-use fmu_build::tools::numbers::Spread;
+use answers::text::numbers::Spread;
+use answers::text::table::Table;
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
 use fmu_build::tools::{paths, sections};
 
 /// Scenes, by the names that the stepping program knows.

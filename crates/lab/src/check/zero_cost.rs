@@ -10,9 +10,9 @@ use clap::Args;
 
 use crate::check::executed::{Executed, Kind};
 use crate::check::stepping::{self, Vectors};
+use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::sections;
-use fmu_build::tools::table::{Table, for_terminal};
 
 /// The marks around the table.
 const MARKS: [&str; 2] = ["<!-- off:begin -->", "<!-- off:end -->"];

@@ -6,8 +6,8 @@ use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 use clap::Args;
 
+use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::sections;
-use fmu_build::tools::table::{Table, for_terminal};
 
 const DOCUMENT: &str = "docs/stiffness.md";
 /// The marks around the tables.

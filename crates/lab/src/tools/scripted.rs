@@ -4,10 +4,10 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::Path;
 
+use answers::text::table::for_terminal;
 use anyhow::{Context, Result};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
-use fmu_build::tools::table::for_terminal;
 use fmu_build::tools::{paths, script, sections};
 
 /// Where tables and pictures go.

@@ -9,9 +9,9 @@ use bevel_differential::variables::{Access, Variable, guid, table};
 use serde::Serialize;
 
 use crate::fmu::describe::{causality, variability};
-use crate::gears::scene::set::{Setting, SettingValue};
-use crate::gears::scene::{self, Scene, load, units};
 use crate::tools::paths;
+use answers::scene::set::{Setting, SettingValue};
+use answers::scene::{self, Scene, load, units};
 
 /// All of it; values are SI.
 #[derive(Serialize)]
@@ -90,7 +90,8 @@ struct Price {
 
 /// What the page is made from.
 pub fn data() -> Result<PageData> {
-    let scenes = scene::files()?.iter().map(|file| load::load(file).map(page_scene)).collect::<Result<_>>()?;
+    let scenes =
+        scene::files(&paths::scenes())?.iter().map(|file| load::load(file).map(page_scene)).collect::<Result<_>>()?;
     let variables = table().rows.iter().enumerate().map(|(reference, row)| page_variable(reference, row)).collect();
     Ok(PageData { version: env!("CARGO_PKG_VERSION"), guid: guid(), variables, scenes, prices: prices()? })
 }
@@ -172,7 +173,7 @@ fn assignment(setting: &Setting) -> (&'static str, Value) {
 
 /// Price of a step with each effect alone over that of plain teeth, from the last measurement (docs/prices.md).
 fn prices() -> Result<Vec<Price>> {
-    let file = paths::workspace().join("fmu-build").join("data").join("prices.csv");
+    let file = paths::workspace().join("crates").join("answers").join("data").join("prices.csv");
     let mut reader =
         csv::Reader::from_path(&file).with_context(|| format!("{} cannot be read", paths::shown(&file)))?;
     let rows: Vec<(String, f64, f64)> = reader.deserialize().collect::<Result<_, _>>().context("data/prices.csv")?;

@@ -14,8 +14,10 @@ from ..extras import install
 from ..values import DifferentialError, DifferentialWarning, suggestion
 
 NAME = "bevel-differential"
-COMMANDS = {"run": ".command.run", "sweep": ".command.sweep", "optimise": ".optimise.command", "tolerance": ".tolerance.command",
-            "spectrum": ".spectrum.command", "report": ".report.command", "page": ".command.page"}
+COMMANDS = {"run": ".command.run", "plan": ".command.plan", "accuracy": ".accuracy.command", "report": ".report.command",
+            "loads": ".command.loads", "geometry": ".command.geometry", "pattern": ".pattern.command", "sweep": ".command.sweep",
+            "optimise": ".optimise.command", "tolerance": ".tolerance.command", "spectrum": ".spectrum.command",
+            "study": ".study.command", "page": ".command.page"}
 PACKAGE = __package__.partition(".")[0]
 # exit statuses: what fails while running, wrong use, Ctrl-C
 FAILED, WRONG_USE, INTERRUPTED = 1, 2, 130
@@ -37,7 +39,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             return 0 if arguments else WRONG_USE
         return _run(arguments[0], arguments[1:])
     except DifferentialError as error:
-        return _said(error, FAILED)
+        return _said(error, WRONG_USE if error.kind == "use" else FAILED)
     except KeyboardInterrupt as interrupt:
         return _said(interrupt if str(interrupt) else "stopped", INTERRUPTED)
     except BrokenPipeError:

@@ -1,15 +1,10 @@
-"""A chosen design for other programs: a scene file, and the gears as solids, meshes and drawings."""
-
-import json
-import shlex
-import subprocess
-from pathlib import Path
+"""A chosen design for other programs: a scene file, and the gears."""
 
 from .. import cad
-from ..values import DifferentialError, FileName
+from ..answers import ask, assignments
+from ..values import FileName
 from .design_task import DesignRow
 from .problem import Problem
-from .quantities import Catalogue
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
@@ -28,43 +23,22 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def settings(problem: Problem, row: DesignRow) -> dict[str, str]:
-    """What is set for the design's gears."""
-    catalogue = Catalogue(problem.scene.fmu)
-    starts = catalogue.starts()
+def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
+    """Writes dimensions and curves of the design's gears, and with the extra `cad` solids, meshes and drawings; whether the check
+    with fillets finds them free of interference."""
+    kinds = ("step", "glb", "dxf") if cad.available() else ()
+    found = ask({"ask": "geometry", "set": settings(problem, row), "solids": bool(kinds)})
+    cad.write(found, folder, kinds)
+    return not found["interference"]
+
+
+def settings(problem: Problem, row: DesignRow) -> list[str]:
+    """What the design's gears have otherwise than the FMU's own, each "name=value"."""
+    fmu = problem.scene.fmu
     values = {**problem.scene.values, **problem.complete(row.values)}
-    wanted = {name: value for name, value in values.items() if name.startswith("geometry.") and value != starts[name]}
-    if values.get("effects.backlash") is False:
-        wanted["effects.backlash"] = False
-    return {name: _toml(catalogue.variable(name), value).strip('"') for name, value in wanted.items()}
-
-
-def command_line(problem: Problem, row: DesignRow, folder: FileName) -> str:
-    """The command that answers with them, as a line for the shell, at the top of the repository."""
-    return shlex.join(["cargo", "run", "--release", "--", *_arguments(settings(problem, row), folder)])
-
-
-def write_gears(program: FileName, problem: Problem, row: DesignRow, folder: FileName) -> bool:
-    """Writes solids, meshes and drawings; whether the check with fillets finds the gears free of interference."""
-    shape, free = _answer(program, settings(problem, row), Path(folder))
-    cad.write(shape, folder, ("step", "glb", "dxf"))
-    return free
-
-
-def _answer(program: FileName, wanted: dict[str, str], folder: Path) -> tuple[dict, bool]:
-    """The gears as data, and whether they turn freely, by `program`."""
-    try:
-        done = subprocess.run([str(program), *_arguments(wanted, folder)], capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise DifferentialError(f"{program}: {error}; name the program fmu-build by --program") from None
-    if done.returncode:
-        raise DifferentialError(f"{program} geometry: {done.stderr.strip() or done.stdout.strip()}")
-    shape = json.loads((folder / "shape.json").read_text(encoding="utf-8"))
-    return shape, "INTERFERENCE" not in (folder / "interference.txt").read_text(encoding="utf-8")
-
-
-def _arguments(wanted: dict[str, str], folder: FileName) -> list[str]:
-    return ["geometry", *(word for name, value in wanted.items() for word in ("--set", f"{name}={value}")), "--out", str(folder)]
+    changed = {name: value for name, value in values.items()
+               if name.startswith("geometry.") and value != fmu.variable(name).start or name == "effects.backlash" and not value}
+    return assignments({name: fmu.variable(name).written(value) for name, value in changed.items()})
 
 
 def _toml(variable, value) -> str:

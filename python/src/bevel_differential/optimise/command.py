@@ -24,7 +24,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
     parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
     parser.add_argument("--scheduler", help="address of a dask scheduler")
-    parser.add_argument("--program", type=Path, help="fmu-build, for the chosen gears as STEP, GLB and DXF")
     add_fmu(parser)
 
 
@@ -77,7 +76,7 @@ def _optimise(arguments, problem, out, store, farm):
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *told]))
-    _for_cad(arguments, problem, out, reasons)
+    _for_cad(problem, out, reasons)
 
 
 def _compared(problem, task):
@@ -99,14 +98,11 @@ def _held(confirmed, problem):
                f"{', '.join(spans)}")
 
 
-def _for_cad(arguments, problem, out, reasons):
-    """Scene files of the chosen designs, and their gears where the program is at hand."""
-    from .cad import command_line, scene_text, write_gears
+def _for_cad(problem, out, reasons):
+    """Scene files of the chosen designs, and their gears."""
+    from .cad import scene_text, write_gears
     from .report import LETTERS
     for letter, (reason, row) in zip(LETTERS, reasons):
         (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
-        if arguments.program:
-            free = write_gears(arguments.program, problem, row, out / letter)
-            print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
-        else:
-            print(f"{letter}: {command_line(problem, row, out / letter)}")
+        free = write_gears(problem, row, out / letter)
+        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")

@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..statistic import COARSEST, amplitude
+from ..statistic import COARSEST, figures
 from ..values import DifferentialError
 from . import style, words
 from .blocks import Picture, Section
@@ -61,7 +61,7 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
                                 "step is too "
                                 "long")
     orders = np.arange(1, highest + 1)
-    return orders, np.array([amplitude(phase, values, int(order)) for order in orders])
+    return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
 
 
 def _draw(run, part, orders, sizes):

@@ -1,6 +1,6 @@
 """The key table: outputs by their statistics."""
 
-from ..statistic import FIGURES
+from ..statistic import figures as figures_of
 from . import words
 from .blocks import Section, Table
 from .simulated import Simulated
@@ -21,7 +21,7 @@ def section(run: Simulated) -> Section:
     for name in main_outputs(run):
         variable = run.scene.fmu.variable(name)
         unit, values = variable.shown(run.series(name))
-        figures = [FIGURES[word](run.time, values) for word in STATISTICS]
+        figures = figures_of(STATISTICS, run.time, values)
         # what is left of a difference of large numbers is rounding
         rounding = ROUNDING * max(map(abs, figures))
         rounded = [figure if abs(figure) > rounding else 0.0 for figure in figures]

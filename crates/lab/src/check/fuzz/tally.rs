@@ -6,7 +6,7 @@ use std::time::Duration;
 use bevel_differential::fmi2::Status;
 
 use super::functions::Function;
-use fmu_build::tools::table::{Table, wrapped};
+use answers::text::table::{Table, wrapped};
 
 /// Statuses that are counted, as heads of the table.
 const HEADS: [&str; 4] = ["OK", "warning", "discard", "error"];

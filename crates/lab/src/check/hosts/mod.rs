@@ -7,10 +7,10 @@ mod run;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
+use answers::text::table::Table;
 use compare::{Deviation, HostRecord};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::progress::Progress;
-use fmu_build::tools::table::Table;
 use fmu_build::tools::{paths, sections};
 use list::{HOSTS, Host};
 use run::{HostBench, HostOutcome, HostScene};

@@ -7,9 +7,9 @@ mod tool;
 use anyhow::Result;
 use clap::Args;
 
+use answers::text::table::for_terminal;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::sections;
-use fmu_build::tools::table::for_terminal;
 
 /// The page with the report, and the marks around it.
 const PAGE: &str = "docs/mutants.md";

@@ -7,8 +7,8 @@ use anyhow::{Context, Result};
 use serde::Deserialize;
 
 use super::outcomes::{Fate, Mutant, Run};
+use answers::text::table::Table;
 use fmu_build::tools::paths;
-use fmu_build::tools::table::Table;
 
 /// The explanations.
 const EXPLANATIONS: &str = "docs/mutants.toml";

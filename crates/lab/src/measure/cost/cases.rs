@@ -11,8 +11,8 @@ use bevel_differential::model::{GearContact, Inputs, Method, Parameters, PlanetS
 use bevel_differential::problem;
 use cpu_time::ThreadTime;
 
-use fmu_build::gears::scene;
-use fmu_build::gears::study::published;
+use answers::scene;
+use answers::study::published;
 
 /// A motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -152,7 +152,7 @@ impl CostCase {
                 (parameters, inputs, inputs)
             }
             CaseMotion::Clunk => {
-                let scene = scene::find("clunk")?;
+                let scene = scene::find("clunk", &fmu_build::tools::paths::scenes())?;
                 let (mut parameters, mut then) = (scene.parameters, scene.inputs);
                 for setting in scene.events.iter().flat_map(|event| &event.settings) {
                     setting.apply(&mut parameters, &mut then);

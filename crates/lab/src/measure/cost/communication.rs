@@ -8,8 +8,8 @@ use super::coupling::{self, CoupledSystem, Coupling};
 use super::measure::{self, TimedJob, cells};
 use super::reference::errors;
 use super::{CostPlan, measured_here, vehicle};
-use fmu_build::tools::csv_file::number;
-use fmu_build::tools::numbers::Spread;
+use answers::text::csv_file::number;
+use answers::text::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str = "coupling,fidelity,h_s,status,message,runs,cpu_s,cpu_s_low,cpu_s_high,cost,speed_error,\

@@ -4,13 +4,14 @@ use anyhow::Result;
 
 use super::measured_here;
 use super::summary::TitledTable;
-use fmu_build::gears::accuracy::answer::Answer;
-use fmu_build::gears::accuracy::gears::Gears;
-use fmu_build::gears::accuracy::words::{effects_on, percent, solver, two};
-use fmu_build::gears::accuracy::{Question, answer};
-use fmu_build::gears::scene;
-use fmu_build::tools::csv_file::{number, number_or_nan};
-use fmu_build::tools::table::Table;
+use answers::accuracy::answer::Answer;
+use answers::accuracy::gears::Gears;
+use answers::accuracy::words::{effects_on, percent, solver, two};
+use answers::accuracy::{Question, answer};
+use answers::scene;
+use answers::text::csv_file::{number, number_or_nan};
+use answers::text::table::Table;
+use answers::watch::Watch;
 
 /// What is asked: in words, scene, wanted quantity, accuracy.
 pub type Decision = (&'static str, &'static str, &'static str, f64);
@@ -44,13 +45,18 @@ pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> 
     let mut table =
         Table::new(["quantity", "within", "gears", "effects", "solver", "error", "× real time", "asked by"]);
     for (i, (quantity, name, want, within)) in ALL.iter().take(count).enumerate() {
-        let scene = scene::find(name)?;
+        let scene = scene::find(name, &fmu_build::tools::paths::scenes())?;
         // the start settles
         let from = if *name == "study_turning" { 0.1 * scene.stop_time } else { 0.0 };
         let question = Question { wants: vec![(*want).to_owned()], within: *within, from, timed };
-        let found = answer(&scene, &question, &mut |done, what| {
-            report((i as f64 + done.min(1.0)) / count as f64, &format!("{quantity}: {what}"));
-        })?;
+        let found = answer(
+            &scene,
+            &question,
+            &mut Watch::new(|done, what| {
+                report((i as f64 + done.min(1.0)) / count as f64, &format!("{quantity}: {what}"));
+                true
+            }),
+        )?;
         let Some(chosen) = found.choice() else { continue };
         let p = &chosen.scene.parameters;
         let effects = effects_on(p).join(", ");

@@ -8,8 +8,8 @@ use bevel_differential::problem;
 use super::cases::{CaseMotion, CostCase, Fidelity};
 use super::measure::{self, TimedJob, cells};
 use super::{CostPlan, measured_here};
-use fmu_build::tools::csv_file::number;
-use fmu_build::tools::numbers::Spread;
+use answers::text::csv_file::number;
+use answers::text::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str =

@@ -6,12 +6,13 @@ use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Parameters};
 
 use super::summary::TitledTable;
-use fmu_build::gears::accuracy::gears::Gears;
-use fmu_build::gears::accuracy::record::{Record, in_one_line};
-use fmu_build::gears::accuracy::want::{self, Want};
-use fmu_build::gears::accuracy::words::percent;
-use fmu_build::gears::scene::{self, Scene};
-use fmu_build::tools::table::Table;
+use answers::accuracy::gears::Gears;
+use answers::accuracy::record::{Record, in_one_line};
+use answers::accuracy::want::{self, Want};
+use answers::accuracy::words::percent;
+use answers::scene::{self, Scene};
+use answers::text::table::Table;
+use answers::watch::Watch;
 
 /// Gear pairs: teeth of planet and side gear, module [m], face width as a part of the cone distance, bores [m].
 const PAIRS: [(i32, i32, f64, f64, [f64; 2]); 4] = [
@@ -40,7 +41,7 @@ const START: f64 = 0.1;
 
 /// Errors of each law for all pairs and loads, smallest and largest.
 pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<TitledTable> {
-    let turn = scene::find("study_turning")?;
+    let turn = scene::find("study_turning", &fmu_build::tools::paths::scenes())?;
     let texts: Vec<String> = WANTS.iter().map(|(_, text)| (*text).to_owned()).collect();
     let (turn, wants) = want::parse(&turn, &texts).map_err(|why| anyhow!("{why}"))?;
     let mut ranges = vec![vec![[f64::INFINITY, 0.0f64]; WANTS.len()]; LAWS.len()];
@@ -51,7 +52,8 @@ pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<TitledTable> {
         let record = |law: (ContactLaw, bool)| {
             let gears = Gears { level: GearContact::Tooth, law: law.0, bodies: law.1 };
             let scene = gears.of_scene(&scene).map_err(|found| anyhow!("{}", in_one_line(&found)))?.scene;
-            Record::of(&scene, START * scene.stop_time, f64::INFINITY).map_err(|why| anyhow!("{}: {why}", gears.text()))
+            Record::of(&scene, START * scene.stop_time, f64::INFINITY, &mut Watch::nobody())
+                .map_err(|why| anyhow!("{}: {why}", gears.text()))
         };
         let reference = record((ContactLaw::LineWeber, true))?;
         for (law, ranges) in LAWS.iter().zip(&mut ranges) {

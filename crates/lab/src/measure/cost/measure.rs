@@ -5,8 +5,8 @@
 
 use cpu_time::ThreadTime;
 
-use fmu_build::tools::csv_file::number;
-use fmu_build::tools::numbers::Spread;
+use answers::text::csv_file::number;
+use answers::text::numbers::Spread;
 
 /// Runs shorter than this are repeated until they are as long together [s]; clocks of processors are coarser than that.
 const SHORTEST: f64 = 2e-3;

@@ -29,7 +29,7 @@ use clap::Args;
 
 use crate::tools::machine::machine;
 use crate::tools::places;
-use fmu_build::tools::csv_file::CsvFile;
+use answers::text::csv_file::CsvFile;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
 use fmu_build::tools::{paths, script, sections};

@@ -2,8 +2,8 @@
 
 use bevel_differential::model::Method;
 
-use fmu_build::tools::numbers::significant;
-use fmu_build::tools::table::Table;
+use answers::text::numbers::significant;
+use answers::text::table::Table;
 
 use super::work_precision::{MethodResult, MethodRun, WorkPrecision, name};
 

@@ -9,8 +9,8 @@ use super::cases::CostCase;
 use super::measure::{self, TimedJob, cells};
 use super::reference::{self, Reference};
 use super::{CostPlan, measured_here};
-use fmu_build::tools::csv_file::number;
-use fmu_build::tools::numbers::Spread;
+use answers::text::csv_file::number;
+use answers::text::numbers::Spread;
 
 /// The columns.
 pub const COLUMNS: &str = "case,motion,fidelity,method,setting,unit,status,message,runs,cpu_s,cpu_s_low,cpu_s_high,\

@@ -7,7 +7,7 @@ use anyhow::Result;
 use super::errors::{QUANTITIES, order};
 use super::results::{SMOOTHINGS, SolidsResults, TeethResult};
 use crate::measure::cost::{measure, measured_here};
-use fmu_build::tools::csv_file::{number, number_or_nan};
+use answers::text::csv_file::{number, number_or_nan};
 
 /// Errors and cost.
 pub fn errors(found: &SolidsResults) -> Result<String> {

@@ -19,9 +19,9 @@ use clap::Args;
 
 use crate::tools::machine::machine;
 use crate::tools::places;
+use answers::text::table::{Table, for_terminal};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
-use fmu_build::tools::table::{Table, for_terminal};
 use fmu_build::tools::{paths, script, sections};
 use results::{SolidsPlan, SolidsResults};
 use run::Window;

@@ -8,8 +8,8 @@ use bevel_differential::model::Simulation;
 use super::errors::{self, Errors, ForceSummary};
 use super::run::{self, STEP, Solid, Teeth, TeethPoint, TeethRecord, Window};
 use crate::measure::cost::measure::{self, TimedJob};
-use fmu_build::gears::study::published;
-use fmu_build::tools::numbers::Spread;
+use answers::study::published;
+use answers::text::numbers::Spread;
 
 /// `solid.smoothing`: nearly the deepest point alone, which is what a general program does with faceted solids, and the
 /// patch that is the default.

@@ -1,7 +1,7 @@
 //! The tables for docs/solids.md and docs/study.md.
 
-use fmu_build::tools::numbers::significant;
-use fmu_build::tools::table::Table;
+use answers::text::numbers::significant;
+use answers::text::table::Table;
 
 use super::errors::QUANTITIES;
 use super::results::{SolidsResults, TeethResult};

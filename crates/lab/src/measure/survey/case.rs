@@ -7,12 +7,13 @@ use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::Method;
 
 use super::draw;
-use fmu_build::gears::accuracy::bench::{Reference, Trial};
-use fmu_build::gears::accuracy::record::Record;
-use fmu_build::gears::accuracy::reference::at_tolerance;
-use fmu_build::gears::accuracy::want::Want;
-use fmu_build::gears::accuracy::{Question, answer};
-use fmu_build::gears::scene::{Scene, ssv};
+use answers::accuracy::bench::{Reference, Trial};
+use answers::accuracy::record::Record;
+use answers::accuracy::reference::at_tolerance;
+use answers::accuracy::want::Want;
+use answers::accuracy::{Question, answer};
+use answers::scene::{Scene, ssv};
+use answers::watch::Watch;
 
 /// Accuracies that are asked for.
 const WITHIN: [f64; 2] = [0.01, 0.05];
@@ -71,7 +72,7 @@ impl Case {
         for (i, want) in wants.into_iter().enumerate() {
             for within in WITHIN {
                 let question = Question { wants: vec![want.to_owned()], within, from, timed: false };
-                let found = answer(&scene, &question, &mut |_, _| {})?;
+                let found = answer(&scene, &question, &mut Watch::nobody())?;
                 let chosen = found.choice().context("nothing comes to its end")?.clone();
                 let reference = &found.reference;
                 // one run for all quantities of a scene, by the finest of the references
@@ -159,6 +160,6 @@ fn by_radau(scene: &Scene, reference: &Reference, from: f64) -> Result<(Scene, R
     let tolerance = FINER * rich.parameters.solver.relative_tolerance;
     rich.parameters = at_tolerance(&rich.parameters, tolerance);
     rich.parameters.solver.method = Method::Radau;
-    let record = Record::of(&rich, from, f64::INFINITY).map_err(|why| anyhow!("radau: {why}"))?;
+    let record = Record::of(&rich, from, f64::INFINITY, &mut Watch::nobody()).map_err(|why| anyhow!("radau: {why}"))?;
     Ok((rich, record))
 }

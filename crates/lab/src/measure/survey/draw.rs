@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use anyhow::Result;
 
 use crate::tools::random::Random;
-use fmu_build::gears::scene::{Scene, load};
+use answers::scene::{Scene, load};
 
 /// Communication steps of a scene, and cycles of the teeth that it lasts for.
 const STEPS: f64 = 240.0;

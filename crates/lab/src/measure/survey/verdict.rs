@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 
 use super::case::Judged;
-use fmu_build::gears::accuracy::words::{percent, two};
-use fmu_build::tools::numbers::Spread;
+use answers::accuracy::words::{percent, two};
+use answers::text::numbers::Spread;
+use answers::text::table::{Table, wrapped};
 use fmu_build::tools::paths;
-use fmu_build::tools::table::{Table, wrapped};
 
 /// The reference of an answer is not certain where its own error is above this part of the accuracy.
 const THIRD: f64 = 1.0 / 3.0;

@@ -1,0 +1,42 @@
+//! What accuracy costs in a scene: the cheapest model that gives wanted quantities to a wanted accuracy, and why.
+//!
+//! 1. The **reference** is the richest model that the question admits, at a tolerance whose own error does not matter.
+//! 2. Every plainer level and law, and the richest model without each effect, are run against it.
+//! 3. From the plainest gears that are accurate enough, effects are left out and the tolerance is loosened step by step, as
+//!    long as the *combination* stays within the accuracy: what is chosen has itself been run against the reference.
+//! 4. Times are measured once, at the end.
+//!
+//! [`answer`] does it and returns an [`Answer`]; [`report`], [`table`] and [`chosen`] show it.
+
+pub mod answer;
+pub mod bench;
+pub mod chosen;
+pub mod fraction;
+pub mod gears;
+pub mod input_paths;
+pub mod knowledge;
+pub mod price;
+pub mod record;
+pub mod reference;
+pub mod report;
+pub mod search;
+pub mod statistic;
+pub mod switches;
+pub mod table;
+pub mod want;
+pub mod words;
+
+pub use answer::{Answer, answer};
+
+/// What is asked of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Wanted quantities, `OUTPUT:STATISTIC`; none = all outputs of the scene.
+    pub wants: Vec<String>,
+    /// Wanted accuracy, as a fraction.
+    pub within: f64,
+    /// Outputs count after this time [s].
+    pub from: f64,
+    /// Measure times; without it there are counts alone.
+    pub timed: bool,
+}

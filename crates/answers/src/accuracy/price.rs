@@ -1,0 +1,108 @@
+//! What a run costs by its counts and the prices that `prices --write` measured, in evaluations of plain teeth: the same on every
+//! machine, so that equal questions get equal answers.
+
+use std::sync::OnceLock;
+
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::{GearContact, Parameters};
+
+use super::record::Effort;
+use super::switches::effects;
+
+/// What is on, the price of an evaluation of the tooth forces, that of a communication step, both in evaluations of plain teeth.
+const MEASURED: &str = include_str!("../../data/prices.csv");
+
+/// Least price of an evaluation that is counted with.
+const LEAST: f64 = 0.01;
+
+/// A row of the prices.
+struct Price {
+    on: String,
+    per_evaluation: f64,
+    per_step: f64,
+}
+
+impl Price {
+    /// Price of an evaluation, without what a communication step takes anyway.
+    fn of_one(&self) -> f64 {
+        self.per_evaluation * (1.0 - without_teeth() / self.per_step).max(0.0)
+    }
+}
+
+/// Price of a communication step without teeth.
+fn without_teeth() -> f64 {
+    of("ideal").map_or(0.0, |price| price.per_step)
+}
+
+fn prices() -> &'static [Price] {
+    static PRICES: OnceLock<Vec<Price>> = OnceLock::new();
+    PRICES.get_or_init(|| {
+        let mut rows = csv::Reader::from_reader(MEASURED.as_bytes());
+        let row = |row: csv::StringRecord| {
+            Some(Price {
+                on: row.get(0)?.to_owned(),
+                per_evaluation: row.get(1)?.parse().ok()?,
+                per_step: row.get(2)?.parse().ok()?,
+            })
+        };
+        rows.records().filter_map(|found| row(found.ok()?)).collect()
+    })
+}
+
+fn of(on: &str) -> Option<&'static Price> {
+    prices().iter().find(|price| price.on == on)
+}
+
+/// Price of an evaluation of `p`: prices of effects add up (docs/prices.md).
+fn per_evaluation(p: &Parameters) -> f64 {
+    let base = match (p.scene.gear_contact, p.contact.law) {
+        (GearContact::Lumped, _) => "lumped",
+        (GearContact::Solid, _) => "solid",
+        (_, ContactLaw::Line) => "line",
+        (_, ContactLaw::LineWeber) => "line_weber",
+        _ => "nothing",
+    };
+    let price = |on: &str| of(on).map_or(0.0, Price::of_one);
+    let effect = |name: &str| match name {
+        // measured with its law
+        "body_compliance" => price(name) - price("line"),
+        name => price(name) - price("nothing"),
+    };
+    let on = effects().filter(|switch| switch.is_on(p) && of(switch.name()).is_some());
+    price(base) + on.map(|switch| effect(switch.name()).max(0.0)).sum::<f64>()
+}
+
+/// Evaluations of `p` that cost so much.
+pub fn evaluations(p: &Parameters, cost: f64) -> f64 {
+    cost / per_evaluation(p).max(LEAST)
+}
+
+/// Price of a run of `p` that took `effort`.
+pub fn cost(p: &Parameters, effort: &Effort) -> f64 {
+    effort.points * without_teeth() + effort.evaluations * per_evaluation(p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevel_differential::model::EFFECTS;
+
+    #[test]
+    fn every_effect_and_level_has_a_price() {
+        let levels = ["ideal", "lumped", "nothing", "line", "line_weber", "solid"];
+        for name in levels.into_iter().chain(EFFECTS.iter().filter(|e| e.switch.is_some()).map(|e| e.name)) {
+            assert!(of(name).is_some_and(|price| price.per_step > 0.0), "{name}");
+        }
+    }
+
+    #[test]
+    fn more_physics_costs_more() {
+        let effort = Effort { points: 100.0, evaluations: 1000.0, ..Effort::default() };
+        let plain = Parameters::default();
+        let mut rich = plain;
+        rich.contact.law = ContactLaw::LineWeber;
+        rich.effects.body_compliance = true;
+        rich.effects.tooth_friction = true;
+        assert!(cost(&rich, &effort) > 2.0 * cost(&plain, &effort));
+    }
+}

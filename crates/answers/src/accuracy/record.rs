@@ -1,0 +1,87 @@
+//! A run of a scene: its outputs at the communication points, the turns of teeth and shaft, and what it took.
+
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::{Variable, named};
+use cpu_time::ThreadTime;
+
+use crate::scene::Scene;
+use crate::scene::run::SceneRun;
+use crate::watch::Watch;
+
+/// What a run gave.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// Times of the communication points [s].
+    pub times: Vec<f64>,
+    /// Values there, a series for each output of the scene.
+    pub values: Vec<Vec<f64>>,
+    /// Phase of the tooth mesh, a pitch of planet 1 being 2π, and angle of the carrier [rad].
+    pub phases: [Vec<f64>; 2],
+    /// What it took.
+    pub effort: Effort,
+}
+
+/// What a run takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Communication steps.
+    pub points: f64,
+    /// Evaluations of the tooth forces.
+    pub evaluations: f64,
+    /// Accepted steps of the integrator.
+    pub steps: f64,
+    /// Time on the processor from the first step on, outputs at communication points included [s].
+    pub seconds: f64,
+    /// Time on the processor of the start: stiffness of teeth and gear bodies from their geometry, equilibrium [s].
+    pub start: f64,
+}
+
+/// Angles that orders are counted by.
+fn angles() -> [Option<&'static Variable>; 2] {
+    ["planet[1].spin_angle", "carrier.angle"].map(named)
+}
+
+impl Record {
+    /// Runs `scene` and records it from after `from` [s] on, with at most `most` evaluations of the tooth forces; or says
+    /// why it does not come to its end.
+    pub fn of(scene: &Scene, from: f64, most: f64, watch: &mut Watch) -> Result<Self, String> {
+        watch.go_on().map_err(|stopped| stopped.to_string())?;
+        let begun = ThreadTime::now();
+        let mut run = SceneRun::attempt(scene, scene.step).map_err(|found| in_one_line(&found))?;
+        let mut record = Self { values: vec![Vec::new(); scene.outputs.len()], ..Self::default() };
+        record.effort.start = begun.elapsed().as_secs_f64();
+        let teeth = f64::from(scene.parameters.geometry.planet_teeth);
+        // half a step, as communication points are rounded
+        let from = from + 0.5 * scene.step;
+        while !run.is_over() {
+            watch.go_on().map_err(|stopped| stopped.to_string())?;
+            run.advance().map_err(|error| error.root_cause().to_string())?;
+            if run.time() > from {
+                record.take(scene, &mut run, teeth);
+            }
+            let ledger = run.simulation.ledger();
+            let effort = &mut record.effort;
+            (effort.points, effort.evaluations, effort.steps) = (effort.points + 1.0, ledger.rhs_calls, ledger.steps);
+            if effort.evaluations > most {
+                return Err(format!("given up at {:.3e} s, after {:.0} evaluations", run.time(), effort.evaluations));
+            }
+        }
+        record.effort.seconds = begun.elapsed().as_secs_f64() - record.effort.start;
+        Ok(record)
+    }
+
+    fn take(&mut self, scene: &Scene, run: &mut SceneRun, teeth: f64) {
+        self.times.push(run.time());
+        for (series, row) in self.values.iter_mut().zip(&scene.outputs) {
+            series.push(run.read(row));
+        }
+        for ((series, row), per_turn) in self.phases.iter_mut().zip(angles()).zip([teeth, 1.0]) {
+            series.push(row.map_or(0.0, |row| per_turn * run.read(row)));
+        }
+    }
+}
+
+/// Problems in one line.
+pub fn in_one_line(problems: &[Problem]) -> String {
+    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("; ")
+}

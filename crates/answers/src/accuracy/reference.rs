@@ -1,0 +1,124 @@
+//! The reference: the richest model that a scene's question admits, at a tolerance whose own error does not matter.
+
+use anyhow::{Result, anyhow};
+use bevel_differential::model::{Method, Parameters};
+use bevel_differential::variables::named;
+
+use super::Question;
+use super::bench::{Reference, values};
+use super::gears::{self, Gears};
+use super::price;
+use super::record::{Record, in_one_line};
+use super::switches::{Standing, effects, settled};
+use super::want::Want;
+use crate::problem::wrong;
+use crate::scene::Scene;
+use crate::watch::Watch;
+
+/// Tolerance of the first run, as a part of the accuracy, and at most.
+const FIRST: f64 = 1e-4;
+const COARSEST: f64 = 1e-6;
+/// Each further pair of runs has these parts of the tolerance before: differences of the last three are the integrator's error.
+const FINER: [f64; 2] = [0.3, 0.1];
+/// Runs become finer as long as they stray by more than this part of the accuracy, so often at most.
+const STEADY: f64 = 0.1;
+const REFINED: usize = 2;
+
+/// The richest scene, and what was refused beside the rest, with the reason.
+pub struct Richest {
+    /// The scene.
+    pub scene: Scene,
+    /// Effects that do not go with it.
+    pub refused: Vec<(&'static str, String)>,
+    /// Its level and law.
+    pub gears: Gears,
+}
+
+/// The scene with the richest gears and all effects that it allows and the wanted outputs can tell.
+pub fn richest(scene: &Scene) -> Result<Richest> {
+    let gears = gears::richest(scene);
+    let mut base = scene.clone();
+    // a method is chosen for its cost; the reference is adaptive
+    base.parameters.solver.method = Method::Adaptive;
+    for switch in effects().filter(|switch| switch.standing(scene) == Standing::NotAsked) {
+        switch.set(&mut base.parameters, false);
+    }
+    let first =
+        gears.of_scene(&base).map_err(|found| wrong(format!("scene {}: {}", scene.name, in_one_line(&found))))?;
+    let mut refused: Vec<_> = first.without.iter().map(|&name| (name, format!("not with {}", gears.text()))).collect();
+    let mut rich = first.scene;
+    let candidate = |standing| matches!(standing, Standing::Off) || standing == Standing::NotAsked;
+    for switch in effects().filter(|switch| candidate(switch.standing(scene))) {
+        let known = switch.is_on(&rich.parameters) || refused.iter().any(|(name, _)| *name == switch.name());
+        if known || switch.is_bodies() || switch.standing(scene) == Standing::NotAsked {
+            continue;
+        }
+        let more = switch.turned(&rich, true);
+        match settled(&more) {
+            Ok(found) if found.without.is_empty() => rich = found.scene,
+            Ok(_) => refused.push((switch.name(), format!("not with {}", gears.text()))),
+            Err(found) => refused.push((switch.name(), in_one_line(&found))),
+        }
+    }
+    Ok(Richest { scene: rich, refused, gears })
+}
+
+/// Range of the relative tolerance.
+pub fn tolerances() -> [f64; 2] {
+    let row = named("solver.relative_tolerance");
+    row.and_then(|row| row.range).map_or([1e-12, 1e-2], |range| [range.min, range.max])
+}
+
+/// `p` with another tolerance, within its range.
+pub fn at_tolerance(p: &Parameters, tolerance: f64) -> Parameters {
+    let [least, most] = tolerances();
+    let mut p = *p;
+    p.solver.relative_tolerance = tolerance.clamp(least, most);
+    p
+}
+
+/// A run of the richest scene.
+struct Run {
+    scene: Scene,
+    record: Record,
+    figures: Vec<f64>,
+    cost: f64,
+}
+
+/// Runs the richest scene, finer and finer, until its integrator's error does not matter; with it what the runs cost.
+pub fn run(richest: &Scene, wants: &[Want], question: &Question, watch: &mut Watch) -> Result<(Reference, f64)> {
+    let mut tolerance = (FIRST * question.within).min(COARSEST).min(richest.parameters.solver.relative_tolerance);
+    let mut at = |tolerance: f64| {
+        let scene = Scene { parameters: at_tolerance(&richest.parameters, tolerance), ..richest.clone() };
+        watch.say(0.0, &format!("the reference, tolerance {tolerance:.0e}"));
+        let record = Record::of(&scene, question.from, f64::INFINITY, watch)
+            .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
+        let figures = values(wants, &record).map_err(wrong)?;
+        let cost = price::cost(&scene.parameters, &record.effort);
+        Ok::<_, anyhow::Error>(Run { scene, record, figures, cost })
+    };
+    let mut last = at(tolerance)?;
+    let mut spent = last.cost;
+    for refined in 1.. {
+        let between = at(FINER[0] * tolerance)?;
+        let finest = at(FINER[1] * tolerance)?;
+        tolerance *= FINER[1];
+        spent += between.cost + finest.cost;
+        let scales =
+            wants.iter().map(|want| want.scale(&finest.scene, &finest.record)).collect::<Result<Vec<f64>, _>>();
+        let scales = scales.map_err(wrong)?;
+        let stray = |i: usize| {
+            let from = |other: &Run| Want::error(other.figures[i], finest.figures[i], scales[i]);
+            from(&last).max(from(&between))
+        };
+        let strays: Vec<f64> = (0..wants.len()).map(stray).collect();
+        let steady = strays.iter().all(|&stray| stray < STEADY * question.within);
+        if steady || refined == REFINED || tolerance <= tolerances()[0] {
+            let Run { scene, record, figures, cost } = finest;
+            let reference = Reference { scene, values: figures, scales, strays, effort: record.effort, cost };
+            return Ok((reference, spent));
+        }
+        last = finest;
+    }
+    Err(anyhow!("scene {} has no reference", richest.name))
+}

@@ -1,0 +1,255 @@
+//! The answer in words.
+
+use bevel_differential::model::GearContact;
+
+use super::answer::{Answer, Role};
+use super::bench::Trial;
+use super::gears::Gears;
+use super::knowledge;
+use super::switches::Switch;
+use super::words::{difference, percent, setting, three, two};
+use crate::scene::units;
+use crate::text::table::labelled;
+
+/// Width of the first column.
+const INDENT: usize = 11;
+/// A start that takes this part of the run is named.
+const LONG_START: f64 = 0.2;
+/// A setting that is so many times nearer than its own gears with all effects owes that to errors that cancel.
+const CANCELLED: f64 = 2.0;
+/// So many wanted quantities are listed by name.
+const LISTED: usize = 6;
+
+/// All of it.
+pub fn text(answer: &Answer) -> String {
+    let mut out = format!("{}: {}\n\n", answer.scene.name, answer.scene.description);
+    for (title, line) in lines(answer) {
+        out.push_str(&labelled(&format!("{title:<INDENT$}"), &line));
+    }
+    out
+}
+
+/// The lines with their titles.
+fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
+    let mut lines = vec![("Wanted", wanted(answer))];
+    match answer.choice() {
+        Some(chosen) => {
+            lines.push(("Use", format!("{}.", setting(&chosen.scene.parameters))));
+            let certain = if answer.is_uncertain() { " NOT CERTAIN, see the reference." } else { "" };
+            lines.push(("", format!("{}.{certain}", told(answer, chosen, 0))));
+            if let (Some(seconds), true) = (answer.seconds[0], chosen.effort.start > LONG_START * chosen.effort.seconds)
+            {
+                let all = two((seconds + chosen.effort.start) * 1e3);
+                let start = two(chosen.effort.start * 1e3);
+                lines.push(("", format!("The start takes {start} of the {all} ms of a run, once for the same gears.")));
+            }
+            if let Some(by) = cancelled(answer, chosen) {
+                lines.push(("", by));
+            }
+        }
+        None => lines.push(("Use", "nothing that was tried comes to its end; see the reference.".into())),
+    }
+    for (title, run, place) in [("Cheaper", answer.cheaper, 1), ("Richer", answer.richer, 2)] {
+        if let (Some(run), Some(chosen)) = (run.map(|run| &answer.trials[run]), answer.choice()) {
+            let what = difference(&chosen.scene.parameters, &run.scene.parameters);
+            lines.push((title, format!("{what}: {}.", told(answer, run, place))));
+        }
+    }
+    lines.push(("Reference", reference(answer)));
+    lines.push(("Gears", gears(answer)));
+    if answer.scene.parameters.scene.gear_contact == GearContact::Solid {
+        lines.push((
+            "",
+            "Solid teeth, which the scene asks for, are not judged: faceted flanks are a worse model than these."
+                .into(),
+        ));
+    }
+    lines.extend(effects(answer));
+    for bound in knowledge::bounds(&answer.scene.outputs, &answer.wants) {
+        lines.push(("Not known", format!("{bound}.")));
+    }
+    lines
+}
+
+fn wanted(answer: &Answer) -> String {
+    let texts: Vec<String> = answer.wants.iter().map(|want| want.text(&answer.scene)).collect();
+    let names = if texts.len() > LISTED {
+        format!("mean, rms, min and max of {} outputs", answer.scene.outputs.len())
+    } else {
+        let values = answer.wants.iter().zip(&answer.reference.values).map(|(want, &value)| {
+            let row = answer.scene.outputs[want.output];
+            match want.statistic {
+                super::statistic::Statistic::TimeOfPeak => format!("{} s", three(value)),
+                _ => units::text(row, value),
+            }
+        });
+        texts
+            .iter()
+            .zip(values)
+            .map(|(text, value)| format!("{text} (reference {value})"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let from = if answer.from > 0.0 { format!(" from {} s on", units::digits(answer.from)) } else { String::new() };
+    format!("{names} within {} %{from}.", units::digits(100.0 * answer.within))
+}
+
+/// Error and cost of a run.
+fn told(answer: &Answer, run: &Trial, place: usize) -> String {
+    let (want, error) = run.worst();
+    let mut text = format!("error {}", percent(error));
+    if answer.wants.len() > 1 && error > 0.0 {
+        text.push_str(&format!(" ({})", answer.wants[want].text(&answer.scene)));
+    }
+    let per_millisecond = run.cost / (answer.scene.stop_time * 1e3);
+    if let Some(seconds) = answer.seconds[place] {
+        text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
+    }
+    text.push_str(&format!("; costs {} plain evaluations per ms", two(per_millisecond)));
+    let ratio = answer.reference.cost / run.cost;
+    let times = if ratio >= 1.0 {
+        format!("{} times cheaper", two(ratio))
+    } else {
+        format!("{} times dearer", two(1.0 / ratio))
+    };
+    text.push_str(&format!("; {times} than the reference"));
+    text
+}
+
+fn reference(answer: &Answer) -> String {
+    let reference = &answer.reference;
+    let mut text = format!("{}; strays by {}", setting(&reference.scene.parameters), percent(reference.stray()));
+    if let Some(seconds) = answer.seconds[3] {
+        text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
+    }
+    text.push('.');
+    if answer.is_uncertain() {
+        let worst = (0..reference.strays.len()).max_by(|&a, &b| reference.strays[a].total_cmp(&reference.strays[b]));
+        let name = worst.map_or(String::new(), |i| answer.wants[i].text(&answer.scene));
+        text.push_str(&format!(
+            " NOT CERTAIN: {name} strays by more than a third of the accuracy when only the integrator's steps change, as in \
+             motions with blows. Nothing below twice that can be told: ask for a steadier statistic (mean, rms), a later \
+             --from, or less accuracy."
+        ));
+    }
+    text
+}
+
+/// A warning where the chosen setting is nearer to the reference than the same gears with all effects: what it leaves out makes up
+/// for what its gears lack, in this scene.
+fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
+    let own = Gears::of(&chosen.scene.parameters);
+    let (_, full) = answer.gears.iter().find(|(gears, _)| *gears == own)?;
+    let full = answer.trials[*full.as_ref().ok()?].error();
+    (full > answer.within / CANCELLED && full > CANCELLED * chosen.error()).then(|| {
+        format!(
+            "Errors cancel: with all effects the same gears are off by {}. At other loads and speeds ask again.",
+            percent(full)
+        )
+    })
+}
+
+/// Error of each plainer level and law.
+fn gears(answer: &Answer) -> String {
+    let errors = answer.gears.iter().map(|(gears, run)| match run {
+        Ok(run) => format!("{} is off by {}", gears.text(), percent(answer.trials[*run].error())),
+        Err(why) => format!("{} does not run ({})", gears.text(), why.split(';').next().unwrap_or(why)),
+    });
+    let errors: Vec<String> = errors.collect();
+    if errors.is_empty() {
+        let own = Gears::of(&answer.reference.scene.parameters).text();
+        return format!("{own} is set by the scene and part of the question.");
+    }
+    format!("with all effects that go with them: {}.", errors.join(", "))
+}
+
+/// Why effects are in or out, those of one reason together.
+fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
+    let mut lines = Vec::new();
+    let names = |pick: &dyn Fn(&Switch, &Role) -> Option<String>| {
+        let mut found: Vec<String> = answer.effects.iter().filter_map(|(switch, role)| pick(switch, role)).collect();
+        found.dedup();
+        found.join(", ")
+    };
+    let mut push = |title: &'static str, names: String| {
+        if !names.is_empty() {
+            lines.push((title, format!("{names}.")));
+        }
+    };
+    let acts = |in_setting: bool, beyond: bool| {
+        move |switch: &Switch, role: &Role| match role {
+            Role::Acts { by, chosen } if *chosen == in_setting && (*by > answer.within) == beyond => {
+                let on = if in_setting && !switch.is_on(&answer.scene.parameters) { ", off in the scene" } else { "" };
+                Some(format!("{} ({}{on})", switch.name(), percent(*by)))
+            }
+            _ => None,
+        }
+    };
+    push("Needed", names(&acts(true, true)));
+    push("Kept", join("with the others, or as leaving it out saves nothing: ", names(&acts(true, false))));
+    push(
+        "Out, though",
+        join(
+            "it changes the richest model by more than wanted; what is chosen has been run and is accurate: ",
+            names(&acts(false, true)),
+        ),
+    );
+    push("Out", join("acts below the accuracy: ", names(&acts(false, false))));
+    for (switch, role) in &answer.effects {
+        if let Role::Neutral { typical, by, now } = role {
+            let values: Vec<String> =
+                typical.iter().map(|(row, value)| format!("{} = {}", row.name, units::text(row, *value))).collect();
+            let effect = match by {
+                Some(by) if *by > answer.within => {
+                    format!("would change a wanted quantity by {}: set what your gears have", percent(*by))
+                }
+                Some(by) => format!("would change a wanted quantity by {}", percent(*by)),
+                None => "were not tried".into(),
+            };
+            let acts = if *now > 0.0 {
+                format!("seems to act by {}, which is that of other steps", percent(*now))
+            } else {
+                "acts on nothing".into()
+            };
+            push(
+                "Neutral",
+                format!(
+                    "{} {acts}, as the scene leaves its values at zero; typical ones, {}, {effect}",
+                    switch.name(),
+                    values.join(", ")
+                ),
+            );
+        }
+    }
+    push(
+        "Not in it",
+        join("so not judged: ", names(&|s, role| matches!(role, Role::NotThere).then(|| s.name().into()))),
+    );
+    push("Set off", join("by the scene: ", names(&|s, role| matches!(role, Role::SetOff).then(|| s.name().into()))));
+    push(
+        "Not asked",
+        join(
+            "only add outputs, and none of them is wanted: ",
+            names(&|s, role| matches!(role, Role::NotAsked).then(|| s.name().into())),
+        ),
+    );
+    push(
+        "Kept",
+        names(&|s, role| match role {
+            Role::Kept(why) => Some(format!("{}, as the run without it fails: {why}", s.name())),
+            _ => None,
+        }),
+    );
+    push(
+        "Refused",
+        names(&|s, role| match role {
+            Role::Refused(why) => Some(format!("{} ({})", s.name(), why.split(';').next().unwrap_or(why))),
+            _ => None,
+        }),
+    );
+    lines
+}
+
+fn join(before: &str, names: String) -> String {
+    if names.is_empty() { names } else { format!("{before}{names}") }
+}

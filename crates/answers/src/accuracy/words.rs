@@ -1,0 +1,123 @@
+//! Names and numbers as sentences show them.
+
+use bevel_differential::model::{Method, Parameters};
+
+use super::gears::Gears;
+use super::switches::effects;
+
+/// Changes of this many times the whole and more are given as multiples.
+const MANY: f64 = 10.0;
+
+/// A fraction in percent with two significant digits.
+pub fn percent(fraction: f64) -> String {
+    let percent = fraction * 100.0;
+    if percent == 0.0 {
+        return "0 %".into();
+    }
+    if !percent.is_finite() {
+        return "no number".into();
+    }
+    if fraction >= MANY {
+        return format!("{fraction:.0} x");
+    }
+    let decimals = (1.0 - percent.abs().log10().floor()).max(0.0) as usize;
+    if decimals > 5 { format!("{percent:.0e} %") } else { format!("{percent:.decimals$} %") }
+}
+
+/// A number with about three digits.
+pub fn three(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        return format!("{value:.2e}");
+    }
+    let decimals = if value.abs() < 1.0 { 2.0 } else { (2.0 - value.abs().log10().floor()).max(0.0) };
+    let text = format!("{value:.*}", decimals as usize);
+    if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
+}
+
+/// A ratio with two digits.
+pub fn two(value: f64) -> String {
+    crate::text::numbers::significant(value, 2)
+}
+
+/// Word of a method.
+pub fn method(method: Method) -> &'static str {
+    match method {
+        Method::Adaptive => "adaptive",
+        Method::FixedStep => "fixed_step",
+        Method::Radau => "radau",
+        Method::Rodas4 => "rodas4",
+        Method::DormandPrince => "dormand_prince",
+    }
+}
+
+/// Effects that are on, gear bodies aside.
+pub fn effects_on(p: &Parameters) -> Vec<&'static str> {
+    effects().filter(|switch| switch.is_on(p) && !switch.is_bodies()).map(|switch| switch.name()).collect()
+}
+
+/// A setting: level, law, effects, tolerance, method.
+pub fn setting(p: &Parameters) -> String {
+    let on = effects_on(p);
+    let effects = if on.is_empty() { "no effect".into() } else { on.join(", ") };
+    format!("{} with {effects}; {}", Gears::of(p).text(), solver(p))
+}
+
+/// Tolerance, or method and step.
+pub fn solver(p: &Parameters) -> String {
+    match p.solver.method {
+        Method::Adaptive => format!("tolerance {}", power(p.solver.relative_tolerance)),
+        Method::FixedStep => format!("fixed steps of {} s", three(p.solver.fixed_step)),
+        other => format!("{}, tolerance {}", method(other), power(p.solver.relative_tolerance)),
+    }
+}
+
+/// What `other` has otherwise than `p`.
+pub fn difference(p: &Parameters, other: &Parameters) -> String {
+    let mut parts = Vec::new();
+    let [here, there] = [p, other].map(|p| Gears::of(p).text());
+    if here != there {
+        parts.push(there);
+    }
+    let named = |from: &Parameters, to: &Parameters| -> Vec<&'static str> {
+        let had = effects_on(from);
+        effects_on(to).into_iter().filter(|name| !had.contains(name)).collect()
+    };
+    for (word, names) in [("without", named(other, p)), ("with", named(p, other))] {
+        if !names.is_empty() {
+            parts.push(format!("{word} {}", names.join(", ")));
+        }
+    }
+    if solver(p) != solver(other) {
+        parts.push(solver(other));
+    }
+    if parts.is_empty() { "the same".into() } else { parts.join(", ") }
+}
+
+fn power(value: f64) -> String {
+    let text = format!("{value:e}");
+    if text.len() > 6 { format!("{value:.0e}") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevel_differential::model::GearContact;
+
+    #[test]
+    fn percents_have_two_digits_and_ratios_three() {
+        assert_eq!([0.0, 0.012_34, 1.5, 3e-9].map(percent), ["0 %", "1.2 %", "150 %", "3e-7 %"]);
+        assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
+    }
+
+    #[test]
+    fn a_difference_names_what_differs() {
+        let p = Parameters::default();
+        let mut other = p;
+        other.scene.gear_contact = GearContact::Lumped;
+        other.effects.backlash = false;
+        other.effects.half_shaft = true;
+        other.solver.relative_tolerance = 1e-3;
+        assert_eq!(difference(&p, &other), "lumped, without backlash, with half_shaft, tolerance 1e-3");
+        assert_eq!(difference(&p, &p), "the same");
+    }
+}

@@ -1,0 +1,90 @@
+//! Questions about gears alone.
+
+use anyhow::{Result, anyhow};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use crate::geometry::design::Design;
+use crate::geometry::interference::InterferenceCheck;
+use crate::geometry::shape::CadShape;
+use crate::geometry::{json, text, xyz};
+use crate::problem::{Problem, Problems};
+use crate::scene::set::{real, value, variable};
+use crate::watch::Watch;
+
+/// Fewest and most points between the ends of a flank's curve: fewer show no involute, more no CAD program wants.
+const FACETS: [usize; 2] = [2, 1000];
+/// Most facets of a flank in surfaces, which are hundreds of megabytes beyond.
+const MOST_OF_SURFACES: usize = 200;
+
+/// Dimensions, interference and curves of gears.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GeometryQuestion {
+    /// Parameters, each `name=value`.
+    #[serde(default)]
+    set: Vec<String>,
+    /// Pieces of a flank's curve and of faceted surfaces.
+    #[serde(default = "usual")]
+    facets: usize,
+    /// Answer with the gears as data for CAD, too.
+    #[serde(default)]
+    solids: bool,
+    /// Look for interference with teeth thicker by this length.
+    #[serde(default)]
+    thicken: Option<String>,
+}
+
+fn usual() -> usize {
+    32
+}
+
+impl GeometryQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let (design, thicken) = self.checked()?;
+        watch.say(0.0, "turning the gears through a tooth pitch");
+        let check = InterferenceCheck::new(&design, thicken)?;
+        watch.go_on()?;
+        let (dimensions, found) = (text::text(&design), check.text());
+        let mut files = Map::new();
+        let mut add = |name: String, content: String| files.insert(name, Value::String(content));
+        add("dimensions.txt".into(), dimensions.clone());
+        add("dimensions.json".into(), json::text(&design, Some(&check))?);
+        add("interference.txt".into(), found.clone());
+        for curve in xyz::curves(&design.pair, &design.spec, self.facets + 1) {
+            add(format!("{}.txt", curve.name), curve.text());
+        }
+        let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "files": files});
+        if self.solids {
+            watch.say(1.0, "making solids");
+            let density = design.parameters.material.density;
+            let shape =
+                CadShape::new(&design.pair, &design.spec, density, self.facets).map_err(|found| anyhow!("{found}"))?;
+            answer["shape"] = serde_json::to_value(shape)?;
+        }
+        Ok(answer)
+    }
+
+    /// The gears, and by how much teeth are thicker [m]; or all that is wrong.
+    fn checked(&self) -> Result<(Design, f64), Problems> {
+        let mut problems = Problems::default();
+        let design = Design::new(&self.set).map_err(|found| problems.extend(found.0));
+        let [least, most] = [FACETS[0], if self.solids { MOST_OF_SURFACES } else { FACETS[1] }];
+        if !(least..=most).contains(&self.facets) {
+            let message = format!("facets {}: must be a whole number from {least} to {most}", self.facets);
+            problems.push(Problem {
+                range: Some([least as f64, most as f64]),
+                ..Problem::of("facets", self.facets.to_string(), message)
+            });
+        }
+        let thicken = self.thicken.as_deref().map(|text| {
+            let row = variable("geometry.backlash");
+            let number = row.and_then(|row| real(row, &value(text)).map_err(|why| format!("thicken {text}: {why}")));
+            number.map_err(|message| problems.push(Problem::of("thicken", text, message)))
+        });
+        match (design, thicken.unwrap_or(Ok(0.0))) {
+            (Ok(design), Ok(thicken)) => problems.or((design, thicken)),
+            _ => Err(problems),
+        }
+    }
+}

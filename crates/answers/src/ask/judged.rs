@@ -1,0 +1,167 @@
+//! Questions of accuracy, and figures of series.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use super::scenes::changed;
+use super::source::{Source, seconds};
+use crate::accuracy::answer::{Answer, Role, answer};
+use crate::accuracy::fraction::fraction;
+use crate::accuracy::record::Record;
+use crate::accuracy::statistic::{Rotation, Statistic};
+use crate::accuracy::switches::Switch;
+use crate::accuracy::words::difference;
+use crate::accuracy::{Question, chosen, report, table};
+use crate::problem::{Problem, Problems, wrong};
+use crate::scene::{script, ssv};
+use crate::watch::Watch;
+
+/// Which model is accurate enough.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AccuracyQuestion {
+    of: Source,
+    /// Wanted quantities, `OUTPUT[:STATISTIC]`; none = all outputs of the scene.
+    #[serde(default)]
+    want: Vec<String>,
+    /// Wanted accuracy, such as "1%" or "0.01".
+    within: String,
+    /// Outputs count from here on.
+    #[serde(default)]
+    from: Option<String>,
+    /// Whether times are measured.
+    #[serde(default = "timed")]
+    timed: bool,
+    /// Where a scene file with the chosen setting is to be, so that paths in it are right.
+    #[serde(default)]
+    file: Option<PathBuf>,
+}
+
+fn timed() -> bool {
+    true
+}
+
+/// Figures of series over time, whose numbers come beside the question: the times, then series after series.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StatisticsQuestion {
+    /// Numbers of a series.
+    points: usize,
+    figures: Vec<FigureQuestion>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FigureQuestion {
+    statistic: String,
+    /// Number of the series, from 0 on.
+    series: usize,
+    /// Number of the series that an order is counted by [rad].
+    #[serde(default)]
+    phase: Option<usize>,
+}
+
+/// What a word for a statistic means.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WordQuestion {
+    statistic: String,
+}
+
+impl WordQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let statistic = Statistic::parse(&self.statistic).map_err(wrong)?;
+        let angle = match statistic {
+            Statistic::Order { of, .. } => Some(of.word()),
+            _ => None,
+        };
+        Ok(json!({"word": statistic.to_string(), "angle": angle}))
+    }
+}
+
+impl AccuracyQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let question = Question {
+            wants: self.want.clone(),
+            within: fraction(&self.within)?,
+            from: seconds("from", self.from.as_deref())?.unwrap_or(0.0),
+            timed: self.timed,
+        };
+        let found = answer(&scene, &question, watch)?;
+        let wants: Vec<String> = found.wants.iter().map(|want| want.text(&found.scene)).collect();
+        let place = |run: Option<usize>| {
+            let run = run.map(|run| &found.trials[run])?;
+            let [on, own] = [&run.scene.parameters, &found.choice()?.scene.parameters];
+            Some(json!({"set": changed(&run.scene), "difference": difference(own, on)}))
+        };
+        let choice = found.choice();
+        let text = |what: fn(&crate::scene::Scene) -> Result<String>| choice.map(|run| what(&run.scene)).transpose();
+        let file = self.file.as_deref().filter(|_| choice.is_some()).map(|to| chosen::file(&found, to)).transpose()?;
+        Ok(json!({
+            "text": report::text(&found),
+            "scene": found.scene.name,
+            "wants": wants,
+            "within": found.within,
+            "uncertain": found.is_uncertain(),
+            "runs": table::rows(&found),
+            "csv": table::csv(&found)?,
+            "use": place(found.chosen),
+            "cheaper": place(found.cheaper),
+            "richer": place(found.richer),
+            "seconds": found.seconds,
+            "spent": found.spent,
+            "effects": found.effects.iter().map(|(switch, role)| effect(&found, switch, role)).collect::<Vec<_>>(),
+            "ssv": text(ssv::text)?,
+            "python": text(script::text)?,
+            "file": file,
+        }))
+    }
+}
+
+/// What an effect does, for programs.
+fn effect(answer: &Answer, switch: &Switch, role: &Role) -> Value {
+    let (word, by, why) = match role {
+        Role::Acts { by, chosen: true } if *by > answer.within => ("needed", Some(*by), None),
+        Role::Acts { by, chosen: true } => ("kept", Some(*by), None),
+        Role::Acts { by, chosen: false } => ("out", Some(*by), None),
+        Role::Neutral { by, .. } => ("neutral", *by, None),
+        Role::NotKnown => ("not_known", None, None),
+        Role::NotThere => ("not_there", None, None),
+        Role::SetOff => ("set_off", None, None),
+        Role::NotAsked => ("not_asked", None, None),
+        Role::Kept(why) => ("kept", None, Some(why)),
+        Role::Refused(why) => ("refused", None, Some(why)),
+    };
+    json!({"name": switch.name(), "role": word, "by": by, "why": why})
+}
+
+impl StatisticsQuestion {
+    pub(super) fn answer(&self, numbers: &[f64]) -> Result<Value> {
+        let points = self.points.max(1);
+        let series: Vec<Vec<f64>> = numbers.chunks_exact(points).map(<[f64]>::to_vec).collect();
+        if self.points == 0 || numbers.len() != points * series.len() || series.is_empty() {
+            let told = "come beside the question: the times, then each series, all of as many points";
+            let message = format!("points = {}: {} numbers do not fit; they {told}", self.points, numbers.len());
+            return Err(Problems::from(Problem::of("points", self.points.to_string(), message)).into());
+        }
+        let mut record = Record { times: series[0].clone(), values: series[1..].to_vec(), ..Record::default() };
+        let figures = self.figures.iter().map(|figure| {
+            let statistic = Statistic::parse(&figure.statistic).map_err(wrong)?;
+            let values = |i: usize| record.values.get(i).with_context(|| format!("there is no series {i}"));
+            values(figure.series)?;
+            if let Statistic::Order { of, .. } = statistic {
+                let phase =
+                    figure.phase.with_context(|| format!("{statistic}: an order needs what it is counted by"))?;
+                let phase = values(phase)?.clone();
+                record.phases[usize::from(of == Rotation::Shaft)] = phase;
+            }
+            statistic.of(&record, figure.series).map_err(wrong)
+        });
+        let figures: Vec<f64> = figures.collect::<Result<_>>()?;
+        Ok(json!({"figures": figures}))
+    }
+}

@@ -1,0 +1,109 @@
+//! One function that answers all questions: a question is a value of JSON, and so is the answer.
+//!
+//! ```
+//! use answers::{ask::ask, watch::Watch};
+//! let question = serde_json::json!({"ask": "geometry", "set": ["geometry.module=4mm"]});
+//! let answer = ask(&serde_json::from_value(question).unwrap(), &[], &mut Watch::nobody()).unwrap();
+//! assert!(answer["text"].as_str().unwrap().contains("4.0000"));
+//! ```
+
+pub mod c;
+mod gears;
+mod judged;
+mod scenes;
+mod source;
+mod study;
+
+use anyhow::Result;
+use serde::Deserialize;
+use serde_json::Value;
+
+use crate::problem::{Problem, Problems};
+use crate::watch::{Stopped, Watch};
+
+/// What is asked. Every question is one object of JSON, whose `ask` says which.
+#[derive(Deserialize)]
+#[serde(tag = "ask", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Question {
+    /// All scenes of a folder, with their descriptions.
+    Scenes(scenes::ScenesQuestion),
+    /// A scene as values: what it sets, later and over time, and its outputs.
+    Scene(scenes::SceneQuestion),
+    /// What a scene will simulate, in words.
+    Plan(scenes::SceneQuestion),
+    /// A run of a scene by this library itself, recorded in a file.
+    Run(scenes::RunQuestion),
+    /// A scene as a file for others: `ssv`, a parameter set of SSP, or `python`, a script.
+    Export(scenes::ExportQuestion),
+    /// The force on each loaded tooth pair, written to a file.
+    Loads(scenes::LoadsQuestion),
+    /// The cheapest model that is accurate enough.
+    Accuracy(judged::AccuracyQuestion),
+    /// Where flanks carry.
+    Pattern(scenes::PatternQuestion),
+    /// Dimensions, interference and curves of gears.
+    Geometry(gears::GeometryQuestion),
+    /// The published study.
+    Study(study::StudyQuestion),
+    /// What a word for a statistic means.
+    Word(judged::WordQuestion),
+    /// Figures of series over time.
+    Statistics(judged::StatisticsQuestion),
+}
+
+/// Answers a question, with the `numbers` that come beside it. `watch` is told how far the work is, and may stop it.
+pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Value> {
+    match question {
+        Question::Scenes(question) => question.answer(),
+        Question::Scene(question) => question.values(),
+        Question::Plan(question) => question.plan(),
+        Question::Run(question) => question.answer(watch),
+        Question::Export(question) => question.answer(),
+        Question::Loads(question) => question.answer(watch),
+        Question::Accuracy(question) => question.answer(watch),
+        Question::Pattern(question) => question.answer(watch),
+        Question::Geometry(question) => question.answer(watch),
+        Question::Study(question) => question.answer(),
+        Question::Word(question) => question.answer(),
+        Question::Statistics(question) => question.answer(numbers),
+    }
+}
+
+/// Why there is no answer.
+#[derive(Debug)]
+pub struct Refusal {
+    /// `use`: the question makes no sense; `failed`: it does, and the work came to no end; `stopped`: by whoever waited;
+    /// `internal`: a fault of this library.
+    pub kind: &'static str,
+    /// What is wrong.
+    pub problems: Vec<Problem>,
+}
+
+impl Refusal {
+    /// A question that cannot be read.
+    pub fn unreadable(what: impl Into<String>) -> Self {
+        Self { kind: "use", problems: vec![what.into().into()] }
+    }
+}
+
+impl From<anyhow::Error> for Refusal {
+    fn from(error: anyhow::Error) -> Self {
+        if error.downcast_ref::<Stopped>().is_some() {
+            return Self { kind: "stopped", problems: vec![error.root_cause().to_string().into()] };
+        }
+        match error.downcast_ref::<Problems>() {
+            Some(found) => {
+                // what the problems are about, such as a file
+                let about: String = error
+                    .chain()
+                    .take_while(|cause| !cause.is::<Problems>())
+                    .map(|cause| format!("{cause}: "))
+                    .filter(|about| !found.to_string().starts_with(about.trim_end_matches(": ")))
+                    .collect();
+                let problems = found.0.iter().map(|problem| problem.clone().in_place(&about)).collect();
+                Self { kind: "use", problems }
+            }
+            None => Self { kind: "failed", problems: vec![format!("{error:#}").into()] },
+        }
+    }
+}

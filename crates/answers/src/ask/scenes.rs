@@ -1,0 +1,186 @@
+//! Questions about scenes.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+
+use super::source::{Source, seconds};
+use crate::pattern::cases::{self, PatternCase};
+use crate::pattern::{Patterns, findings};
+use crate::scene::run::{SceneRun, run};
+use crate::scene::set::{Setting, SettingValue};
+use crate::scene::start_values::changed_values;
+use crate::scene::{self, Scene, loads, plan, script, ssv};
+use crate::text::shown;
+use crate::watch::Watch;
+
+/// All scenes of a folder.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ScenesQuestion {
+    scenes: PathBuf,
+}
+
+/// A scene.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SceneQuestion {
+    of: Source,
+}
+
+/// A scene as a file for others.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExportQuestion {
+    of: Source,
+    format: Format,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Format {
+    Ssv,
+    Python,
+}
+
+/// A run.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunQuestion {
+    of: Source,
+    /// The CSV file to write.
+    out: PathBuf,
+}
+
+/// Loads of tooth pairs.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadsQuestion {
+    of: Source,
+    /// The file to write.
+    out: PathBuf,
+    /// Time between records; the scene's communication step where there is none.
+    #[serde(default)]
+    every: Option<String>,
+}
+
+/// Contact patterns.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PatternQuestion {
+    /// The scenes; without any the cases of the documentation.
+    #[serde(default)]
+    of: Vec<Source>,
+}
+
+impl ScenesQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let scenes = scene::all(&self.scenes)?;
+        let told = |scene: &Scene| json!({"name": scene.name, "description": scene.description, "file": scene.file});
+        Ok(json!({"scenes": scenes.iter().map(told).collect::<Vec<_>>()}))
+    }
+}
+
+impl SceneQuestion {
+    pub(super) fn values(&self) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let events = scene.events.iter().map(|event| json!({"time": event.time, "set": values(&event.settings)}));
+        let tables = scene.input_tables.iter().map(|table| {
+            json!({"input": table.row.name, "times": table.times, "values": table.values, "period": table.period})
+        });
+        Ok(json!({
+            "name": scene.name,
+            "file": scene.file,
+            "description": scene.description,
+            "stop_time": scene.stop_time,
+            "step": scene.step,
+            "set": values(&scene.settings),
+            "at": events.collect::<Vec<_>>(),
+            "tables": tables.collect::<Vec<_>>(),
+            "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
+        }))
+    }
+
+    pub(super) fn plan(&self) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let run = SceneRun::start(&scene, scene.step)?;
+        Ok(json!({"text": plan::text(&scene, &run.simulation)}))
+    }
+}
+
+impl ExportQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let text = match self.format {
+            Format::Ssv => ssv::text(&scene)?,
+            Format::Python => script::text(&scene)?,
+        };
+        Ok(json!({"text": text}))
+    }
+}
+
+impl LoadsQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let (scene, every) = (self.of.scene()?, seconds("every", self.every.as_deref())?);
+        let lines = written(&self.out, |file| loads::write(&scene, every, file, watch))?;
+        Ok(json!({"lines": lines, "file": self.out}))
+    }
+}
+
+impl RunQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let scene = self.of.scene()?;
+        let outcome = written(&self.out, |file| run(&scene, None, Some(file), watch))?;
+        Ok(json!({"text": outcome.text(), "file": self.out}))
+    }
+}
+
+/// What `write` returns, after its file is at `path`. Where it fails nothing is left of the file.
+fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
+    let failed = || format!("{} cannot be written", shown(path));
+    let part = path.with_added_extension("part");
+    let mut file = BufWriter::new(File::create(&part).with_context(failed)?);
+    let done = write(&mut file).and_then(|done| {
+        file.flush().with_context(failed)?;
+        std::fs::rename(&part, path).with_context(failed)?;
+        Ok(done)
+    });
+    if done.is_err() {
+        let _ = std::fs::remove_file(&part);
+    }
+    done
+}
+
+impl PatternQuestion {
+    pub(super) fn answer(&self, watch: &mut Watch) -> Result<Value> {
+        let cases = match self.of.as_slice() {
+            [] => cases::all()?,
+            named => named.iter().map(|of| Ok(PatternCase::of(of.scene()?))).collect::<Result<_>>()?,
+        };
+        let patterns = Patterns::of(&cases, watch)?;
+        let files: Map<String, Value> =
+            patterns.files.iter().map(|(name, text)| ((*name).to_owned(), json!(text))).collect();
+        let table = patterns.table().terminal();
+        Ok(json!({"text": table, "document": findings::markdown(&patterns.findings), "files": files}))
+    }
+}
+
+/// Values by name: numbers of the interface, literals of enumerations.
+fn values(settings: &[Setting]) -> Map<String, Value> {
+    let value = |setting: &Setting| match setting.value {
+        SettingValue::Real(number) => json!(number),
+        SettingValue::Integer(number) => json!(number),
+        SettingValue::Boolean(truth) => json!(truth),
+        SettingValue::Literal(_) => json!(setting.text()),
+    };
+    settings.iter().map(|setting| (setting.row.name.to_owned(), value(setting))).collect()
+}
+
+/// All that `scene` has otherwise than the FMU, and all that it names.
+pub(super) fn changed(scene: &Scene) -> Map<String, Value> {
+    values(&changed_values(scene))
+}

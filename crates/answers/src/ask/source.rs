@@ -1,0 +1,53 @@
+//! The scene that a question is about: by name, by file, or as values.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use serde::Deserialize;
+
+use crate::problem::{Problem, Problems, wrong};
+use crate::scene::{Scene, assignments, find, load};
+
+/// More communication points than this are a slip, and would not fit into memory.
+const MOST_POINTS: f64 = 1e8;
+
+/// A scene and what is changed in it.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Source {
+    /// A file, or the name of a scene in `scenes`; with `given` the name that the scene is to have.
+    name: String,
+    /// The contents of a scene file.
+    #[serde(default)]
+    given: Option<Box<load::File>>,
+    /// Changes, each `name=value`.
+    #[serde(default)]
+    set: Vec<String>,
+    /// Folder of the scenes that have names.
+    #[serde(default)]
+    scenes: PathBuf,
+}
+
+impl Source {
+    /// The scene.
+    pub fn scene(&self) -> Result<Scene> {
+        let mut scene = match &self.given {
+            Some(file) => load::given(&self.name, Path::new(&self.name), file)?,
+            None => find(&self.name, &self.scenes)?,
+        };
+        assignments::apply(&mut scene, &self.set)?;
+        let Scene { stop_time, step, .. } = scene;
+        if stop_time / step > MOST_POINTS {
+            let told = format!("more than {MOST_POINTS:e} steps: end earlier, or take longer steps");
+            let message = format!("{stop_time} s in steps of {step} s are {told}");
+            return Err(Problems::from(Problem::of("step", step.to_string(), message)).into());
+        }
+        Ok(scene)
+    }
+}
+
+/// Seconds of a time that is left out, or written as a number or with its unit; `name` says which in the error.
+pub fn seconds(name: &str, text: Option<&str>) -> Result<Option<f64>> {
+    let read = text.map(crate::scene::units::seconds).transpose();
+    read.map_err(|problem| wrong(format!("{name}: {problem}")))
+}

@@ -1,0 +1,29 @@
+//! Questions about the published study.
+
+use anyhow::Result;
+use bevel_differential::model::Parameters;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::study::evaluation::{Results, SimulationRequest};
+use crate::study::theory::Theory;
+use crate::study::{EXCERPT, comparison};
+
+/// What to simulate for the study; with the results of that the comparison.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StudyQuestion {
+    #[serde(default)]
+    results: Option<Results>,
+}
+
+impl StudyQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let theory = Theory::new(&Parameters::default());
+        let Some(results) = &self.results else {
+            return Ok(serde_json::to_value(SimulationRequest::new(&theory))?);
+        };
+        let report = comparison::report(&theory, results);
+        Ok(json!({"text": report.terminal(), "document": report.markdown(), "excerpt": report.excerpt(&EXCERPT)}))
+    }
+}

@@ -1,0 +1,103 @@
+//! The gears that are asked for: settings by name and unit as in scenes, checked as the FMU checks them.
+
+use bevel_differential::geometry::{GearSpec, Pair, Tredgold, assembly, checks};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::{Causality, Variable, table};
+
+use crate::problem::{self, Problems};
+use crate::scene::set::{Setting, value};
+
+/// What may be set in addition to `geometry.*`: it removes the backlash.
+const PLAY: &str = "effects.backlash";
+/// Parameters that one value of [`SYSTEM`] reads and the others do not.
+const COEFFICIENTS: [&str; 4] =
+    ["geometry.planet_addendum", "geometry.side_addendum", "geometry.planet_dedendum", "geometry.side_dedendum"];
+const SYSTEM: &str = "geometry.addendum_system";
+
+/// Gears that can be built.
+#[derive(Clone)]
+pub struct Design {
+    /// All parameters, of which the geometry counts.
+    pub parameters: Parameters,
+    /// What was set, in the order it was set.
+    pub settings: Vec<Setting>,
+    /// The gears as they mesh.
+    pub spec: GearSpec,
+    /// Their geometry.
+    pub pair: Pair,
+    /// Their planar approximation.
+    pub planar: Tredgold,
+    /// What is unusual about them.
+    pub warnings: Vec<Problem>,
+}
+
+impl Design {
+    /// The start values changed by `assignments`, each `name=value`; or all that is wrong with them.
+    pub fn new<T: AsRef<str>>(assignments: &[T]) -> Result<Self, Problems> {
+        let settings = settings(assignments)?;
+        let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+        settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
+        let spec = parameters.gears();
+        let mut problems = Vec::from_iter(checks::shaft_angle(&spec));
+        let pair = Pair::new(&spec);
+        if problems.is_empty() {
+            problems.extend(checks::errors(&spec, &pair));
+        }
+        problems.extend(assembly::phases(&spec).err());
+        if !problems.is_empty() {
+            let mut found = Problems::default();
+            found.push("these gears cannot be built".to_owned());
+            found.extend(&problems);
+            return Err(found);
+        }
+        let (planar, warnings) = (Tredgold::new(&pair), checks::warnings(&spec, &pair));
+        Ok(Self { parameters, settings, spec, pair, planar, warnings })
+    }
+}
+
+/// Parameters that the geometry follows from.
+pub fn parameters() -> impl Iterator<Item = &'static Variable> {
+    table().rows.iter().filter(|row| row.causality == Causality::Parameter && counts(row.name))
+}
+
+fn counts(name: &str) -> bool {
+    name.starts_with("geometry.") || name == PLAY
+}
+
+fn settings<T: AsRef<str>>(assignments: &[T]) -> Result<Vec<Setting>, Problems> {
+    let (mut found, mut problems) = (Vec::<Setting>::new(), Problems::default());
+    for assignment in assignments {
+        match setting(assignment.as_ref()) {
+            Ok(setting) if found.iter().any(|known| known.row.name == setting.row.name) => {
+                problems.push(format!("{} is set twice", setting.row.name));
+            }
+            Ok(setting) => found.push(setting),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    let explicit = found.iter().any(|setting| setting.row.name == SYSTEM && setting.text() == "explicit");
+    if !explicit {
+        let unread = found.iter().filter(|setting| COEFFICIENTS.contains(&setting.row.name));
+        problems
+            .extend(unread.map(|setting| format!("{} changes nothing without {SYSTEM}=explicit", setting.row.name)));
+    }
+    problems.or(found)
+}
+
+fn setting(assignment: &str) -> Result<Setting, problem::Problem> {
+    let Some((name, text)) = assignment.split_once('=') else {
+        return Err(format!("\"{assignment}\" is not of the form name=value, such as geometry.module=4mm").into());
+    };
+    let setting = Setting::new(name.trim(), &value(text.trim()))?;
+    if counts(setting.row.name) {
+        Ok(setting)
+    } else {
+        let told = "does not change the geometry; parameters that do";
+        Err(problem::Problem::of(name.trim(), text, format!("{} {told}: {}", setting.row.name, names().join(", "))))
+    }
+}
+
+fn names() -> Vec<&'static str> {
+    parameters().map(|row| row.name).collect()
+}

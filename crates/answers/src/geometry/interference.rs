@@ -1,0 +1,275 @@
+//! Whether the gears turn freely, in words and in JSON: what was found in the library's check of the teeth, and whether
+//! the gears strike their neighbours.
+//!
+//! Depth, gap and resolution are those of `bevel_differential::geometry::solid::interference`, in millimetres at the heel
+//! and at the toe. The teeth may be taken thicker than they are made: backlash less that.
+
+use anyhow::{Context, Result};
+use bevel_differential::geometry::assembly::phases;
+use bevel_differential::geometry::solid::Part;
+use bevel_differential::geometry::solid::interference::{Approach, FACETS, Interference, POSITIONS, Stance, Verdict};
+use bevel_differential::geometry::{GearSpec, Pair};
+use serde::Serialize;
+
+use super::design::Design;
+use crate::text::table::wrapped;
+
+const MM: f64 = 1e3;
+const GEARS: [&str; 2] = ["planet", "side gear"];
+/// Approaches farther than this share of the module are left out of the JSON.
+const NEAR: f64 = 0.25;
+
+/// The check of a design.
+pub struct InterferenceCheck {
+    pair: Pair,
+    spec: GearSpec,
+    /// By how much teeth are thicker than they are made [m], both gears together at the outer pitch circle.
+    thicken: f64,
+    /// With the teeth in the middle of their gaps, and with all play taken up on one side.
+    stances: [Interference; 2],
+}
+
+/// The check in JSON: lengths in mm, angles in degrees.
+#[derive(Serialize)]
+pub struct InterferenceReport {
+    found: bool,
+    thicken: f64,
+    backlash: f64,
+    middle: StanceReport,
+    driving: StanceReport,
+    between_tip_cones_of_neighbouring_planets: f64,
+    between_tip_cones_of_side_gears: f64,
+}
+
+#[derive(Serialize)]
+struct StanceReport {
+    verdict: &'static str,
+    resolution: f64,
+    approaches: Vec<ApproachReport>,
+}
+
+#[derive(Serialize)]
+struct ApproachReport {
+    planet: &'static str,
+    side_gear: &'static str,
+    at_heel: f64,
+    at_toe: f64,
+    angle_from_planet_axis: f64,
+    angle_from_side_gear_axis: f64,
+    angle_from_plane_of_axes: f64,
+    planet_turned: f64,
+    planet_tooth: i32,
+    side_gear_tooth: i32,
+}
+
+impl InterferenceCheck {
+    /// Checks `design` with teeth thicker by `thicken` [m].
+    pub fn new(design: &Design, thicken: f64) -> Result<Self> {
+        let spec = GearSpec { backlash: design.spec.backlash - thicken, ..design.spec };
+        let pair = Pair::new(&spec);
+        let look = |stance| Interference::new(&pair, &spec, stance).context("the gears have no surface to look at");
+        let (middle, driving) = std::thread::scope(|scope| {
+            let driving = scope.spawn(|| look(Stance::Driving));
+            (look(Stance::Middle), driving.join())
+        });
+        let driving = driving.map_err(|_| anyhow::anyhow!("the check of interference broke off"))??;
+        Ok(Self { stances: [middle?, driving], pair, spec, thicken })
+    }
+
+    /// Whether anything enters anything.
+    pub fn any(&self) -> bool {
+        self.stances.iter().any(Interference::any)
+    }
+
+    /// In words.
+    pub fn text(&self) -> String {
+        let [middle, driving] = &self.stances;
+        let mut out = String::from("interference while the gears turn, apexes in one point\n");
+        if self.thicken > 0.0 {
+            out += &wrapped(&format!(
+                "Here teeth are {:.4} mm thicker at the outer pitch circle than they are made: backlash {:.4} mm.",
+                self.thicken * MM,
+                self.spec.backlash * MM
+            ));
+        }
+        out += &wrapped(&format!("1. Teeth in the middle of their gaps: {}.", self.middle(middle)));
+        out += &wrapped(&format!("2. Play taken up on one side, as gears run: {}.", self.driving(driving)));
+        out += &wrapped(&format!("3. Neighbours: {}.", self.neighbours()));
+        out += &wrapped(&format!(
+            "Looked at: {POSITIONS} positions of a tooth pitch of the planet, and more about the worst; outlines of {FACETS} \
+             facets per flank; right to {:.4} mm at the heel. {}",
+            self.heel(middle.resolution),
+            self.meshes()
+        ));
+        out
+    }
+
+    fn middle(&self, found: &Interference) -> String {
+        let Some(worst) = found.worst() else { return "no interference: nothing comes near".into() };
+        match found.verdict(worst.gap) {
+            Verdict::Interfering => self.entered(found),
+            Verdict::Touching => format!("no interference: {} touch within the accuracy of this check", parts(worst)),
+            Verdict::Clear => format!(
+                "no interference; nearest come {}, {:.4} mm at the toe (R = {:.4} mm) and {:.4} mm at the heel \
+                 (R = {:.4} mm), {}",
+                parts(worst),
+                worst.gap * self.pair.inner_cone * MM,
+                self.pair.inner_cone * MM,
+                self.heel(worst.gap),
+                self.pair.outer_cone * MM,
+                place(worst)
+            ),
+        }
+    }
+
+    fn driving(&self, found: &Interference) -> String {
+        match found.worst() {
+            _ if self.spec.backlash <= 0.0 => "there is no play".into(),
+            Some(worst) if found.verdict(worst.gap) == Verdict::Interfering => self.entered(found),
+            _ => "no interference: flanks touch, and nothing enters anything".into(),
+        }
+    }
+
+    /// What enters what, the deepest first.
+    fn entered(&self, found: &Interference) -> String {
+        let mut entering = found.approaches.iter().filter(|a| found.verdict(a.gap) == Verdict::Interfering);
+        let Some(worst) = entering.next() else { return String::new() };
+        let mut text = format!(
+            "INTERFERENCE: {} by {:.4} mm at the heel (R = {:.4} mm) and {:.4} mm at the toe (R = {:.4} mm), {}",
+            sentence(worst),
+            -self.heel(worst.gap),
+            self.pair.outer_cone * MM,
+            -worst.gap * self.pair.inner_cone * MM,
+            self.pair.inner_cone * MM,
+            place(worst)
+        );
+        for other in entering {
+            text += &format!("; {} by up to {:.4} mm", sentence(other), -self.heel(other.gap));
+        }
+        text
+    }
+
+    fn neighbours(&self) -> String {
+        let [planets, sides] = self.stances[0].between_tips;
+        let mut struck = Vec::new();
+        for (angle, what) in [(planets, "neighbouring planets"), (sides, "the two side gears")] {
+            if angle < 0.0 {
+                let degrees = -angle.to_degrees();
+                struck.push(format!("INTERFERENCE: the tip cones of {what} overlap by {degrees:.4} deg"));
+            }
+        }
+        if !struck.is_empty() {
+            return struck.join("; ");
+        }
+        let least = planets.min(sides);
+        let who = if planets <= sides { "planets" } else { "side gears" };
+        format!("no interference; the tip cones of {who} are {:.4} deg apart", least.to_degrees())
+    }
+
+    /// Which meshes are in step.
+    fn meshes(&self) -> String {
+        // a design has been checked to assemble
+        let phases = phases(&self.spec).unwrap_or_default();
+        let named = |wanted: f64| -> Vec<String> {
+            let all = phases.iter().enumerate().flat_map(|(i, phase)| {
+                [(i, "left", phase[0]), (i, "right", phase[1])].into_iter().filter(|mesh| mesh.2 == wanted)
+            });
+            all.map(|(i, side, _)| format!("planet {} {side}", i + 1)).collect()
+        };
+        let (first, second) = (named(0.0), named(0.5));
+        let same = "All meshes pass through the same positions, so one stands for all";
+        if second.is_empty() {
+            return format!("{same}; they are in step.");
+        }
+        format!("{same}; in step are {}, and half a pitch later {}.", first.join(", "), second.join(", "))
+    }
+
+    /// A length at the heel [mm].
+    fn heel(&self, per_cone_distance: f64) -> f64 {
+        per_cone_distance * self.pair.outer_cone * MM
+    }
+
+    /// For a program.
+    pub fn report(&self) -> InterferenceReport {
+        let [middle, driving] = &self.stances;
+        let [planets, sides] = middle.between_tips.map(f64::to_degrees);
+        InterferenceReport {
+            found: self.any(),
+            thicken: self.thicken * MM,
+            backlash: self.spec.backlash * MM,
+            middle: self.stance_report(middle),
+            driving: self.stance_report(driving),
+            between_tip_cones_of_neighbouring_planets: planets,
+            between_tip_cones_of_side_gears: sides,
+        }
+    }
+
+    fn stance_report(&self, found: &Interference) -> StanceReport {
+        let near = |a: &&Approach| a.gap * self.pair.outer_cone < NEAR * self.pair.module;
+        let verdict = found.worst().map_or(Verdict::Clear, |worst| found.verdict(worst.gap));
+        StanceReport {
+            verdict: match verdict {
+                Verdict::Clear => "clear",
+                Verdict::Touching => "touching",
+                Verdict::Interfering => "interfering",
+            },
+            resolution: self.heel(found.resolution),
+            approaches: found.approaches.iter().filter(near).map(|a| self.approach_report(a)).collect(),
+        }
+    }
+
+    fn approach_report(&self, a: &Approach) -> ApproachReport {
+        ApproachReport {
+            planet: part(a.parts[0]),
+            side_gear: part(a.parts[1]),
+            at_heel: self.heel(a.gap),
+            at_toe: a.gap * self.pair.inner_cone * MM,
+            angle_from_planet_axis: a.polar[0].to_degrees(),
+            angle_from_side_gear_axis: a.polar[1].to_degrees(),
+            angle_from_plane_of_axes: a.azimuth.to_degrees(),
+            planet_turned: a.turn.to_degrees(),
+            planet_tooth: a.teeth[0],
+            side_gear_tooth: a.teeth[1],
+        }
+    }
+}
+
+fn part(part: Part) -> &'static str {
+    match part {
+        Part::Root => "root",
+        Part::Fillet => "root fillet",
+        Part::Meridian => "flank below the base circle",
+        Part::Flank => "flank",
+        Part::Tip => "tip",
+    }
+}
+
+/// The two that come near each other.
+fn parts(a: &Approach) -> String {
+    format!("the planet's {} and the side gear's {}", part(a.parts[0]), part(a.parts[1]))
+}
+
+/// What enters what.
+fn sentence(a: &Approach) -> String {
+    if a.parts[0] == a.parts[1] {
+        return format!("the {}s of planet and side gear overlap", part(a.parts[0]));
+    }
+    // a tip enters; else the gear whose ray lies within the other
+    let own = a.parts.iter().position(|&part| part == Part::Tip).unwrap_or(a.ray);
+    let mate = 1 - own;
+    format!("the {}'s {} enters the {}'s {}", GEARS[own], part(a.parts[own]), GEARS[mate], part(a.parts[mate]))
+}
+
+/// Where it is.
+fn place(a: &Approach) -> String {
+    format!(
+        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both, with the \
+         planet turned by {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})",
+        a.polar[0].to_degrees(),
+        a.polar[1].to_degrees(),
+        a.azimuth.to_degrees(),
+        a.turn.to_degrees(),
+        a.teeth[0],
+        a.teeth[1]
+    )
+}

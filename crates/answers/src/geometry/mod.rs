@@ -1,0 +1,15 @@
+//! The gears on paper and in CAD: derived dimensions with the terms of ISO 23509, curves, solids, interference.
+
+pub mod assembly;
+pub mod design;
+pub mod dimension;
+pub mod dimensions;
+mod gear_rows;
+pub mod interference;
+pub mod json;
+mod pair_rows;
+pub mod shape;
+pub mod text;
+mod tooth_rows;
+pub mod tredgold;
+pub mod xyz;

@@ -1,0 +1,22 @@
+//! What users of the gears ask beside simulating them. It stands on the library of the FMU and builds, measures and prints
+//! nothing: a question is a value, so is its answer, and so is what is wrong with it.
+//!
+//! - [`scene`]: scene files, what they plan, their runs and tooth loads
+//! - [`accuracy`]: the cheapest model that is accurate enough
+//! - [`geometry`]: dimensions, curves and solids of the gears, interference
+//! - [`pattern`]: where flanks carry, and how much
+//! - [`study`]: the published study, beside theory
+//! - [`ask`]: all of these by one function, from C and Python too
+//! - [`text`]: tables, numbers and files of text; [`problem`]: what is wrong; [`watch`]: who waits, and may stop the work
+
+#![warn(missing_docs)]
+
+pub mod accuracy;
+pub mod ask;
+pub mod geometry;
+pub mod pattern;
+pub mod problem;
+pub mod scene;
+pub mod study;
+pub mod text;
+pub mod watch;

@@ -1,0 +1,121 @@
+//! The largest pressure that each spot of the planet's flank sees in one engagement.
+//!
+//! A section's strip of contact has Hertz's ellipse of pressure p √(1 − (d/b)²) across it. Between sections load and place
+//! are taken as straight lines.
+
+use anyhow::Result;
+use bevel_differential::geometry::Pair;
+
+use crate::text::csv_file::CsvFile;
+
+use super::sample::{Engagement, LoadedSection};
+
+/// Spots along the face and along the profile.
+const SPOTS: [usize; 2] = [61, 161];
+
+/// The pattern of a planet's flank.
+#[derive(Clone, Debug)]
+pub struct Envelope {
+    /// Cone distances [m].
+    pub cones: Vec<f64>,
+    /// Polar angles, root to tip [rad].
+    pub polars: Vec<f64>,
+    /// Pressure by cone distance, then polar angle [Pa].
+    pub pressure: Vec<Vec<f64>>,
+    pitch: f64,
+}
+
+impl Envelope {
+    /// Pattern of the engagement of `record`.
+    pub fn new(record: &Engagement) -> Self {
+        let (pair, gear) = (&record.pair, &record.pair.gears[0]);
+        let spots = |from: f64, to: f64, n: usize| -> Vec<f64> {
+            (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()
+        };
+        let cones = spots(pair.inner_cone, pair.outer_cone, SPOTS[0]);
+        let polars = spots(gear.root, gear.tip, SPOTS[1]);
+        let mut pressure = vec![vec![0.0; SPOTS[1]]; SPOTS[0]];
+        let contacts: Vec<&LoadedSection> = record.engagement().collect();
+        let outermost = |better: fn(f64, f64) -> f64, from| record.contacts.iter().map(|c| c.cone).fold(from, better);
+        let face = [outermost(f64::min, f64::INFINITY), outermost(f64::max, 0.0)];
+        for line in contacts.chunk_by(|a, b| a.time == b.time) {
+            for (&cone, column) in cones.iter().zip(&mut pressure) {
+                let Some([polar, peak, half]) = between(line, cone, face) else { continue };
+                for (&at, seen) in polars.iter().zip(column) {
+                    let d = (at - polar) * cone / half;
+                    if d.abs() < 1.0 {
+                        *seen = f64::max(*seen, peak * (1.0 - d * d).sqrt());
+                    }
+                }
+            }
+        }
+        Self { cones, polars, pressure, pitch: gear.pitch }
+    }
+
+    /// The file of patterns, without rows.
+    pub fn file() -> Result<CsvFile> {
+        let comments = [
+            "largest Hertz pressure that each spot of the planet's flank sees while one pair goes through mesh",
+            "cone: distance from the apex; height: along the profile from the pitch circle there",
+            "units: -,mm,mm,MPa",
+        ];
+        CsvFile::new("case,cone,height,pressure", &comments)
+    }
+
+    /// Adds its spots to the file.
+    pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
+        for (cone, column) in self.cones.iter().zip(&self.pressure) {
+            for (polar, pressure) in self.polars.iter().zip(column) {
+                let lengths = [1e3 * cone, 1e3 * cone * (polar - self.pitch)].map(|length| format!("{length:.4}"));
+                let pressure = format!("{:.1}", 1e-6 * pressure);
+                out.push([case.to_owned()].into_iter().chain(lengths).chain([pressure]))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Polar angle on the planet, pressure and half-width at `cone` of a line of contact whose sections lie within `face`;
+/// none where it does not reach.
+fn between(line: &[&LoadedSection], cone: f64, face: [f64; 2]) -> Option<[f64; 3]> {
+    let (first, last) = (line.first()?, line.last()?);
+    // within the face a line ends where the next section would have no load left
+    let (end, beyond, is_edge) = if cone < first.cone {
+        (first, first.cone - cone, first.cone <= face[0])
+    } else {
+        (last, cone - last.cone, last.cone >= face[1])
+    };
+    if beyond > 0.0 && !is_edge {
+        let left = (1.0 - beyond / end.width).max(0.0).sqrt();
+        return (left > 0.0).then_some([end.polar[0], end.pressure * left, end.half_width * left]);
+    }
+    let after = line.iter().position(|c| c.cone >= cone).unwrap_or(line.len()).clamp(1, line.len().max(2) - 1);
+    let (a, b) = (line[after - 1], line.get(after).unwrap_or(&line[after - 1]));
+    let share = if b.cone > a.cone { (cone - a.cone) / (b.cone - a.cone) } else { 0.0 };
+    let along = |of: fn(&LoadedSection) -> f64| of(a) + share * (of(b) - of(a));
+    let values = [along(|c| c.polar[0]), along(|c| c.pressure), along(|c| c.half_width)];
+    (values[1] > 0.0 && values[2] > 0.0).then_some(values)
+}
+
+/// The file of outlines, without rows.
+pub fn outline_file() -> Result<CsvFile> {
+    let comments = [
+        "heights on the planet's flank from the pitch circle; start: where contact of aligned rigid teeth begins",
+        "units: -,-,mm,mm,mm,mm",
+    ];
+    CsvFile::new("case,mark,toe_cone,toe_height,heel_cone,heel_height", &comments)
+}
+
+/// Adds the flank's outline to that file: heights of its marks at toe and heel.
+pub fn outline(pair: &Pair, case: &str, out: &mut CsvFile) -> Result<()> {
+    let gear = &pair.gears[0];
+    let start = gear.polar_at(pair.pitch_arc[0] + pair.path.low);
+    for (mark, polar) in
+        [("root", gear.root), ("base", gear.base), ("start", start), ("pitch", gear.pitch), ("tip", gear.tip)]
+    {
+        let at = |cone: f64| [1e3 * cone, 1e3 * cone * (polar - gear.pitch)].map(|length| format!("{length:.4}"));
+        let texts = [case, mark].map(str::to_owned).into_iter();
+        out.push(texts.chain(at(pair.inner_cone)).chain(at(pair.outer_cone)))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,149 @@
+//! What a pattern shows, in numbers.
+
+use anyhow::{Context, Result};
+
+use crate::text::csv_file::CsvFile;
+use crate::text::table::Table;
+
+use super::cases::PatternCase;
+use super::sample::{Engagement, LoadedSection};
+
+/// Numbers of one case, at the instant at which the pair is at the pitch point unless they say otherwise.
+#[derive(Clone, Debug)]
+pub struct PatternFindings {
+    /// Name and title of the case.
+    pub case: [String; 2],
+    /// Load's centroid from the middle of the face, toward the heel [m].
+    pub centroid: f64,
+    /// Line load of the sections nearest to toe and heel [N/m].
+    pub ends: [f64; 2],
+    /// Part of the face under load.
+    pub bearing: f64,
+    /// Greatest pressure [Pa].
+    pub pitch_pressure: f64,
+    /// Whether it is the drive flank that bears.
+    pub drive: bool,
+    /// Force of the pair [N].
+    pub force: f64,
+    /// Greatest pressure at or above the pitch line over the engagement [Pa], and at which cone distance [m]. Further
+    /// down the flank ends at its base circle, where it has no radius.
+    pub peak: [f64; 2],
+    /// Greatest line load over the engagement, corners included [N/m].
+    pub most: f64,
+    /// Heights on the planet at the middle of the face between which the pair carries [m].
+    pub heights: [f64; 2],
+}
+
+impl PatternFindings {
+    /// Of `case`, whose engagement is `record`.
+    pub fn new(case: &PatternCase, record: &Engagement) -> Result<Self> {
+        let pitch = record.at_pitch_point();
+        let (first, last) = (pitch.first(), pitch.last());
+        let (first, last) = first.zip(last).context("the pair that was followed has no load at the pitch point")?;
+        let gear = &record.pair.gears[0];
+        let height = |c: &LoadedSection, cone: f64| cone * (c.polar[0] - gear.pitch);
+        let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
+        let above = record.engagement().filter(|c| !c.corner && c.polar[0] >= gear.pitch);
+        let peak = above.max_by(|a, b| a.pressure.total_cmp(&b.pressure));
+        let face = record.pair.outer_cone - record.pair.inner_cone;
+        // a face of which one end is bare has its sections at the other
+        let reaches = |c: &LoadedSection, end: f64| (c.cone - end).abs() <= c.width;
+        let end = |c: &LoadedSection, end: f64| if reaches(c, end) { c.line_load } else { 0.0 };
+        let mean = record.pair.mean_cone;
+        Ok(Self {
+            case: [case.name.clone(), case.title.clone()],
+            centroid: centroid(&pitch) - mean,
+            ends: [end(first, record.pair.inner_cone), end(last, record.pair.outer_cone)],
+            bearing: pitch.iter().map(|c| c.width).sum::<f64>() / face,
+            pitch_pressure: greatest(&mut pitch.iter().map(|c| c.pressure)),
+            drive: record.followed.0,
+            force: pitch.iter().map(LoadedSection::force).sum(),
+            peak: peak.map_or([0.0; 2], |c| [c.pressure, c.cone]),
+            most: greatest(&mut record.engagement().map(|c| c.line_load)),
+            heights: [
+                record.engagement().map(|c| height(c, mean)).fold(f64::INFINITY, f64::min),
+                record.engagement().map(|c| height(c, mean)).fold(f64::NEG_INFINITY, f64::max),
+            ],
+        })
+    }
+
+    fn cells(&self) -> [String; CELLS] {
+        [
+            self.case[1].clone(),
+            if self.drive { "drive" } else { "coast" }.into(),
+            format!("{:.1}", 1e-3 * self.force),
+            format!("{:+.2}", (1e5 * self.centroid).round() / 100.0 + 0.0),
+            format!("{:.0} / {:.0}", 1e-3 * self.ends[0], 1e-3 * self.ends[1]),
+            format!("{:.0}", 100.0 * self.bearing),
+            format!("{:.0}", 1e-6 * self.pitch_pressure),
+            format!("{:.0} at {:.1}", 1e-6 * self.peak[0], 1e3 * self.peak[1]),
+            format!("{:+.2} to {:+.2}", 1e3 * self.heights[0], 1e3 * self.heights[1]),
+        ]
+    }
+}
+
+/// Centre of the load along the face [m].
+pub fn centroid(line: &[LoadedSection]) -> f64 {
+    let force: f64 = line.iter().map(LoadedSection::force).sum();
+    line.iter().map(|c| c.force() * c.cone).sum::<f64>() / force
+}
+
+/// Columns of the table.
+const CELLS: usize = 9;
+const HEAD: [&str; CELLS] = [
+    "case",
+    "flank",
+    "force, kN",
+    "centroid of load, mm toward heel",
+    "line load toe / heel, N/mm",
+    "face in contact, %",
+    "pressure, MPa",
+    "greatest from the pitch line up, MPa at R in mm",
+    "carries at heights, mm",
+];
+
+/// The table of all cases.
+pub fn table(found: &[PatternFindings]) -> Table {
+    let mut table = Table::new(HEAD).all_left();
+    found.iter().for_each(|f| table.push(f.cells()));
+    table
+}
+
+/// The table for the document.
+pub fn markdown(found: &[PatternFindings]) -> String {
+    format!(
+        "{}\nForce, centroid, line loads, face in contact and pressure at the instant at which the pair touches at its \
+         pitch point; the last two columns over the whole engagement, heights along the planet's profile from its pitch \
+         circle, those of the last column at the middle of the face.\n",
+        table(found).markdown()
+    )
+}
+
+/// Columns of the file.
+const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
+                       lowest,highest";
+
+/// The numbers as a file.
+pub fn csv(found: &[PatternFindings]) -> Result<String> {
+    let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm"])?;
+    for f in found {
+        let [name, title] = &f.case;
+        let flank = if f.drive { "drive" } else { "coast" };
+        let numbers = [
+            1e-3 * f.force,
+            1e3 * f.centroid,
+            1e-3 * f.ends[0],
+            1e-3 * f.ends[1],
+            f.bearing,
+            1e-6 * f.pitch_pressure,
+            1e-6 * f.peak[0],
+            1e3 * f.peak[1],
+            1e-3 * f.most,
+            1e3 * f.heights[0],
+            1e3 * f.heights[1],
+        ];
+        let texts = [name, title, flank].map(str::to_owned);
+        file.push(texts.into_iter().chain(numbers.map(|x| format!("{x:.4}"))))?;
+    }
+    file.text()
+}

@@ -1,0 +1,56 @@
+//! The contact pattern: which spot of a flank sees which pressure while a pair of teeth goes through mesh.
+//!
+//! An assembler blues the teeth, turns the gears under load and looks where the ink is gone. Here teeth are solid
+//! (`scene.gear_contact = solid`), every loaded section of planet 1's left mesh is followed over one whole engagement
+//! ([`sample`]), mapped to the flank as it is and given its Hertz pressure; the largest that a spot ever sees is the
+//! pattern ([`envelope`]). [`cases`] has the scenes, [`findings`] what they show in numbers.
+
+pub mod cases;
+pub mod envelope;
+pub mod findings;
+pub mod sample;
+
+use anyhow::Result;
+
+use crate::text::table::Table;
+use crate::watch::Watch;
+use cases::PatternCase;
+use envelope::Envelope;
+use findings::PatternFindings;
+use sample::Engagement;
+
+/// Patterns of some cases.
+pub struct Patterns {
+    /// Names and texts of CSV files: pressures, contacts, outlines of the flanks, and what they show.
+    pub files: [(&'static str, String); 4],
+    /// What they show.
+    pub findings: Vec<PatternFindings>,
+}
+
+impl Patterns {
+    /// Simulates `cases`.
+    pub fn of(cases: &[PatternCase], watch: &mut Watch) -> Result<Self> {
+        let (mut envelopes, mut contacts, mut findings) = (Envelope::file()?, Engagement::file()?, Vec::new());
+        let mut outline = envelope::outline_file()?;
+        for (i, case) in cases.iter().enumerate() {
+            watch.say(i as f64 / cases.len() as f64, &case.title);
+            let record = Engagement::new(&case.scene, watch)?;
+            envelope::outline(&record.pair, &case.name, &mut outline)?;
+            Envelope::new(&record).rows(&case.name, &mut envelopes)?;
+            record.rows(&case.name, &mut contacts)?;
+            findings.push(PatternFindings::new(case, &record)?);
+        }
+        let files = [
+            ("pattern.csv", envelopes.text()?),
+            ("contacts.csv", contacts.text()?),
+            ("summary.csv", findings::csv(&findings)?),
+            ("outline.csv", outline.text()?),
+        ];
+        Ok(Self { files, findings })
+    }
+
+    /// What they show, as a table.
+    pub fn table(&self) -> Table {
+        findings::table(&self.findings)
+    }
+}

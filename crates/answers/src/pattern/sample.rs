@@ -1,0 +1,201 @@
+//! One engagement of a pair of teeth, section by section and instant by instant.
+//!
+//! The first pair of planet 1's left mesh that comes into touch after the start is followed until it parts. Its sections
+//! lie where the solids touch: at polar angle φ on each gear, so that on the unit sphere the flanks' radii are tan ψ(φ) and
+//!
+//!   ρ = R / (cot ψ_p + cot ψ_s)
+//!
+//! A tip corner is no cylinder; it counts with the radii that the flanks have at the end of the path, which is less than the
+//! pressure at the edge. Aligned teeth have one section for all, which is spread evenly over the face here.
+
+use std::collections::HashMap;
+
+use anyhow::{Result, bail, ensure};
+use bevel_differential::contact::pairs::{Flank, Spot};
+use bevel_differential::geometry::Pair;
+use bevel_differential::model::{GearContact, Simulation, ToothLoad, Touch};
+use bevel_differential::strength::LineContact;
+
+use crate::scene::Scene;
+use crate::scene::run::SceneRun;
+use crate::text::csv_file::CsvFile;
+use crate::watch::Watch;
+
+/// Sections drawn where one stands for all.
+const SECTIONS: usize = 8;
+
+/// Flank and teeth of planet and side gear: one engagement.
+pub type PairName = (bool, [usize; 2]);
+
+/// A loaded section.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadedSection {
+    /// When [s].
+    pub time: f64,
+    /// Which pair.
+    pub name: PairName,
+    /// Whether a tip corner carries.
+    pub corner: bool,
+    /// Place by the planet's rotation [rad].
+    pub s: f64,
+    /// Cone distance [m].
+    pub cone: f64,
+    /// Width that it stands for [m].
+    pub width: f64,
+    /// Polar angles on planet and side gear [rad].
+    pub polar: [f64; 2],
+    /// Normal force per width [N/m].
+    pub line_load: f64,
+    /// Relative radius of curvature [m].
+    pub radius: f64,
+    /// Hertz pressure [Pa].
+    pub pressure: f64,
+    /// Half-width of the strip of contact [m].
+    pub half_width: f64,
+}
+
+impl LoadedSection {
+    /// Normal force [N].
+    pub fn force(&self) -> f64 {
+        self.line_load * self.width
+    }
+}
+
+/// All contacts of the mesh until one pair has gone through.
+#[derive(Clone, Debug)]
+pub struct Engagement {
+    /// The gears.
+    pub pair: Pair,
+    /// Loaded sections of all pairs, by time, then as shown by the simulation.
+    pub contacts: Vec<LoadedSection>,
+    /// The pair that went through.
+    pub followed: PairName,
+}
+
+impl Engagement {
+    /// Runs `scene` until a pair has gone through.
+    pub fn new(scene: &Scene, watch: &mut Watch) -> Result<Self> {
+        ensure!(
+            scene.parameters.scene.gear_contact == GearContact::Solid,
+            "scene {}: patterns are seen on solid teeth alone: set scene.gear_contact = \"solid\"",
+            scene.name
+        );
+        let mut run = SceneRun::start(scene, scene.step)?;
+        let pair = *run.simulation.pair();
+        let m = &scene.parameters.material;
+        let line = LineContact::new(&pair, m.young_modulus, m.poisson_ratio);
+        let mut contacts = Vec::new();
+        // when a pair was seen first, and whether others than those of the start
+        let mut seen: HashMap<PairName, bool> = HashMap::new();
+        let mut first = true;
+        while !run.is_over() {
+            if !first {
+                run.advance()?;
+                watch.go_on()?;
+            }
+            let now = instant(&run.simulation, &pair, &line);
+            now.iter().for_each(|c| {
+                seen.entry(c.name).or_insert(!first);
+            });
+            let parted = seen.iter().find(|(name, fresh)| **fresh && now.iter().all(|c| c.name != **name));
+            if let Some((&followed, _)) = parted {
+                return Ok(Self { pair, contacts, followed });
+            }
+            seen.retain(|name, _| now.iter().any(|c| c.name == *name));
+            contacts.extend(now);
+            first = false;
+        }
+        bail!("scene {}: no pair of planet 1's left mesh came into touch and parted again before its end", scene.name)
+    }
+
+    /// Contacts of the pair that went through.
+    pub fn engagement(&self) -> impl Iterator<Item = &LoadedSection> {
+        self.contacts.iter().filter(|c| c.name == self.followed)
+    }
+
+    /// Contacts of that pair at the instant at which it is nearest to the pitch point.
+    pub fn at_pitch_point(&self) -> Vec<LoadedSection> {
+        let nearest = self.engagement().min_by(|a, b| a.s.abs().total_cmp(&b.s.abs()));
+        nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
+    }
+
+    /// The file of loaded sections, without rows.
+    pub fn file() -> Result<CsvFile> {
+        let comments = [
+            "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
+            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries, whose pressure is",
+            "calculated with the radii at the end of the path and is more",
+            "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
+        ];
+        let columns = "case,time,flank,planet_tooth,side_tooth,followed,corner,s,cone,width,planet_height,side_height,\
+                       line_load,radius,pressure,half_width";
+        CsvFile::new(columns, &comments)
+    }
+
+    /// Adds its sections to the file.
+    pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
+        for c in &self.contacts {
+            let [planet, side] = [0, 1].map(|i| 1e3 * c.cone * (c.polar[i] - self.pair.gears[i].pitch));
+            let flank = if c.name.0 { "drive" } else { "coast" };
+            let marks = [u8::from(c.name == self.followed), u8::from(c.corner)].map(|mark| mark.to_string());
+            let lengths = [1e3 * c.cone, 1e3 * c.width, planet, side, 1e-3 * c.line_load, 1e3 * c.radius];
+            let mut cells = vec![case.to_owned(), format!("{:.6}", c.time), flank.to_owned()];
+            cells.extend(c.name.1.map(|tooth| tooth.to_string()));
+            cells.extend(marks);
+            cells.push(format!("{:.6}", c.s));
+            cells.extend(lengths.map(|length| format!("{length:.4}")));
+            cells.extend([format!("{:.2}", 1e-6 * c.pressure), format!("{:.4}", 1e3 * c.half_width)]);
+            out.push(cells)?;
+        }
+        Ok(())
+    }
+}
+
+/// Loaded sections of planet 1's left mesh as it stands.
+pub fn instant(simulation: &Simulation, pair: &Pair, line: &LineContact) -> Vec<LoadedSection> {
+    let (mut all, time) = (Vec::new(), simulation.time());
+    simulation.tooth_loads(|load| {
+        if let (0, 0, Some(touch)) = (load.planet, load.side, load.touch) {
+            all.extend(sections(pair, load).map(|(cone, width)| contact(pair, line, time, load, &touch, cone, width)));
+        }
+    });
+    all
+}
+
+/// Cone distances and widths that a load stands for.
+fn sections(pair: &Pair, load: &ToothLoad) -> impl Iterator<Item = (f64, f64)> {
+    let (face, alone) = (pair.outer_cone - pair.inner_cone, load.normal / load.line_load);
+    let whole = alone > (1.0 - 1e-9) * face;
+    let (count, cone, inner) = (if whole { SECTIONS } else { 1 }, load.cone, pair.inner_cone);
+    let width = if whole { face / SECTIONS as f64 } else { alone };
+    (0..count).map(move |i| (if whole { inner + width * (i as f64 + 0.5) } else { cone }, width))
+}
+
+fn contact(
+    pair: &Pair,
+    line: &LineContact,
+    time: f64,
+    load: &ToothLoad,
+    t: &Touch,
+    cone: f64,
+    width: f64,
+) -> LoadedSection {
+    // on the flank of each gear no nearer to its base circle than the path comes
+    let least = [pair.pitch_arc[0] + pair.path.low, pair.pitch_arc[1] - pair.path.high];
+    let cot = |i: usize| 1.0 / pair.gears[i].action_arc(t.polar[i]).max(least[i]).tan();
+    let radius = cone / (cot(0) + cot(1));
+    let pressure = line.pressure_on(load.line_load, radius).unwrap_or(0.0);
+    LoadedSection {
+        time,
+        name: (load.flank == Flank::Drive, load.teeth),
+        corner: load.spot != Spot::Path,
+        s: load.s,
+        cone,
+        width,
+        polar: t.polar,
+        line_load: load.line_load,
+        radius,
+        pressure,
+        half_width: LineContact::half_width(load.line_load, pressure),
+    }
+}

@@ -1,0 +1,115 @@
+//! What is wrong with what was asked, as values: a program that asks need not read sentences.
+
+use std::fmt;
+
+use bevel_differential::variables::Variable;
+use serde::Serialize;
+
+/// One thing that is wrong. The message alone says all; what it is about stands beside it where it is known.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Problem {
+    /// The whole sentence.
+    pub message: String,
+    /// The variable or option.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variable: Option<String>,
+    /// The value as it was written.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub value: Option<String>,
+    /// Unit of the variable, and of the range.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unit: Option<&'static str>,
+    /// Least and largest value that the variable takes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub range: Option<[f64; 2]>,
+    /// What was meant, perhaps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hint: Option<String>,
+}
+
+/// All that is wrong with a question.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Problems(pub Vec<Problem>);
+
+impl Problem {
+    /// Of the variable or option `name` with the value `written`.
+    pub fn of(name: &str, written: impl Into<String>, message: impl Into<String>) -> Self {
+        let (variable, value) = (Some(name.to_owned()), Some(written.into()));
+        Self { variable, value, ..Self::from(message.into()) }
+    }
+
+    /// With unit and range of `row`.
+    pub fn at(mut self, row: &Variable) -> Self {
+        self.variable.get_or_insert_with(|| row.name.to_owned());
+        self.unit = row.unit.map(|unit| unit.name);
+        self.range = row.range.map(|range| [range.min, range.max]);
+        self
+    }
+
+    /// The same in a place that its message begins with.
+    pub fn in_place(mut self, place: &str) -> Self {
+        self.message = format!("{place}{}", self.message);
+        self
+    }
+}
+
+impl From<String> for Problem {
+    /// With what its message offers as meant for a hint.
+    fn from(message: String) -> Self {
+        let hint = message.split_once("did you mean ").map(|(_, meant)| meant.trim_end_matches([')', '?']).to_owned());
+        Self { message, hint, ..Self::default() }
+    }
+}
+
+impl From<&bevel_differential::problem::Problem> for Problem {
+    fn from(found: &bevel_differential::problem::Problem) -> Self {
+        let problem = Self { variable: Some(found.variable.to_owned()), ..Self::from(found.to_string()) };
+        match bevel_differential::variables::named(found.variable) {
+            Some(row) => problem.at(row),
+            None => problem,
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let lines: Vec<&str> = self.0.iter().map(|problem| problem.message.as_str()).collect();
+        f.write_str(&lines.join("\n"))
+    }
+}
+
+impl std::error::Error for Problems {}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Self {
+        Self(vec![problem])
+    }
+}
+
+impl Problems {
+    /// Adds one.
+    pub fn push(&mut self, problem: impl Into<Problem>) {
+        self.0.push(problem.into());
+    }
+
+    /// Adds all.
+    pub fn extend<T: Into<Problem>>(&mut self, problems: impl IntoIterator<Item = T>) {
+        self.0.extend(problems.into_iter().map(Into::into));
+    }
+
+    /// `value` if nothing is wrong.
+    pub fn or<T>(self, value: T) -> Result<T, Self> {
+        if self.0.is_empty() { Ok(value) } else { Err(self) }
+    }
+}
+
+/// The error of a question that makes no sense, in one sentence.
+pub fn wrong(what: impl Into<String>) -> anyhow::Error {
+    Problems::from(Problem::from(what.into())).into()
+}

@@ -1,0 +1,219 @@
+//! Inputs over time from a CSV file: a column of times and a column for each input, with their units in the header.
+//!
+//! ```csv
+//! # anything after a hash is a comment
+//! time [s],carrier.speed_command [rpm],left.load_torque [N·m]
+//! 0,0,0
+//! 0.5,300,835
+//! ```
+
+use std::path::Path;
+use std::{fs, io};
+
+use bevel_differential::variables::{Access, Variable};
+use csv::{ErrorKind, Position, ReaderBuilder, StringRecord, Trim};
+use toml::Value;
+
+use super::set::{real, variable};
+use super::{InputTable, units};
+use crate::text;
+
+/// Name of the column of times.
+const TIME: &str = "time";
+/// Begins comments.
+const COMMENT: u8 = b'#';
+/// Some programs begin files of UTF-8 with it.
+const MARK: char = '\u{feff}';
+
+/// A column of an input.
+struct Column {
+    /// Its place in the file, and its header as written.
+    place: usize,
+    head: String,
+    row: &'static Variable,
+    unit: String,
+    values: Vec<f64>,
+    /// What is wrong with values: the first, and how many.
+    wrong: Option<String>,
+    wrong_count: usize,
+}
+
+/// The inputs in `file`, all repeating after `period` [s] if there is one; or all that is wrong with it.
+pub fn read(file: &Path, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
+    let shown = text::shown(file);
+    let text = fs::read_to_string(file).map_err(|error| {
+        vec![match error.kind() {
+            io::ErrorKind::InvalidData => format!("{shown} is not UTF-8; save it as UTF-8"),
+            _ => format!("{shown} cannot be read ({error}); the path in file = is relative to the scene's own file"),
+        }]
+    })?;
+    parse(text.trim_start_matches(MARK), period)
+        .map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect())
+}
+
+/// The inputs in `text`; problems begin with their place in it.
+fn parse(text: &str, period: Option<f64>) -> Result<Vec<InputTable>, Vec<String>> {
+    let mut reader = ReaderBuilder::new().comment(Some(COMMENT)).trim(Trim::All).from_reader(text.as_bytes());
+    let told = |error: csv::Error| vec![told(text, &error)];
+    let header = reader.headers().map_err(told)?.clone();
+    let (time_place, time_unit, mut columns) = columns(&header)?;
+    let mut times = Vec::new();
+    let mut problems = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(told)?;
+        let line = line(text, record.position());
+        match time(&record[time_place], &time_unit, times.last().copied()) {
+            Ok(time) => times.push(time),
+            Err(problem) => {
+                let (head, cell) = (&header[time_place], &record[time_place]);
+                problems.push(format!(", line {line}, column {head}, value \"{cell}\": {problem}"));
+                // later times cannot be compared with this one
+                break;
+            }
+        }
+        columns.iter_mut().for_each(|column| column.take(line, &record[column.place]));
+    }
+    problems.extend(columns.iter().filter_map(Column::problem));
+    if times.is_empty() && problems.is_empty() {
+        problems.push(": has no values; write a line for each time below the header".into());
+    }
+    if !problems.is_empty() {
+        return Err(problems);
+    }
+    let table = |column: Column| InputTable { row: column.row, times: times.clone(), values: column.values, period };
+    Ok(columns.into_iter().map(table).collect())
+}
+
+/// Place and unit of the column of times, and the columns of inputs.
+fn columns(header: &StringRecord) -> Result<(usize, String, Vec<Column>), Vec<String>> {
+    let mut columns: Vec<Column> = Vec::new();
+    let mut time = None;
+    let mut problems = Vec::new();
+    for (place, head) in header.iter().enumerate() {
+        let (name, unit) = split_head(head);
+        if name == TIME && time.is_none() {
+            let known = units::seconds(&format!("0 {unit}")).map(|_| unit.to_owned());
+            time = Some((place, known.map_err(|_| wrong_time_unit(head, unit))));
+            continue;
+        }
+        match input(name, unit) {
+            Ok(row) if columns.iter().any(|column| column.row.name == row.name) => {
+                problems.push(format!(", column {head}: the input stands here twice; remove one of the columns"));
+            }
+            Ok(row) => columns.push(Column {
+                place,
+                head: head.to_owned(),
+                row,
+                unit: unit.to_owned(),
+                values: Vec::new(),
+                wrong: None,
+                wrong_count: 0,
+            }),
+            Err(problem) => problems.push(format!(", column {head}: {problem}")),
+        }
+    }
+    match time {
+        Some((place, Ok(unit))) if problems.is_empty() && !columns.is_empty() => return Ok((place, unit, columns)),
+        Some((_, Ok(_))) if problems.is_empty() => {
+            problems.push(": has times but no inputs; add a column such as left.load_torque [N.m]".into());
+        }
+        Some((_, Ok(_))) => {}
+        Some((_, Err(problem))) => problems.push(problem),
+        // the other columns are misread where something else than commas separates them
+        None => {
+            problems = vec![format!(
+                ", header \"{}\": has no column time; the first line names the columns, separated by commas: \
+                 time [s],left.load_torque [N.m]",
+                header.iter().collect::<Vec<_>>().join(",")
+            )];
+        }
+    }
+    Err(problems)
+}
+
+fn wrong_time_unit(head: &str, unit: &str) -> String {
+    format!(", column {head}: {unit} is no unit of time; write one of {}", units::times().join(", "))
+}
+
+/// The input `name`, if it may be given in `unit`.
+fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
+    let row = variable(name)?;
+    if !matches!(row.access, Access::Input(_)) {
+        return Err(format!("{name} is not an input; parameters stand in [set]"));
+    }
+    if !unit.is_empty() {
+        units::check(row, unit)?;
+    }
+    Ok(row)
+}
+
+/// Name and unit of `name [unit]`; the unit is empty if there is none.
+fn split_head(head: &str) -> (&str, &str) {
+    let parts = head.strip_suffix(']').and_then(|head| head.rsplit_once('['));
+    parts.map_or((head, ""), |(name, unit)| (name.trim(), unit.trim()))
+}
+
+fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
+    cell.parse::<f64>().map_err(|_| not_a_number())?;
+    let time = units::seconds(&format!("{cell} {unit}"))?;
+    match before {
+        _ if !time.is_finite() => Err("is not a finite number".into()),
+        None if time < 0.0 => Err("times begin at 0 or later".into()),
+        Some(before) if time < before => {
+            Err("is before the line before; sort the lines by time, and give a jump two lines of one time".into())
+        }
+        _ => Ok(time),
+    }
+}
+
+fn not_a_number() -> String {
+    "is not a number; write one with a decimal point, and its unit in the header".into()
+}
+
+impl Column {
+    /// Takes the value in a cell.
+    fn take(&mut self, line: u64, cell: &str) {
+        match self.value(cell) {
+            Ok(value) => self.values.push(value),
+            Err(problem) => {
+                let first = || format!(", line {line}, column {}, value \"{cell}\": {problem}", self.head);
+                self.wrong = self.wrong.take().or_else(|| Some(first()));
+                self.wrong_count += 1;
+            }
+        }
+    }
+
+    /// In the unit of the interface.
+    fn value(&self, cell: &str) -> Result<f64, String> {
+        let number: f64 = cell.parse().map_err(|_| not_a_number())?;
+        let value =
+            if self.unit.is_empty() { Value::Float(number) } else { Value::String(format!("{cell} {}", self.unit)) };
+        real(self.row, &value)
+    }
+
+    fn problem(&self) -> Option<String> {
+        let first = self.wrong.as_ref()?;
+        Some(match self.wrong_count - 1 {
+            0 => first.clone(),
+            more => format!("{first} (and {more} more in this column)"),
+        })
+    }
+}
+
+fn told(text: &str, error: &csv::Error) -> String {
+    match error.kind() {
+        ErrorKind::UnequalLengths { expected_len, len, .. } => {
+            let line = line(text, error.position());
+            format!(", line {line}: has {len} cells where the header has {expected_len}; every line needs all of them")
+        }
+        _ => format!(": {error}"),
+    }
+}
+
+/// Line of the record at `position`, which csv gives before the comments and blanks that it skips.
+fn line(text: &str, position: Option<&Position>) -> u64 {
+    let Some(position) = position else { return 0 };
+    let rest = usize::try_from(position.byte()).ok().and_then(|from| text.get(from..)).unwrap_or_default();
+    let skipped = rest.lines().take_while(|line| line.is_empty() || line.as_bytes().starts_with(&[COMMENT])).count();
+    position.line() + skipped as u64
+}

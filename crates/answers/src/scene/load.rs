@@ -1,0 +1,277 @@
+//! A scene from its TOML file. All errors are reported at once, by key, value, unit and range.
+//!
+//! ```toml
+//! description = "what it shows"
+//! stop_time = 0.5                        # in s, or with a unit: "500 ms"
+//! step = 1e-3                            # communication step
+//! outputs = ["left.speed"]
+//!
+//! [set]                                  # any parameter or input of the FMU
+//! geometry.module = "4.5 mm"             # with a unit, or a number in SI
+//! scene.start = "rolling"                # literal of an enumeration
+//!
+//! [[at]]                                 # inputs and tunable parameters, later
+//! time = 0.1
+//! left.load_torque = 0.0
+//!
+//! [[table]]                              # an input that goes straight from point to point
+//! input = "carrier.speed_command"
+//! time = [0.0, 0.05]
+//! value = ["0 deg/s", "100 deg/s"]
+//! period = 0.1                           # repeats; without it the last value stays
+//!
+//! [[inputs]]                             # the same for all inputs in a CSV file
+//! file = "cycle.csv"                     # relative to this file
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::{Access, Variable};
+use serde::Deserialize;
+use toml::{Table, Value};
+
+use super::set::{Setting, closest, real, variable, written};
+use super::times::{check_step, seconds, span};
+use super::units::digits;
+use super::{Event, InputTable, Scene, input_file};
+use crate::problem::Problems;
+use crate::text::shown;
+
+/// The contents of a file.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct File {
+    description: String,
+    stop_time: Value,
+    step: Value,
+    #[serde(default)]
+    set: Table,
+    #[serde(default)]
+    at: Vec<Table>,
+    #[serde(default)]
+    table: Vec<InputTableEntry>,
+    #[serde(default)]
+    inputs: Vec<InputFileEntry>,
+    outputs: Vec<String>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InputTableEntry {
+    input: String,
+    time: Vec<Value>,
+    value: Vec<Value>,
+    period: Option<Value>,
+}
+
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct InputFileEntry {
+    file: PathBuf,
+    period: Option<Value>,
+}
+
+/// Loads the scene in `file`.
+pub fn load(file: &Path) -> Result<Scene> {
+    let shown = shown(file);
+    let text = std::fs::read_to_string(file).with_context(|| format!("{shown} cannot be read"))?;
+    let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
+    parse(name, file, &text).with_context(|| shown)
+}
+
+/// The scene that `text` describes.
+pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
+    given(name, file, &toml::from_str(text)?)
+}
+
+/// The scene that the contents of a file describe; paths in it are relative to that of `file`.
+pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
+    let mut problems = Problems::default();
+    let (stop_time, step) = times(entry, &mut problems);
+    let settings = settings("[set]", &entry.set, &mut problems);
+    let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+    settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
+    let mut events: Vec<Event> = entry.at.iter().filter_map(|at| event(at.clone(), stop_time, &mut problems)).collect();
+    events.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let mut input_tables: Vec<InputTable> =
+        entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
+    for input_file in &entry.inputs {
+        add_input_file(input_file, file, &mut input_tables, &mut problems);
+    }
+    let outputs = outputs(&entry.outputs, &mut problems);
+    overridden(&events, &input_tables, &mut problems);
+    problems.or(())?;
+    for input_table in &input_tables {
+        if let Access::Input(access) = input_table.row.access {
+            *access(&mut inputs) = input_table.at(0.0);
+        }
+    }
+    Ok(Scene {
+        name: name.into(),
+        file: file.into(),
+        description: entry.description.clone(),
+        stop_time,
+        step,
+        parameters,
+        inputs,
+        settings,
+        events,
+        input_tables,
+        outputs,
+    })
+}
+
+/// Simulated time and communication step [s]; NaN where they are wrong.
+fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
+    let mut checked = |key: &str, value: &Value| span(key, value).map_err(|problem| problems.push(problem));
+    let (stop_time, step) = (checked("stop_time", &entry.stop_time), checked("step", &entry.step));
+    if let (Ok(stop_time), Ok(step)) = (stop_time, step) {
+        problems.extend(check_step(step, stop_time).err());
+    }
+    (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))
+}
+
+/// Values of a table whose keys may be dotted or nested.
+fn settings(place: &str, table: &Table, problems: &mut Problems) -> Vec<Setting> {
+    let mut found = Vec::new();
+    let mut flat = Vec::new();
+    flatten("", table, &mut flat);
+    for (name, value) in flat {
+        match Setting::new(&name, value) {
+            Ok(setting) => found.push(setting),
+            Err(problem) => problems.push(problem.in_place(&format!("{place} "))),
+        }
+    }
+    found
+}
+
+fn flatten<'a>(prefix: &str, table: &'a Table, out: &mut Vec<(String, &'a Value)>) {
+    for (key, value) in table {
+        let name = if prefix.is_empty() { key.clone() } else { format!("{prefix}.{key}") };
+        match value {
+            Value::Table(inner) => flatten(&name, inner, out),
+            value => out.push((name, value)),
+        }
+    }
+}
+
+fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Event> {
+    let Some(value) = table.remove("time") else {
+        problems.push("[[at]] has no time".to_owned());
+        return None;
+    };
+    let time = match seconds(&value) {
+        Ok(time) => time,
+        Err(problem) => {
+            problems.push(format!("[[at]] time = {}: {problem}", written(&value)));
+            return None;
+        }
+    };
+    if !stop_time.is_nan() && !(0.0..=stop_time).contains(&time) {
+        let [time, stop_time] = [time, stop_time].map(digits);
+        problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
+    }
+    let place = format!("[[at]] time = {} s:", digits(time));
+    let settings = settings(&place, &table, problems);
+    for setting in settings.iter().filter(|setting| !setting.may_come_later()) {
+        let name = setting.row.name;
+        problems.push(format!("{place} {name} is fixed: only inputs and tunable parameters change during a run"));
+    }
+    Some(Event { time, settings })
+}
+
+/// Values at a time for inputs that follow a table have no effect.
+fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Problems) {
+    for event in events {
+        for name in event.settings.iter().map(|setting| setting.row.name) {
+            if input_tables.iter().any(|table| table.row.name == name) {
+                let time = digits(event.time);
+                problems.push(format!(
+                    "[[at]] time = {time} s: {name} follows a table, which overrides a value; remove one"
+                ));
+            }
+        }
+    }
+}
+
+fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<InputTable> {
+    let place = format!("[[table]] input = \"{}\":", entry.input);
+    let mut wrong = |what: String| problems.push(format!("{place} {what}"));
+    let row: &'static Variable = match variable(&entry.input) {
+        Ok(row) if matches!(row.access, Access::Input(_)) => row,
+        Ok(_) => {
+            wrong("is not an input".into());
+            return None;
+        }
+        Err(problem) => {
+            wrong(problem);
+            return None;
+        }
+    };
+    let mut values = Vec::new();
+    for value in &entry.value {
+        match real(row, value) {
+            Ok(value) => values.push(value),
+            Err(problem) => wrong(format!("value {}: {problem}", written(value))),
+        }
+    }
+    let mut times = Vec::new();
+    for value in &entry.time {
+        match seconds(value) {
+            Ok(time) => times.push(time),
+            Err(problem) => wrong(format!("time {}: {problem}", written(value))),
+        }
+    }
+    if entry.time.len() != entry.value.len() || entry.time.is_empty() {
+        wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
+    }
+    let rising = times.windows(2).all(|pair| pair[0] <= pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
+    if !rising || !times.iter().all(|time| time.is_finite()) {
+        wrong("times must not fall, from 0 on".into());
+    }
+    let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(wrong).ok()?;
+    let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();
+    (complete && rising).then_some(InputTable { row, times, values, period })
+}
+
+/// Adds the inputs of a CSV file, whose path is relative to that of the scene, `scene`.
+fn add_input_file(entry: &InputFileEntry, scene: &Path, tables: &mut Vec<InputTable>, problems: &mut Problems) {
+    let place = format!("[[inputs]] file = \"{}\":", entry.file.display());
+    let period = match entry.period.as_ref().map(|period| span("period", period)).transpose() {
+        Ok(period) => period,
+        Err(problem) => return problems.push(format!("{place} {problem}")),
+    };
+    let file = scene.parent().unwrap_or(Path::new("")).join(&entry.file);
+    match input_file::read(&file, period) {
+        Ok(read) => {
+            for table in read {
+                let name = table.row.name;
+                if tables.iter().any(|known| known.row.name == name) {
+                    problems.push(format!("{place} {name} has another table in the scene already; remove one of them"));
+                }
+                tables.push(table);
+            }
+        }
+        Err(found) => problems.extend(found.iter().map(|problem| format!("[[inputs]] {problem}"))),
+    }
+}
+
+fn outputs(names: &[String], problems: &mut Problems) -> Vec<&'static Variable> {
+    let mut rows = Vec::new();
+    for name in names {
+        match variable(name) {
+            Ok(row) if matches!(row.access, Access::Output(_)) => rows.push(row),
+            Ok(_) => problems.push(format!("outputs: {name} is not an output")),
+            Err(problem) => {
+                let all = bevel_differential::variables::table();
+                let names = all.outputs.iter().map(|&i| all.rows[i].name);
+                let hint = closest(name, names)
+                    .map_or(problem, |n| format!("there is no output \"{name}\"; did you mean {n}?"));
+                problems.push(format!("outputs: {hint}"));
+            }
+        }
+    }
+    rows
+}

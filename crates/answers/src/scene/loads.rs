@@ -1,0 +1,150 @@
+//! Mesh forces over time for FEA: one line per loaded tooth pair, or slice of one, in the frames of both gears.
+
+use std::f64::consts::PI;
+use std::io::Write;
+
+use anyhow::{Context, Result, bail};
+use bevel_differential::contact::pairs::{Flank, Spot};
+use bevel_differential::geometry::Pair;
+use bevel_differential::geometry::action::LineOfAction;
+use bevel_differential::model::{GearContact, ToothLoad};
+
+use super::Scene;
+use super::run::SceneRun;
+use crate::watch::Watch;
+
+/// Times that differ by less than this part of an interval are the same.
+const SAME: f64 = 1e-6;
+
+/// Columns: of the load, then of its place and direction on each gear.
+const LOAD: &str = "time,planet,side,flank,spot,planet_tooth,side_tooth,share,s,cone,normal,friction";
+const LOAD_UNITS: &str = "s,-,-,-,-,-,-,1,rad,m,N,N";
+const VECTORS: [&str; 9] = ["x", "y", "z", "nx", "ny", "nz", "Fx", "Fy", "Fz"];
+const VECTOR_UNITS: &str = "m,m,m,1,1,1,N,N,N";
+
+/// Force of a pair on one gear, in the gear's own frame.
+#[derive(Clone, Copy, Debug)]
+pub struct OnGear {
+    /// Point [m].
+    pub point: [f64; 3],
+    /// Unit normal, into the gear's material.
+    pub normal: [f64; 3],
+    /// Normal force and friction together [N].
+    pub force: [f64; 3],
+}
+
+/// Force of `load` on the planet and on the side gear.
+pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear; 2] {
+    let (contact, turn) = (load.contact(action), load.turn());
+    [0, 1].map(|i| {
+        let own = action.in_gear(&contact, i, load.tooth_azimuth(pair, i), turn);
+        // the normal points from the planet into the side gear
+        let sign = if i == 0 { -1.0 } else { 1.0 };
+        let normal = own.normal * sign;
+        let force = normal * load.normal - own.along * (sign * load.friction);
+        OnGear { point: (own.point * load.cone).into(), normal: normal.into(), force: force.into() }
+    })
+}
+
+/// Writes the history of `scene` to `out`, a record every `every` seconds (by default its communication step);
+/// returns the number of lines.
+pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, watch: &mut Watch) -> Result<u64> {
+    if scene.parameters.scene.gear_contact == GearContact::Ideal {
+        bail!("scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load", scene.name);
+    }
+    let every = every.unwrap_or(scene.step);
+    if !(every > 0.0 && every <= scene.stop_time) {
+        bail!("--every {every} s: must be above 0 and at most the scene's {} s", scene.stop_time);
+    }
+    let mut run = SceneRun::start(scene, scene.step.min(every))?;
+    let pair = *run.simulation.pair();
+    let action = LineOfAction::new(&pair);
+    header(scene, every, &run, out).context("the loads cannot be written")?;
+    let mut rows = csv::Writer::from_writer(out);
+    let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
+    let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
+    rows.write_record(head).context("the loads cannot be written")?;
+    watch.say(0.0, "simulating");
+    let (mut records, mut lines) = (0u64, 0u64);
+    loop {
+        if run.time() >= (records as f64 - SAME) * every {
+            let (time, mut written) = (run.time(), Ok(()));
+            run.simulation.tooth_loads(|load| {
+                if written.is_ok() {
+                    written = line(&mut rows, time, load, &on_gears(&action, &pair, load));
+                    lines += 1;
+                }
+            });
+            written.context("the loads cannot be written")?;
+            records += 1;
+        }
+        if run.is_over() {
+            break;
+        }
+        run.advance()?;
+        watch.advance(run.time() / scene.stop_time)?;
+    }
+    rows.flush().context("the loads cannot be written")?;
+    Ok(lines)
+}
+
+fn line(rows: &mut csv::Writer<&mut dyn Write>, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -> csv::Result<()> {
+    let side = ["left", "right"][load.side];
+    let flank = if load.flank == Flank::Drive { "drive" } else { "coast" };
+    let spot = match load.spot {
+        Spot::Path => "path",
+        Spot::PlanetTip => "planet_tip",
+        Spot::SideTip => "side_tip",
+    };
+    let values = [load.share, load.s, load.cone, load.normal, load.friction].into_iter();
+    let vectors = gears.iter().flat_map(|g| [g.point, g.normal, g.force]).flatten();
+    let mut cells = vec![format!("{time:.9e}"), (load.planet + 1).to_string()];
+    cells.extend([side, flank, spot].map(str::to_owned));
+    cells.extend(load.teeth.map(|tooth| tooth.to_string()));
+    cells.extend(values.chain(vectors).map(|value| format!("{value:.12e}")));
+    rows.write_record(cells)
+}
+
+fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std::io::Result<()> {
+    let (plan, pair) = (run.simulation.plan(), run.simulation.pair());
+    writeln!(out, "# mesh forces of scene {}: {}", scene.name, scene.description)?;
+    writeln!(out, "# {}", run.simulation.describe())?;
+    writeln!(
+        out,
+        "# one line per loaded tooth pair (per slice of it where loads differ over the face) every {every} s"
+    )?;
+    for group in plan.groups() {
+        let planets: Vec<String> = (0..plan.planets)
+            .filter(|&i| plan.groups()[plan.group_of[i]] == *group)
+            .map(|i| (i + 1).to_string())
+            .collect();
+        if planets.len() > 1 {
+            writeln!(
+                out,
+                "# planet {} stands for planets {}, whose loads are alike",
+                group.planet + 1,
+                planets.join(", ")
+            )?;
+        }
+    }
+    let degrees = |i: usize| pair.gears[i].tooth_pitch() * 180.0 / PI;
+    let text = format!(
+        "\
+# share: part of the face that the line stands for; s: place on the path of contact, an arc from the pitch point toward
+#   the planet's tip; cone: distance of the point from the apex; spot: on the path, or a tip corner on the mate's flank
+# normal: normal force; friction: along the flank, positive toward the planet's root on the planet
+# frames: right-handed, apex at the origin, z along the gear's own axis from apex to heel, x along the middle of its tooth 0;
+#   they turn with the gears
+# planet tooth k stands at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
+#   (planet teeth count with positive spin, side gear teeth with forward rotation)
+# x, y, z: point on the undeformed flank (a tip corner where it is one); nx, ny, nz: unit normal into the gear's material;
+#   Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
+# sums of r x F about z are the tooth torques; with contact.law line and line_weber stiffness that varies along the path adds
+#   a torque on the planet that no force at the flank carries, and friction of tip corners has the arms of the prolonged path
+",
+        degrees(0),
+        degrees(1)
+    );
+    out.write_all(text.as_bytes())?;
+    writeln!(out, "# units: {LOAD_UNITS},{VECTOR_UNITS},{VECTOR_UNITS}")
+}

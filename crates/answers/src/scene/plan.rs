@@ -1,0 +1,180 @@
+//! The plan of a scene: what it will simulate, from its parameters before the first step.
+
+use std::fmt::Write as _;
+
+use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::{Access, Causality, Variable, named, table};
+use cpu_time::ThreadTime;
+
+use super::run::SceneRun;
+use super::set::literal;
+use super::{Scene, units};
+use crate::text::{numbers, shown};
+
+/// What each class of cost means.
+fn meaning(cost: CostClass) -> &'static str {
+    match cost {
+        CostClass::ClosedForm => "closed form: no teeth, a step is a formula, whatever its length",
+        CostClass::Rigid => "effects without teeth: integrated, with no motion faster than the effects' own",
+        CostClass::Teeth => "plain teeth: stiff, integrated step by step; nothing is evaluated but the tooth pairs",
+        CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
+        CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",
+    }
+}
+
+/// Time for a piece of the scene from which its cost is expected [s].
+const PIECE: f64 = 0.05;
+
+/// What the scene is expected to cost on this machine, from its first piece; none if that fails.
+fn cost(scene: &Scene) -> Option<String> {
+    let begun = ThreadTime::now();
+    let mut run = SceneRun::start(scene, scene.step).ok()?;
+    let started = begun.elapsed();
+    while !run.is_over() && begun.elapsed().as_secs_f64() < PIECE {
+        run.advance().ok()?;
+    }
+    let (simulated, taken) = (run.time(), (begun.elapsed() - started).as_secs_f64().max(f64::MIN_POSITIVE));
+    let ratio = numbers::significant(simulated / taken, 2);
+    let all = numbers::significant(scene.stop_time * taken / simulated, 2);
+    Some(format!(
+        "{ratio} x real time on this machine, {all} s for all, as the first {} s take",
+        units::digits(simulated)
+    ))
+}
+
+/// The plan of `scene`, whose simulation is about to start.
+pub fn text(scene: &Scene, simulation: &Simulation) -> String {
+    let plan = simulation.plan();
+    let mut out = format!("{}: {}\n", scene.name, scene.description);
+    let mut line = |title: &str, text: &str| {
+        let _ = writeln!(out, "  {title:<13} {text}");
+    };
+    line("file", &shown(&scene.file));
+    line("time", &format!("{} s, communication step {} s", scene.stop_time, scene.step));
+    for name in ["scene.gear_contact", "contact.law", "scene.start"] {
+        if name == "contact.law" && scene.parameters.scene.gear_contact != bevel_differential::model::GearContact::Tooth
+        {
+            continue;
+        }
+        line(name.rsplit('.').next().unwrap_or(name).replace('_', " ").as_str(), &choice(scene, name));
+    }
+    let groups: Vec<String> = plan.groups().iter().map(|group| format!("1 x {}", group.members)).collect();
+    line("planets", &format!("{} planets simulated as {}", plan.planets, groups.join(" + ")));
+    for (i, drive) in drives(scene).into_iter().enumerate() {
+        line(if i == 0 { "drives" } else { "" }, &drive);
+    }
+    let (freedoms, imposed) = (plan.freedoms(), plan.imposed());
+    line("size", &format!("{freedoms} degrees of freedom, {imposed} of them imposed; {} states", 2 * freedoms));
+    line("cost class", meaning(simulation.cost()));
+    if let Some(cost) = cost(scene) {
+        line("cost", &cost);
+    }
+    let mut active: Vec<String> =
+        simulation.active_effects().map(|name| format!("{name}: {}", description(name))).collect();
+    if scene.inputs.lock > 0.0 {
+        active.push(format!("lock.command: the lock holds at {} of its torque", scene.inputs.lock));
+    }
+    if active.is_empty() {
+        active.push("none".into());
+    }
+    for (i, effect) in active.iter().enumerate() {
+        line(if i == 0 { "effects" } else { "" }, effect);
+    }
+    let j = simulation.inertias();
+    let own = |s: usize| units::digits(j.side[s] - j.end[s]);
+    line(
+        "inertias",
+        &format!(
+            "carrier with planets {}, side gears {} and {}, their ends {} and {}, planet {} kg.m2",
+            units::digits(j.carrier),
+            own(0),
+            own(1),
+            units::digits(j.end[0]),
+            units::digits(j.end[1]),
+            units::digits(j.planet)
+        ),
+    );
+    for event in &scene.events {
+        let settings: Vec<String> = event.settings.iter().map(|s| format!("{} = {}", s.row.name, s.text())).collect();
+        line("later", &format!("at {} s {}", event.time, settings.join(", ")));
+    }
+    for input_table in &scene.input_tables {
+        let period = input_table.period.map_or(String::new(), |period| format!(", again every {period} s"));
+        line("table", &format!("{} from {} points{period}", input_table.row.name, input_table.times.len()));
+    }
+    for warning in simulation.warnings().iter().chain(&unfelt(scene)) {
+        line("warning", &warning.to_string());
+    }
+    out
+}
+
+/// Values that change nothing in `scene`, at the start or later, each variable once.
+fn unfelt(scene: &Scene) -> Vec<Problem> {
+    let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
+    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
+    let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
+        let index = table().rows.iter().position(|row| row.name == name);
+        let problem = index.zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
+        found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
+    };
+    for setting in scene.events.iter().flat_map(|event| &event.settings) {
+        setting.apply(&mut parameters, &mut inputs);
+        later(setting.row.name, felt::number(setting.row, &mut parameters, &mut inputs), &mut parameters);
+    }
+    for table in &scene.input_tables {
+        table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));
+    }
+    found
+}
+
+/// Literal and meaning of an enumeration in `scene`.
+fn choice(scene: &Scene, name: &str) -> String {
+    let known = row(name).and_then(|row| match row.access {
+        Access::Enumeration(_, get, _) => literal(row, get(&scene.parameters)),
+        _ => None,
+    });
+    known.map_or(String::new(), |(literal, meaning)| format!("{literal}: {meaning}"))
+}
+
+/// How each shaft is driven, with the values at the start.
+fn drives(scene: &Scene) -> Vec<String> {
+    let value = |name: &str| {
+        let mut inputs: Inputs = scene.inputs;
+        row(name).map_or(String::new(), |row| match row.access {
+            Access::Input(access) => format!("{name} = {}", units::text(row, *access(&mut inputs))),
+            _ => String::new(),
+        })
+    };
+    let driven = |name: &str| choice(scene, name).split(':').next().unwrap_or_default().to_owned();
+    let mut drives = vec![format!("carrier by {}", driven("scene.carrier_drive"))];
+    let command = if drives[0].ends_with("torque") { "carrier.torque_command" } else { "carrier.speed_command" };
+    drives[0].push_str(&format!(", {}", value(command)));
+    for side in ["left", "right"] {
+        let by = driven(&format!("scene.{side}_drive"));
+        let command = if by == "speed" { "speed_command" } else { "load_torque" };
+        drives.push(format!("{side} by {by}, {}", value(&format!("{side}.{command}"))));
+    }
+    let spin = driven("scene.planet_spin");
+    let command = if spin == "imposed" { format!(", {}", value("planet.spin_command")) } else { String::new() };
+    drives.push(format!("planet spin {spin}{command}"));
+    drives
+}
+
+fn row(name: &str) -> Option<&'static Variable> {
+    named(name)
+}
+
+/// The effect of a switch.
+fn description(name: &str) -> String {
+    let text = row(name).filter(|row| row.causality == Causality::Parameter).map_or("", |row| row.description);
+    // the text after the semicolon says what happens without it
+    let on = text.split(';').next().unwrap_or(text);
+    let mut defaults = Parameters::default();
+    let usual = row(name).is_some_and(|row| match row.access {
+        Access::Boolean(access) => *access(&mut defaults),
+        _ => false,
+    });
+    if usual { format!("{on} (on unless switched off)") } else { on.to_owned() }
+}

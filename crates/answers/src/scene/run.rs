@@ -1,0 +1,248 @@
+//! Runs a scene with the library's simulation and summarises its outputs.
+
+use std::io::Write;
+use std::time::{Duration, Instant};
+
+use anyhow::{Context, Result, anyhow};
+use bevel_differential::model::{Inputs, Parameters, Simulation};
+use bevel_differential::problem::Problem;
+use bevel_differential::variables::{Access, Variable, check_ranges};
+
+use super::units;
+use super::{InputTable, Scene};
+use crate::problem::Problems;
+use crate::text::table::Table;
+use crate::watch::Watch;
+
+/// Times that differ by less than this part of a communication step are the same.
+const SAME: f64 = 1e-9;
+
+/// A scene that runs: it stops at communication points and where inputs change.
+pub struct SceneRun<'a> {
+    scene: &'a Scene,
+    parameters: Parameters,
+    inputs: Inputs,
+    step: f64,
+    /// Whole communication steps done, and events.
+    done: u64,
+    events: usize,
+    /// Times at which inputs change at once [s], rising; the last of them first.
+    stops: Vec<f64>,
+    /// The simulation.
+    pub simulation: Simulation,
+}
+
+impl<'a> SceneRun<'a> {
+    /// Starts `scene` with communication steps of `step` [s].
+    pub fn start(scene: &'a Scene, step: f64) -> Result<Self> {
+        Self::attempt(scene, step)
+            .map_err(|found| Problems(found.iter().map(Into::into).collect()))
+            .with_context(|| refused(scene))
+    }
+
+    /// The same; contradictions are returned by variable.
+    pub fn attempt(scene: &'a Scene, step: f64) -> Result<Self, Vec<Problem>> {
+        let out_of_range = check_ranges(&scene.parameters);
+        if !out_of_range.is_empty() {
+            return Err(out_of_range);
+        }
+        let simulation = Simulation::start(&scene.parameters, &scene.inputs, 0.0)?;
+        let events = scene.events.iter().map(|event| event.time);
+        let mut stops: Vec<f64> = events.chain(scene.input_tables.iter().flat_map(InputTable::jumps)).collect();
+        stops.sort_by(|a, b| b.total_cmp(a));
+        let Scene { parameters, inputs, .. } = *scene;
+        Ok(Self { scene, parameters, inputs, step, done: 0, events: 0, stops, simulation })
+    }
+
+    /// Time [s].
+    pub fn time(&self) -> f64 {
+        self.simulation.time()
+    }
+
+    /// Whether the scene is over.
+    pub fn is_over(&self) -> bool {
+        self.time() >= self.scene.stop_time - SAME * self.step
+    }
+
+    /// One step to the next communication point, or to the next change of inputs before it.
+    pub fn advance(&mut self) -> Result<()> {
+        let (time, slack) = (self.time(), SAME * self.step);
+        self.feed(time + slack);
+        let regular = (self.done + 1) as f64 * self.step;
+        let mut next = if regular > self.scene.stop_time - slack { self.scene.stop_time } else { regular };
+        // what has been fed is over
+        while self.stops.last().is_some_and(|&stop| stop <= time + slack) {
+            self.stops.pop();
+        }
+        let change = self.stops.last().copied().filter(|&stop| stop < next - slack);
+        next = change.unwrap_or(next);
+        self.simulation.advance(next).map_err(|failure| anyhow!("{failure}")).with_context(|| refused(self.scene))?;
+        self.done += u64::from(change.is_none());
+        Ok(())
+    }
+
+    /// Sets what is due by `time`.
+    fn feed(&mut self, time: f64) {
+        let mut tuned = false;
+        while let Some(event) = self.scene.events.get(self.events).filter(|event| event.time <= time) {
+            for setting in &event.settings {
+                setting.apply(&mut self.parameters, &mut self.inputs);
+                tuned |= !matches!(setting.row.access, Access::Input(_));
+            }
+            self.events += 1;
+        }
+        for InputTable { row, .. } in &self.scene.input_tables {
+            if let Access::Input(access) = row.access {
+                // the last one wins where two tables name one input
+                let value = self
+                    .scene
+                    .input_tables
+                    .iter()
+                    .rfind(|input_table| input_table.row.name == row.name)
+                    .map(|t| t.at(time));
+                *access(&mut self.inputs) = value.unwrap_or_default();
+            }
+        }
+        self.simulation.set_inputs(&self.inputs);
+        if tuned {
+            self.simulation.tune(&self.parameters);
+        }
+    }
+
+    /// Value of an output.
+    pub fn read(&mut self, row: &Variable) -> f64 {
+        match row.access {
+            Access::Output(source) => source.read(&mut self.simulation),
+            _ => f64::NAN,
+        }
+    }
+}
+
+fn refused(scene: &Scene) -> String {
+    format!("scene {}", scene.name)
+}
+
+/// What an output did over time.
+#[derive(Clone, Copy)]
+pub struct Summary {
+    /// The output.
+    pub row: &'static Variable,
+    /// Smallest value at a communication point.
+    pub min: f64,
+    /// Largest.
+    pub max: f64,
+    /// Mean over time, straight between communication points.
+    pub mean: f64,
+    /// Value at the end.
+    pub end: f64,
+}
+
+/// Result of a run.
+#[derive(Clone)]
+pub struct SceneResult {
+    /// One for each output of the scene.
+    pub outputs: Vec<Summary>,
+    /// Steps and evaluations of the solver, in words.
+    pub account: String,
+    /// Energy balance at the end [J].
+    pub residual: f64,
+    /// Energy that went through: of what drives and wheels exchanged, or of what the ledger saw, whichever is more [J].
+    pub throughput: f64,
+    /// Time it took.
+    pub took: Duration,
+}
+
+/// Runs `scene` to its end, or for at most `steps` communication steps; each communication point goes to `csv` too.
+pub fn run(scene: &Scene, steps: Option<u64>, csv: Option<&mut dyn Write>, watch: &mut Watch) -> Result<SceneResult> {
+    let begun = Instant::now();
+    watch.say(0.0, "simulating");
+    let mut run = SceneRun::start(scene, scene.step)?;
+    let mut csv = csv.map(|out| record(scene, out).context("the record cannot be written")).transpose()?;
+    let mut values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
+    let mut outputs: Vec<Summary> = scene
+        .outputs
+        .iter()
+        .zip(&values)
+        .map(|(&row, &value)| Summary { row, min: value, max: value, mean: 0.0, end: value })
+        .collect();
+    line(&mut csv, 0.0, &values)?;
+    let (mut exchanged, mut seen) = (0.0, 0.0);
+    let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
+    while !run.is_over() && steps.is_none_or(|most| run.done < most) {
+        let before = run.time();
+        run.advance()?;
+        let span = run.time() - before;
+        for (summary, last) in outputs.iter_mut().zip(&mut values) {
+            let value = run.read(summary.row);
+            summary.min = summary.min.min(value);
+            summary.max = summary.max.max(value);
+            summary.mean += 0.5 * span * (*last + value);
+            (summary.end, *last) = (value, value);
+        }
+        let now = exchange(&mut run);
+        exchanged += 0.5 * span * (power + now);
+        seen += (run.simulation.state().work - work).abs();
+        (power, work) = (now, run.simulation.state().work);
+        line(&mut csv, run.time(), &values)?;
+        watch.advance(run.time() / scene.stop_time)?;
+    }
+    if let Some(rows) = &mut csv {
+        rows.flush().context("the record cannot be written")?;
+    }
+    let end = run.time();
+    outputs.iter_mut().for_each(|summary| summary.mean = if end > 0.0 { summary.mean / end } else { summary.end });
+    Ok(SceneResult {
+        outputs,
+        account: run.simulation.account(),
+        residual: run.simulation.ledger().energy_residual,
+        throughput: f64::max(exchanged, seen),
+        took: begun.elapsed(),
+    })
+}
+
+/// Power that drives and wheels exchange with the differential, whichever way [W].
+fn exchange(run: &mut SceneRun) -> f64 {
+    let forces = run.simulation.forces();
+    forces.power_in.abs() + forces.power_out.abs()
+}
+
+/// The record of a scene: comments, then a row for each communication point.
+fn record<'a>(scene: &Scene, out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
+    writeln!(out, "# scene {}: {}", scene.name, scene.description)?;
+    let units: Vec<&str> = scene.outputs.iter().map(|row| row.unit.map_or("1", |unit| unit.name)).collect();
+    writeln!(out, "# units: s,{}", units.join(","))?;
+    let mut rows = csv::Writer::from_writer(out);
+    rows.write_record(["time"].into_iter().chain(scene.outputs.iter().map(|row| row.name)))?;
+    Ok(rows)
+}
+
+fn line(rows: &mut Option<csv::Writer<&mut dyn Write>>, time: f64, values: &[f64]) -> Result<()> {
+    let Some(rows) = rows else { return Ok(()) };
+    let cells = std::iter::once(&time).chain(values).map(f64::to_string);
+    rows.write_record(cells).context("the record cannot be written")
+}
+
+impl SceneResult {
+    /// Energy residual over the energy that went through.
+    pub fn relative_residual(&self) -> f64 {
+        if self.throughput > 0.0 { self.residual.abs() / self.throughput } else { self.residual.abs() }
+    }
+
+    /// For the terminal.
+    pub fn text(&self) -> String {
+        let mut table = Table::new(["output", "unit", "min", "mean", "max", "end"]).left([0, 1]);
+        for o in &self.outputs {
+            let numbers = [o.min, o.mean, o.max, o.end].map(|value| units::digits(units::shown(o.row, value)));
+            table.push([o.row.name, units::name(o.row)].map(str::to_owned).into_iter().chain(numbers));
+        }
+        let mut out = table.terminal();
+        out.push_str(&format!(
+            "\n{}\nenergy residual {} of the {} J that went through; computed in {:.2} s\n",
+            self.account,
+            units::digits(self.relative_residual()),
+            units::digits(self.throughput),
+            self.took.as_secs_f64()
+        ));
+        out
+    }
+}

@@ -1,0 +1,199 @@
+//! A value for a variable: taken from a file, checked, and put where the table's access leads.
+
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table};
+use toml::Value;
+
+use super::units;
+use crate::problem::Problem;
+
+/// A variable with its value.
+#[derive(Clone, Copy)]
+pub struct Setting {
+    /// Row of the variable.
+    pub row: &'static Variable,
+    /// The value.
+    pub value: SettingValue,
+}
+
+/// A value of the type that its variable has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SettingValue {
+    /// A number in the unit of the interface.
+    Real(f64),
+    /// A whole number.
+    Integer(i32),
+    /// True or false.
+    Boolean(bool),
+    /// Literal of an enumeration, by its number.
+    Literal(i32),
+}
+
+impl Setting {
+    /// `name` set to `value`, or what is wrong with it.
+    pub fn new(name: &str, value: &Value) -> Result<Self, Problem> {
+        let row = variable(name).map_err(|message| Problem { variable: Some(name.into()), ..message.into() })?;
+        let wrong = |what: String| {
+            let written = written(value);
+            let message = format!("{name} = {written}: {what}");
+            Problem { hint: Problem::from(what).hint, ..Problem::of(name, written, message) }.at(row)
+        };
+        Ok(Self { row, value: known(row, value).map_err(wrong)? })
+    }
+
+    /// Whether it may be set while a simulation runs.
+    pub fn may_come_later(&self) -> bool {
+        self.row.variability != Variability::Fixed
+    }
+
+    /// Puts the value in its place.
+    pub fn apply(&self, parameters: &mut Parameters, inputs: &mut Inputs) {
+        let number = match self.value {
+            SettingValue::Real(value) => value,
+            SettingValue::Integer(value) | SettingValue::Literal(value) => f64::from(value),
+            SettingValue::Boolean(value) => f64::from(u8::from(value)),
+        };
+        // `known` has found that it fits
+        let fits = assign(self.row, number, parameters, inputs);
+        debug_assert_eq!(fits, Ok(()));
+    }
+
+    /// The value as a reader wants it.
+    pub fn text(&self) -> String {
+        match self.value {
+            SettingValue::Real(value) => units::text(self.row, value),
+            SettingValue::Integer(value) => value.to_string(),
+            SettingValue::Boolean(value) => value.to_string(),
+            SettingValue::Literal(value) => literal(self.row, value).map_or(String::new(), |(name, _)| name.to_owned()),
+        }
+    }
+}
+
+/// Row of the variable `name`, or what it might have been.
+pub fn variable(name: &str) -> Result<&'static Variable, String> {
+    let rows = &table().rows;
+    rows.iter().find(|row| row.name == name).ok_or_else(|| {
+        // its last part alone is a likely slip too
+        let last = rows.iter().find(|row| row.name.rsplit('.').next() == Some(name)).map(|row| row.name);
+        let hint = last.or_else(|| closest(name, rows.iter().map(|row| row.name)));
+        format!("there is no variable \"{name}\"{}", hint.map_or(String::new(), |n| format!("; did you mean {n}?")))
+    })
+}
+
+/// Name and meaning of literal `value` of an enumeration.
+pub fn literal(row: &Variable, value: i32) -> Option<(&'static str, &'static str)> {
+    let Access::Enumeration(kind, ..) = row.access else { return None };
+    kind.choices.iter().find(|choice| choice.value == value).map(|choice| (choice.name, choice.description))
+}
+
+fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> {
+    match (row.access, value) {
+        (Access::Output(_), _) => Err("is an output, which cannot be set; name it under outputs".into()),
+        (Access::Real(_) | Access::Input(_), value) => real(row, value).map(SettingValue::Real),
+        (Access::Integer(_), Value::Integer(number)) => {
+            let small = i32::try_from(*number).map_err(|_| "is no number that fits".to_owned())?;
+            check_value(row, f64::from(small)).map_err(|problem| problem.message)?;
+            Ok(SettingValue::Integer(small))
+        }
+        (Access::Integer(_), _) => Err("must be a whole number".into()),
+        (Access::Boolean(_), Value::Boolean(value)) => Ok(SettingValue::Boolean(*value)),
+        (Access::Boolean(_), _) => Err("must be true or false".into()),
+        (Access::Enumeration(kind, ..), value) => {
+            let names = || kind.choices.iter().map(|choice| choice.name);
+            let allowed = names().collect::<Vec<_>>().join(", ");
+            let Value::String(name) = value else { return Err(format!("must be one of {allowed}")) };
+            match kind.choices.iter().find(|choice| choice.name == name) {
+                Some(choice) => Ok(SettingValue::Literal(choice.value)),
+                None => {
+                    let hint = closest(name, names()).map_or(String::new(), |n| format!("; did you mean {n}?"));
+                    Err(format!("is none of {allowed}{hint}"))
+                }
+            }
+        }
+    }
+}
+
+/// A real value within its range.
+pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
+    let number = match value {
+        Value::Float(number) => *number,
+        Value::Integer(number) => *number as f64,
+        Value::String(text) => units::parse(row, text)?,
+        _ => return Err("must be a number, or a text like \"4.5 mm\"".into()),
+    };
+    check_value(row, number).map_err(|problem| {
+        // a text has named its unit, so that no other was meant
+        let message = match value {
+            Value::String(_) => problem.message.split("; did you mean").next().unwrap_or_default().to_owned(),
+            _ => problem.message,
+        };
+        match (row.display, row.range) {
+            (Some(_), Some(range)) => {
+                format!("{message} ([{}, {}])", units::text(row, range.min), units::text(row, range.max))
+            }
+            _ => message,
+        }
+    })?;
+    Ok(number)
+}
+
+/// The value that `text` on a command line stands for, as a file would have it.
+pub fn value(text: &str) -> Value {
+    match (text.parse(), text.parse(), text.parse()) {
+        (Ok(whole), _, _) => Value::Integer(whole),
+        (_, Ok(number), _) => Value::Float(number),
+        (_, _, Ok(truth)) => Value::Boolean(truth),
+        _ => Value::String(text.to_owned()),
+    }
+}
+
+/// A value as a file has it.
+pub fn written(value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("\"{text}\""),
+        Value::Integer(number) => number.to_string(),
+        Value::Float(number) => number.to_string(),
+        Value::Boolean(value) => value.to_string(),
+        Value::Datetime(time) => time.to_string(),
+        Value::Array(_) => "[...]".into(),
+        Value::Table(_) => "{...}".into(),
+    }
+}
+
+/// The name nearest to `name`, if one is near: half of its letters right.
+pub fn closest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let near = names.map(|candidate| (strsim::levenshtein(name, candidate), candidate)).min_by_key(|(edits, _)| *edits);
+    near.filter(|(edits, _)| 2 * edits <= name.chars().count()).map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_is_offered_if_it_is_near() {
+        assert_eq!(closest("geometry.modul", table().rows.iter().map(|r| r.name)), Some("geometry.module"));
+        assert_eq!(closest("xyz", ["geometry.module"].into_iter()), None);
+    }
+
+    #[test]
+    fn every_variable_that_can_be_set_takes_its_own_start_value() {
+        let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
+        for row in &table().rows {
+            let value = match row.access {
+                Access::Real(access) => Value::Float(*access(&mut parameters)),
+                Access::Input(access) => Value::Float(*access(&mut inputs)),
+                Access::Integer(access) => Value::Integer((*access(&mut parameters)).into()),
+                Access::Boolean(access) => Value::Boolean(*access(&mut parameters)),
+                Access::Enumeration(_, get, _) => {
+                    let (name, _) = literal(row, get(&parameters)).expect("a literal");
+                    Value::String(name.into())
+                }
+                Access::Output(_) => continue,
+            };
+            let setting = Setting::new(row.name, &value).expect(row.name);
+            setting.apply(&mut parameters, &mut inputs);
+        }
+        assert_eq!((parameters, inputs), (Parameters::default(), Inputs::default()));
+    }
+}

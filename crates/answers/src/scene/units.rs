@@ -1,0 +1,132 @@
+//! Numbers with units as people write and read them: "2861 deg/s", "4.5 mm".
+
+use bevel_differential::variables::Variable;
+use bevel_differential::variables::units::Unit;
+
+use crate::text::numbers;
+
+/// Units of time, and how many of each make a second.
+const TIMES: [(&str, f64); 5] = [("s", 1.0), ("ms", 1e3), ("us", 1e6), ("min", 1.0 / 60.0), ("h", 1.0 / 3600.0)];
+
+/// SI value of `text`, a number with a unit of `row`.
+pub fn parse(row: &Variable, text: &str) -> Result<f64, String> {
+    let Some(unit) = row.unit else { return Err("takes a number without a unit".into()) };
+    let (number, name) = split(text)?;
+    let plain = unit.name == "1";
+    if name.is_empty() {
+        let wanted = names(&unit).join(", ");
+        return if plain { Ok(number) } else { Err(format!("\"{text}\" has no unit: write one of {wanted}")) };
+    }
+    if name == unit.name {
+        return Ok(number);
+    }
+    match unit.display.iter().find(|shown| shown.name == name) {
+        Some(shown) => Ok(number / shown.factor),
+        None if plain => Err(format!("has no unit, but \"{text}\" has {name}")),
+        None => Err(format!("unit {name} of \"{text}\" does not fit; units that do: {}", names(&unit).join(", "))),
+    }
+}
+
+/// Seconds of `text`, a number of seconds or with a unit of time.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let (number, name) = split(text)?;
+    let unit = if name.is_empty() { "s" } else { name.as_str() };
+    match TIMES.iter().find(|(known, _)| *known == unit) {
+        Some((_, per_second)) => Ok(number / per_second),
+        None => Err(format!("unit {name} of \"{text}\" is none of time; known: {}", times().join(", "))),
+    }
+}
+
+/// Whether values of `row` may be given in the unit `name`.
+pub fn check(row: &Variable, name: &str) -> Result<(), String> {
+    parse(row, &format!("1 {name}")).map(drop).map_err(|_| match row.unit {
+        Some(unit) if unit.name != "1" => {
+            format!("unit {name} does not fit; units that do: {}", names(&unit).join(", "))
+        }
+        _ => format!("unit {name} does not fit; write the number without a unit"),
+    })
+}
+
+/// Units of time.
+pub fn times() -> [&'static str; TIMES.len()] {
+    TIMES.map(|(name, _)| name)
+}
+
+/// Names of a unit, the one of the interface first.
+fn names(unit: &Unit) -> Vec<&'static str> {
+    std::iter::once(unit.name).chain(unit.display.iter().map(|shown| shown.name)).collect()
+}
+
+/// Number and name of the unit, written as the interface does.
+fn split(text: &str) -> Result<(f64, String), String> {
+    let text = text.trim();
+    // the longest beginning that is a number: "5e3" as well as "5 m"
+    let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
+    let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
+    let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
+    let replaced = [("·", "."), ("*", "."), ("°", "deg"), ("µ", "u"), ("μ", "u"), ("²", "2"), ("Nm", "N.m")];
+    let name = replaced.iter().fold(text[end..].trim().to_owned(), |name, (from, to)| name.replace(from, to));
+    Ok((number, name))
+}
+
+/// Name of the unit that `row` is shown in; empty for numbers without one.
+pub fn name(row: &Variable) -> &'static str {
+    match (row.display, row.unit) {
+        (Some(shown), _) => shown.name,
+        (None, Some(unit)) if unit.name != "1" => unit.name,
+        _ => "",
+    }
+}
+
+/// `value` in the unit that `row` is shown in.
+pub fn shown(row: &Variable, value: f64) -> f64 {
+    row.display.map_or(value, |display| value * display.factor)
+}
+
+/// `value` with the unit that `row` is shown in.
+pub fn text(row: &Variable, value: f64) -> String {
+    format!("{} {}", digits(shown(row, value)), name(row)).trim_end().to_owned()
+}
+
+/// A number with six significant digits.
+pub fn digits(value: f64) -> String {
+    numbers::short(value, 6)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevel_differential::variables::named;
+
+    fn row(name: &str) -> &'static Variable {
+        named(name).expect("a row")
+    }
+
+    #[test]
+    fn units_are_turned_into_si() {
+        let close = |name: &str, text: &str, wanted: f64| {
+            let value = parse(row(name), text).expect(text);
+            assert!((value / wanted - 1.0).abs() < 1e-14, "{text}: {value}");
+        };
+        close("geometry.module", "4.5 mm", 4.5e-3);
+        close("geometry.module", "4.5e-3m", 4.5e-3);
+        close("carrier.speed_command", "2861 °/s", 2861f64.to_radians());
+        close("carrier.speed_command", "60 rpm", std::f64::consts::TAU);
+        close("left.load_torque", "835 N·m", 835.0);
+        close("inertia.carrier", "0.02 kg·m²", 0.02);
+        close("contact.stiffness", "5.77e5 N/mm^1.5", 5.77e5 * 1e3f64.powf(1.5));
+        close("solver.relative_tolerance", "1e-6", 1e-6);
+        assert_eq!(seconds("2 ms"), Ok(2e-3));
+        assert_eq!(seconds("0.5"), Ok(0.5));
+    }
+
+    #[test]
+    fn wrong_units_are_reported_with_those_that_fit() {
+        let wrong = |name: &str, text: &str| parse(row(name), text).expect_err(text);
+        assert!(wrong("geometry.module", "4.5 kg").ends_with("units that do: m, mm, um"));
+        assert!(wrong("geometry.module", "4.5").contains("has no unit"));
+        assert!(wrong("geometry.module", "large").contains("does not begin with a number"));
+        assert!(wrong("solver.relative_tolerance", "1 mm").contains("has no unit"));
+        assert!(seconds("3 m").is_err());
+    }
+}

@@ -1,0 +1,130 @@
+//! The comparison as an aligned table and as Markdown.
+
+use crate::text::numbers::signed_percent;
+use crate::text::table::{Table, labelled};
+
+/// A cell: a number with its decimals, a text, or nothing to say.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number and how many decimals to show.
+    Number(f64, usize),
+    /// A large or small number as d.ddde±x.
+    Power(f64),
+    /// A text.
+    Text(String),
+    /// Nothing.
+    Empty,
+}
+
+impl Cell {
+    fn value(&self) -> Option<f64> {
+        match self {
+            Self::Number(value, _) | Self::Power(value) => Some(*value),
+            _ => None,
+        }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Number(value, decimals) => format!("{value:.decimals$}"),
+            Self::Power(value) => format!("{value:.3e}"),
+            Self::Text(text) => text.clone(),
+            Self::Empty => "–".to_owned(),
+        }
+    }
+}
+
+/// A row of the comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparisonRow {
+    /// What, with its unit.
+    pub quantity: &'static str,
+    /// The study's number.
+    pub study: Cell,
+    /// Theory.
+    pub theory: Cell,
+    /// This program.
+    pub program: Cell,
+    /// Number of the note that belongs to it, counted from 1.
+    pub note: Option<usize>,
+}
+
+impl ComparisonRow {
+    /// Relative difference of the program from theory.
+    fn difference(&self) -> String {
+        match (self.theory.value(), self.program.value()) {
+            (Some(theory), Some(program)) if theory != 0.0 => signed_percent(program / theory - 1.0),
+            _ => String::new(),
+        }
+    }
+
+    fn cells(&self) -> [String; 5] {
+        let note = self.note.map_or(String::new(), |n| format!(" [{n}]"));
+        [
+            format!("{}{note}", self.quantity),
+            self.study.text(),
+            self.theory.text(),
+            self.program.text(),
+            self.difference(),
+        ]
+    }
+}
+
+/// The comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparisonReport {
+    /// Its rows.
+    pub rows: Vec<ComparisonRow>,
+    /// Notes, numbered from 1.
+    pub notes: Vec<String>,
+}
+
+const HEAD: [&str; 5] = ["quantity", "study", "theory", "this program", "program / theory"];
+
+impl ComparisonReport {
+    /// For the terminal.
+    pub fn terminal(&self) -> String {
+        let notes = self.notes.iter().enumerate().map(|(i, note)| labelled(&format!("[{}] ", i + 1), note));
+        format!("{}\n{}", self.table().terminal(), notes.collect::<String>())
+    }
+
+    /// For docs/study.md: the whole table and its notes.
+    pub fn markdown(&self) -> String {
+        let notes = self.notes.iter().enumerate().map(|(i, note)| format!("{}. {note}\n", i + 1));
+        format!("{}\n{}", self.table().markdown(), notes.collect::<String>())
+    }
+
+    /// For README.md: the rows of `quantities`, without notes.
+    pub fn excerpt(&self, quantities: &[&str]) -> String {
+        let rows = self.rows.iter().filter(|row| quantities.contains(&row.quantity));
+        let rows = rows.map(|row| ComparisonRow { note: None, ..row.clone() });
+        Self { rows: rows.collect(), notes: Vec::new() }.table().markdown()
+    }
+
+    fn table(&self) -> Table {
+        let mut table = Table::new(HEAD).left([0]);
+        self.rows.iter().for_each(|row| table.push(row.cells()));
+        table
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_excerpt_has_the_rows_it_names_and_no_notes() {
+        let row = |quantity, note| ComparisonRow {
+            quantity,
+            study: Cell::Empty,
+            theory: Cell::Number(2.0, 0),
+            program: Cell::Number(3.0, 0),
+            note,
+        };
+        let report = ComparisonReport { rows: vec![row("a", Some(1)), row("b", None)], notes: vec!["why".into()] };
+        assert!(report.markdown().contains("| a [1] ") && report.markdown().ends_with("\n1. why\n"));
+        let excerpt = report.excerpt(&["a"]);
+        assert!(excerpt.contains("| a ") && excerpt.contains("+50 %") && !excerpt.contains("| b "), "{excerpt}");
+        assert_eq!(excerpt.lines().count(), 3, "{excerpt}");
+    }
+}

@@ -1,0 +1,158 @@
+//! Questions of accuracy about scenes whose answer is known in closed form.
+
+use std::path::Path;
+
+use answers::accuracy::answer::{Answer, Role};
+use answers::accuracy::gears::Gears;
+use answers::accuracy::{Question, answer, chosen, report};
+use answers::scene::run::run;
+use answers::scene::{Scene, load};
+use answers::watch::Watch;
+use bevel_differential::contact::ContactLaw;
+use bevel_differential::model::GearContact;
+
+/// No teeth, 50 rad/s, 99 N.m on each side.
+const IDEAL: &str = r#"
+description = "closed form"
+stop_time = 0.02
+step = 1e-3
+outputs = ["carrier.torque", "carrier.speed"]
+
+[set]
+scene.gear_contact = "ideal"
+carrier.speed_command = 50.0
+left.load_torque = 99.0
+right.load_torque = 99.0
+"#;
+
+/// A drag of the carrier that is 2 N.m at all speeds but the slowest: 1 % of the 200 N.m that the drive then delivers.
+const DRAG: &str = "bearing_drag.carrier_torque = 2.0
+bearing_drag.carrier_viscous = 0.0
+bearing_drag.carrier_churning = 0.0
+bearing_drag.side_torque = 0.0
+bearing_drag.side_viscous = 0.0
+";
+
+/// Teeth under load, for two tooth cycles.
+const TEETH: &str = r#"
+description = "teeth"
+stop_time = 0.04
+step = 2e-4
+outputs = ["left.speed"]
+
+[set]
+carrier.speed_command = "954 deg/s"
+scene.planet_spin = "imposed"
+planet.spin_command = "200 deg/s"
+left.load_torque = "400 N.m"
+right.load_torque = "400 N.m"
+"#;
+
+fn parsed(text: &str) -> Scene {
+    load::parse("test", Path::new("test.toml"), text).expect("a scene")
+}
+
+fn asked(text: &str, wants: &[&str], within: f64) -> Answer {
+    let wants = wants.iter().map(|want| (*want).to_owned()).collect();
+    let question = Question { wants, within, from: 0.0, timed: false };
+    answer(&parsed(text), &question, &mut Watch::nobody()).expect("an answer")
+}
+
+fn role<'a>(found: &'a Answer, name: &str) -> &'a Role {
+    found.effects.iter().find(|(switch, _)| switch.name() == name).map(|(_, role)| role).expect(name)
+}
+
+#[test]
+fn a_drag_of_one_percent_is_needed_for_less_and_not_for_more() {
+    for (on, within, wanted) in [("", 0.009, true), ("", 0.011, false), ("effects.bearing_drag = true\n", 0.009, true)]
+    {
+        let found = asked(&format!("{IDEAL}{DRAG}{on}"), &["carrier.torque:mean"], within);
+        let Role::Acts { by, chosen } = role(&found, "bearing_drag") else { panic!("no role") };
+        // closed form but for rounding
+        assert!((by / 0.01 - 1.0).abs() < 1e-9, "{by}");
+        assert_eq!(*chosen, wanted);
+        let p = found.choice().expect("a setting").scene.parameters;
+        assert_eq!((p.effects.bearing_drag, p.scene.gear_contact), (wanted, GearContact::Ideal));
+    }
+}
+
+#[test]
+fn what_is_small_alone_is_kept_where_it_is_too_much_together() {
+    // 50 rad/s and 100 N.m on each side: 10 kW; the drag of 1.3 N.m takes 65 W of it, and two clutches of 7 N.m that slip
+    // at 10/16 of the spin of 8 rad/s take 70 W
+    let text = format!(
+        "{}{}scene.planet_spin = \"imposed\"\nplanet.spin_command = 8.0\n\
+         effects.limited_slip = true\nlimited_slip.torque_coefficient = 0.0\nlimited_slip.preload = 7.0\n",
+        IDEAL.replace("99.0", "100.0"),
+        DRAG.replace("= 2.0", "= 1.3")
+    );
+    let on = |within| {
+        let found = asked(&text, &["power.in:mean"], within);
+        assert!(found.choice().expect("a setting").error() <= within);
+        let p = found.choice().expect("a setting").scene.parameters.effects;
+        usize::from(p.bearing_drag) + usize::from(p.limited_slip)
+    };
+    assert_eq!([on(0.005), on(0.01), on(0.014)], [2, 1, 0]);
+}
+
+#[test]
+fn transmission_errors_call_for_a_law_from_geometry_and_name_the_grade_that_is_zero() {
+    let want = "planet[1].left_transmission_error:mean";
+    let found = asked(TEETH, &[want], 0.05);
+    let gears = Gears::of(&found.choice().expect("a setting").scene.parameters);
+    assert!(gears.level == GearContact::Tooth && gears.law != ContactLaw::Impact, "{}", gears.text());
+    assert_eq!(Gears::of(&found.reference.scene.parameters).text(), "tooth line_weber + gear bodies");
+    let Role::Neutral { typical, by: Some(by), now: _ } = role(&found, "tooth_errors") else { panic!("not neutral") };
+    assert!(typical.iter().any(|(row, value)| row.name == "tooth_errors.accuracy_grade" && *value == 7.0));
+    assert!(*by > 0.0);
+    let text = report::text(&found);
+    for part in [want, "accuracy_grade = 7", "tooth impact is off by", "corner_contact"] {
+        assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains(part), "{part}\n{text}");
+    }
+}
+
+#[test]
+fn a_mean_speed_calls_for_no_teeth() {
+    let found = asked(TEETH, &["left.speed:mean"], 0.01);
+    let p = found.choice().expect("a setting").scene.parameters;
+    assert_eq!(p.scene.gear_contact, GearContact::Ideal);
+    // Willis: 954 + 200 · 10/16 deg/s
+    assert!((found.reference.values[0] / 1079f64.to_radians() - 1.0).abs() < 0.01, "{}", found.reference.values[0]);
+    assert!(found.choice().expect("a setting").cost < 0.2 * found.reference.cost);
+}
+
+#[test]
+fn values_of_its_own_make_a_law_part_of_the_question() {
+    let found = asked(&format!("{TEETH}contact.stiffness = 1e10\n"), &["left.speed:peak_to_peak"], 0.05);
+    let gears = Gears::of(&found.reference.scene.parameters);
+    assert_eq!((gears.law, gears.bodies), (ContactLaw::Impact, false));
+    assert!(found.gears.iter().all(|(gears, _)| gears.law == ContactLaw::Impact));
+}
+
+#[test]
+fn outputs_of_strength_are_in_only_where_they_are_asked_for() {
+    let found = asked(TEETH, &["stress.contact_max:max"], 0.05);
+    assert!(found.choice().expect("a setting").scene.parameters.effects.strength);
+    let found = asked(TEETH, &["left.speed:max"], 0.05);
+    assert!(matches!(role(&found, "strength"), Role::NotAsked));
+}
+
+#[test]
+fn the_chosen_scene_is_written_and_gives_the_values_that_were_found() {
+    let found = asked(TEETH, &["left.speed:max", "planet[1].left_transmission_error:mean"], 0.02);
+    let text = chosen::text(&found, TEETH).expect("a file");
+    let scene = parsed(&text);
+    assert_eq!(scene.parameters, found.choice().expect("a setting").scene.parameters);
+    let result = run(&scene, None, None, &mut Watch::nobody()).expect("a run");
+    let trial = found.choice().expect("a setting");
+    // this one summarises from the start on
+    assert!(result.outputs[0].max >= trial.values[0] && result.outputs.len() == 2);
+}
+
+#[test]
+fn a_scene_that_cannot_run_says_why() {
+    let text = format!("{TEETH}scene.left_drive = \"speed\"\nscene.right_drive = \"speed\"\n");
+    let question = Question { wants: vec!["left.speed:mean".into()], within: 0.01, from: 0.0, timed: false };
+    let failed = answer(&parsed(&text), &question, &mut Watch::nobody()).err().expect("three imposed speeds");
+    assert!(format!("{failed:#}").contains("two independent speeds"), "{failed:#}");
+}

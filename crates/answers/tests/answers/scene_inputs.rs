@@ -1,0 +1,217 @@
+//! What scenes take besides their own values: inputs from CSV files, times with units, and changes on the command line.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use answers::scene::run::run;
+use answers::scene::{Scene, find, find_with, load};
+use answers::watch::Watch;
+use anyhow::Result;
+
+use crate::folder;
+
+const FRAME: &str = "description = \"d\"\nstop_time = \"100 ms\"\nstep = \"1 ms\"\noutputs = [\"left.speed\"]\n";
+const INPUTS: &str = "[[inputs]]\nfile = \"cycle.csv\"\n";
+
+/// A folder of its own for each test, removed at its end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(test: &str) -> Result<Self> {
+        let folder = std::env::temp_dir().join("test-scenes").join(format!("{}-{test}", std::process::id()));
+        fs::create_dir_all(&folder)?;
+        Ok(Self(folder))
+    }
+
+    /// The scene `FRAME` with `rest`, beside a file cycle.csv with `csv`.
+    fn scene(&self, rest: &str, csv: &str) -> Result<Scene> {
+        fs::write(self.0.join("cycle.csv"), csv)?;
+        load::parse("test", &self.0.join("test.toml"), &format!("{FRAME}{rest}"))
+    }
+
+    fn wrong(&self, rest: &str, csv: &str) -> String {
+        self.scene(rest, csv).err().map(|error| format!("{error:#}")).unwrap_or_else(|| panic!("taken: {csv}"))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn parsed(text: &str) -> Result<Scene> {
+    load::parse("test", Path::new("test.toml"), text)
+}
+
+#[test]
+fn times_with_units_are_those_in_seconds() -> Result<()> {
+    let rest = |at: &str, times: &str, period: &str| {
+        format!(
+            "[[at]]\ntime = {at}\nleft.load_torque = 1.0\n[[table]]\ninput = \"right.load_torque\"\ntime = {times}\n\
+             value = [1.0, 2.0]\nperiod = {period}\n"
+        )
+    };
+    let plain = FRAME.replace("\"100 ms\"", "0.1").replace("\"1 ms\"", "0.001");
+    let with_units = parsed(&format!("{FRAME}{}", rest("\"20 ms\"", "[\"0 s\", \"5 ms\"]", "\"0.05 s\"")))?;
+    let seconds = parsed(&format!("{plain}{}", rest("0.02", "[0, 0.005]", "0.05")))?;
+    for scene in [with_units, seconds] {
+        assert_eq!((scene.stop_time, scene.step, scene.events[0].time), (0.1, 1e-3, 0.02));
+        let table = &scene.input_tables[0];
+        assert_eq!((table.times.as_slice(), table.period), (&[0.0, 5e-3][..], Some(0.05)));
+    }
+    Ok(())
+}
+
+#[test]
+fn wrong_times_are_told_by_key_and_value() {
+    for (text, wanted) in [
+        (FRAME.replace("100 ms", "100 mm"), "stop_time = \"100 mm\""),
+        (FRAME.replace("100 ms", "100 mm"), "s, ms, us, min"),
+        (FRAME.replace("\"1 ms\"", "true"), "step = true: must be a number of seconds, or a text like \"20 ms\""),
+        (FRAME.replace("1 ms", "-1 ms"), "step = \"-1 ms\": must be above 0 s"),
+        (FRAME.replace("1 ms", "1 s"), "step = 1 s is longer than stop_time = 0.1 s"),
+        (format!("{FRAME}[[at]]\ntime = \"200 ms\"\n"), "time = 0.2 s is outside the scene's [0, 0.1] s"),
+        (format!("{FRAME}[[at]]\ntime = [1]\n"), "[[at]] time = [...]"),
+        (format!("{FRAME}[[table]]\ninput = \"left.load_torque\"\ntime = [\"0 m\"]\nvalue = [0]\n"), "time \"0 m\""),
+    ] {
+        let problem = parsed(&text).err().map(|error| format!("{error:#}")).unwrap_or_default();
+        assert!(problem.contains(wanted), "\"{wanted}\" is not in: {problem}");
+    }
+}
+
+#[test]
+fn inputs_come_from_a_file_as_from_tables() -> Result<()> {
+    let folder = Folder::new("tables")?;
+    let csv = "\u{feff}# a cycle\ntime [ms], carrier.speed_command [rpm], left.load_torque [N·m], right.load_torque\n\
+               0, 300, 400, 401\n20, 600, 800, 802\n";
+    let scene = folder.scene(&format!("{INPUTS}period = \"50 ms\"\n"), csv)?;
+    let column = |input: &str, values: &str| {
+        format!("[[table]]\ninput = \"{input}\"\ntime = [0, 0.02]\nvalue = [{values}]\nperiod = 0.05\n")
+    };
+    let same = parsed(&format!(
+        "{FRAME}{}{}{}",
+        column("carrier.speed_command", "\"300 rpm\", \"600 rpm\""),
+        column("left.load_torque", "400, 800"),
+        column("right.load_torque", "401, 802")
+    ))?;
+    assert_eq!(scene.inputs, same.inputs);
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    run(&scene, None, Some(&mut first), &mut Watch::nobody())?;
+    run(&same, None, Some(&mut second), &mut Watch::nobody())?;
+    assert_eq!(String::from_utf8(first)?, String::from_utf8(second)?);
+    let tables = |scene: &Scene| -> Vec<_> {
+        scene.input_tables.iter().map(|t| (t.row.name, t.times.clone(), t.values.clone(), t.period)).collect()
+    };
+    assert_eq!(tables(&scene), tables(&same));
+    Ok(())
+}
+
+#[test]
+fn wrong_files_of_inputs_are_told_line_column_value_and_what_to_do() -> Result<()> {
+    let folder = Folder::new("wrong")?;
+    for (csv, wanted) in [
+        ("time,left.load_torqe\n0,1\n", &["column left.load_torqe", "did you mean left.load_torque?"][..]),
+        ("time,left.load_torque [kg]\n0,1\n", &["column left.load_torque [kg]", "units that do: N.m"]),
+        ("time,left.speed [rpm]\n0,1\n", &["left.speed is not an input"]),
+        ("time,geometry.module [mm]\n0,1\n", &["geometry.module is not an input", "[set]"]),
+        ("time [m],left.load_torque\n0,1\n", &["column time [m]", "s, ms, us, min"]),
+        ("t,left.load_torque\n0,1\n", &["has no column time", "time [s],left.load_torque [N.m]"]),
+        ("time;left.load_torque\n0;1\n", &["has no column time", "separated by commas"]),
+        ("time\n0\n", &["no inputs"]),
+        ("time,left.load_torque\n", &["no values"]),
+        ("time,left.load_torque,left.load_torque [N.m]\n0,1,2\n", &["twice"]),
+        ("time,left.load_torque\n0,1\n1,x\n2,\n", &["line 3, column left.load_torque, value \"x\"", "and 1 more"]),
+        ("time,left.load_torque\n0,1\n1,1e9\n", &["line 3", "value \"1e9\"", "is outside [-100000000, 100000000] N.m"]),
+        ("time,carrier.speed_command [rpm]\n0,inf\n", &["line 2", "value \"inf\"", "finite"]),
+        ("time,left.load_torque\n1,1\n0,2\n", &["line 3, column time, value \"0\"", "sort the lines"]),
+        ("time [ms],left.load_torque\n-1,1\n", &["line 2, column time [ms], value \"-1\"", "begin at 0"]),
+        ("time,left.load_torque\nnan,1\n", &["line 2", "finite"]),
+        ("time,left.load_torque\n0,1\n# c\n1\n", &["line 4", "1 cells where the header has 2"]),
+        ("# c\n\ntime,left.load_torque\n0,1\n\n# c\n1,x", &["line 7", "value \"x\""]),
+        ("# c\r\ntime,left.load_torque\r\n0,1\r\n# c\r\n\r\n1,x\r\n", &["line 6", "value \"x\""]),
+    ] {
+        let problem = folder.wrong(INPUTS, csv);
+        println!("{problem}");
+        assert!(problem.contains("cycle.csv") && problem.lines().count() == 1, "{problem}");
+        for part in wanted {
+            assert!(problem.contains(part), "\"{part}\" is not in: {problem}");
+        }
+    }
+    let good = "time,left.load_torque\n0,1\n";
+    assert!(folder.wrong(&format!("{INPUTS}period = 0\n"), good).contains("period = 0: must be above 0 s"));
+    let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]\n";
+    assert!(folder.wrong(&format!("{table}{INPUTS}"), good).contains("another table"));
+    let missing = folder.wrong(&INPUTS.replace("cycle", "cycles"), good);
+    assert!(missing.contains("cycles.csv cannot be read") && missing.contains("relative to the scene"), "{missing}");
+    Ok(())
+}
+
+#[test]
+fn a_scene_is_changed_as_by_its_file() -> Result<()> {
+    let changes = [
+        "geometry.module=4 mm",
+        "scene.start = rest",
+        "effects.backlash=false",
+        "geometry.planet_teeth=12",
+        "left.load_torque=500 N.m",
+        "stop_time=\u{20}20 ms",
+        "step=0.002",
+    ];
+    let changed = find_with("one_wheel_on_ice", &folder(), &changes)?;
+    let before = find("one_wheel_on_ice", &folder())?;
+    assert_eq!((changed.stop_time, changed.step), (0.02, 2e-3));
+    assert_eq!(changed.inputs.load_torque, [500.0, before.inputs.load_torque[1]]);
+    let text = |name: &str| {
+        let found: Vec<String> = changed.settings.iter().filter(|s| s.row.name == name).map(|s| s.text()).collect();
+        assert_eq!(found.len(), 1, "{name}");
+        found[0].clone()
+    };
+    assert_eq!(
+        ["geometry.module", "scene.start", "effects.backlash", "geometry.planet_teeth", "left.load_torque"].map(text),
+        ["4 mm", "rest", "false", "12", "500 N.m"]
+    );
+    assert_ne!(changed.parameters, before.parameters);
+    let none: [&str; 0] = [];
+    assert_eq!(find_with("one_wheel_on_ice", &folder(), &none)?.parameters, before.parameters);
+    Ok(())
+}
+
+#[test]
+fn a_shorter_run_leaves_out_what_comes_after_its_end() -> Result<()> {
+    let times = |scene: Scene| scene.events.iter().map(|event| event.time).collect::<Vec<_>>();
+    assert_eq!(times(find("limited_slip", &folder())?), [0.1, 0.25]);
+    assert_eq!(times(find_with("limited_slip", &folder(), &["stop_time=0.2"])?), [0.1]);
+    Ok(())
+}
+
+#[test]
+fn wrong_changes_are_told_with_what_was_probably_meant() {
+    for (change, wanted) in [
+        ("geometry.modul=4 mm", &["geometry.modul", "did you mean geometry.module?"][..]),
+        ("stop_tim=1", &["did you mean stop_time?"]),
+        ("stop_time=1 m", &["stop_time = \"1 m\"", "s, ms, us, min"]),
+        ("stop_time=0", &["must be above 0 s"]),
+        ("step=20 s", &["step = 20 s is longer than stop_time = 10 s"]),
+        ("geometry.module=4 kg", &["units that do: m, mm, um"]),
+        ("geometry.module=4", &["did you mean 4 mm"]),
+        ("scene.start=roling", &["did you mean rolling?"]),
+        ("effects.backlash=1", &["true or false"]),
+        ("left.speed=1", &["is an output"]),
+        ("left.load_torque=nan", &["not a finite number"]),
+        ("left.load_torque", &["name=value"]),
+        ("left.speed_command=1", &["left.speed_command follows a table", "change the table"]),
+    ] {
+        let problem =
+            find_with("hil", &folder(), &[change]).err().map(|error| format!("{error:#}")).unwrap_or_default();
+        println!("{problem}");
+        assert!(problem.starts_with("--set: ") && problem.lines().count() == 1, "{change}: {problem}");
+        for part in wanted {
+            assert!(problem.contains(part), "\"{part}\" is not in: {problem}");
+        }
+    }
+    let twice =
+        find_with("hil", &folder(), &["step=1e-4", "step=1e-3", "left.speed=1"]).err().map(|error| error.to_string());
+    let twice = twice.unwrap_or_default();
+    assert!(twice.contains("step is set twice") && twice.lines().count() == 2, "{twice}");
+}

@@ -1,0 +1,223 @@
+//! The scenes of the repository run, and errors in files are reported.
+
+use std::path::Path;
+
+use answers::scene::run::{SceneResult, SceneRun, run};
+use answers::scene::{InputTable, Scene, all, files, find, load, loads, plan};
+use answers::watch::Watch;
+use anyhow::Result;
+
+use crate::{folder, workspace};
+
+/// Communication steps that every scene has to take here.
+const STEPS: u64 = 20;
+/// Energy residual over the energy that goes through; solvers run at their start tolerance.
+const BALANCE: f64 = 1e-6;
+
+fn named(outcome: &SceneResult, name: &str) -> answers::scene::run::Summary {
+    *outcome.outputs.iter().find(|output| output.row.name == name).expect(name)
+}
+
+#[test]
+fn every_scene_starts_runs_and_balances_its_ledger() -> Result<()> {
+    let files = files(&folder())?;
+    assert!(files.len() >= 10);
+    for file in files {
+        let scene = load::load(&file)?;
+        assert!(!scene.description.is_empty() && !scene.outputs.is_empty(), "{}", scene.name);
+        let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
+        assert!(text.contains("cost class") && text.contains("states"), "{text}");
+        let outcome = run(&scene, Some(STEPS), None, &mut Watch::nobody())?;
+        for output in &outcome.outputs {
+            let finite = [output.min, output.mean, output.max, output.end].iter().all(|x| x.is_finite());
+            assert!(finite, "{}: {}", scene.name, output.row.name);
+        }
+        let balance = outcome.relative_residual();
+        println!("{:<18} {balance:.1e} of {:.3e} J  {}", scene.name, outcome.throughput, outcome.account);
+        assert!(balance < BALANCE, "{}: {balance:e}", scene.name);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_study_is_the_study() -> Result<()> {
+    let turning = run(&find("study_turning", &folder())?, None, None, &mut Watch::nobody())?;
+    for (name, wanted) in [("left.speed", 1079f64), ("right.speed", 829.0), ("carrier.speed", 954.0)] {
+        let mean = named(&turning, name).mean.to_degrees();
+        assert!((mean / wanted - 1.0).abs() < 2e-3, "{name}: {mean}");
+    }
+    assert!((named(&turning, "left.tangential_force").end / 23194.0 - 1.0).abs() < 1e-2);
+    Ok(())
+}
+
+#[test]
+fn the_clunk_peaks_where_the_two_inertias_say() -> Result<()> {
+    let outcome = run(&find("clunk", &folder())?, None, None, &mut Watch::nobody())?;
+    let peak = named(&outcome, "left.shaft_torque").max + named(&outcome, "right.shaft_torque").max;
+    println!("clunk: {peak} N.m");
+    assert!((peak / 265.58 - 1.0).abs() < 0.01, "{peak}");
+    assert!(outcome.relative_residual() < 1e-4, "{}", outcome.relative_residual());
+    Ok(())
+}
+
+#[test]
+fn wheels_on_ice_part_by_torque_over_inertia() -> Result<()> {
+    let outcome = run(&find("one_wheel_on_ice", &folder())?, None, None, &mut Watch::nobody())?;
+    let difference = named(&outcome, "left.wheel_speed").end - named(&outcome, "right.wheel_speed").end;
+    assert!((difference / (835.0 * 0.2) - 1.0).abs() < 2e-3, "{difference}");
+    Ok(())
+}
+
+#[test]
+fn half_shafts_start_wound_up_by_what_accelerates_their_wheels() -> Result<()> {
+    let scene = find("split_friction", &folder())?;
+    let mut run = SceneRun::start(&scene, scene.step)?;
+    // carrier imposed: both wheels part with a = (T_R - T_L)/(J_L + J_R), but for the light gears
+    let ([left, right], [j_left, j_right]) = ([700.0, 835.0], [0.9, 1.1]);
+    let wanted = left + j_left * (right - left) / (j_left + j_right);
+    for torque in run.simulation.forces().shaft_torque {
+        assert!((torque / wanted - 1.0).abs() < 1e-3, "{torque} {wanted}");
+    }
+    Ok(())
+}
+
+#[test]
+fn loads_are_written_with_their_frames_and_forces_that_balance() -> Result<()> {
+    let mut scene = find("study_turning", &folder())?;
+    scene.stop_time = 0.02;
+    let mut text = Vec::new();
+    let lines = loads::write(&scene, Some(2e-3), &mut text, &mut Watch::nobody())?;
+    let text = String::from_utf8(text)?;
+    let rows: Vec<Vec<&str>> =
+        text.lines().filter(|line| !line.starts_with('#')).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len() as u64, lines + 1);
+    assert!(text.contains("# planet 1 stands for planets 1, 2"));
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).expect(name);
+    let number = |row: &[&str], name: &str| row[column(name)].parse::<f64>().expect(name);
+    let units = text.lines().find_map(|line| line.strip_prefix("# units: ")).expect("units");
+    assert_eq!(units.split(',').count(), rows[0].len());
+    // both planets of the last instant carry the load: moments about the left side gear's axis
+    let last = rows[rows.len() - 1][0];
+    let torque: f64 = rows[1..]
+        .iter()
+        .filter(|row| row[0] == last && row[column("side")] == "left")
+        .map(|row| {
+            let n = |name: &str| number(row, name);
+            2.0 * (n("side_x") * n("side_Fy") - n("side_y") * n("side_Fx"))
+        })
+        .sum();
+    assert!((torque / 835.0 - 1.0).abs() < 1e-2, "{torque}");
+    Ok(())
+}
+
+#[test]
+fn scenes_without_teeth_have_no_loads() -> Result<()> {
+    let problem = loads::write(&find("hil", &folder())?, None, &mut Vec::new(), &mut Watch::nobody())
+        .expect_err("no teeth")
+        .to_string();
+    assert!(problem.contains("scene.gear_contact = ideal"), "{problem}");
+    Ok(())
+}
+
+#[test]
+fn the_documentation_lists_all_scenes() -> Result<()> {
+    let page = std::fs::read_to_string(workspace().join("docs").join("scenes.md"))?;
+    for scene in all(&folder())? {
+        let row = page.lines().find(|line| line.starts_with(&format!("{} ", scene.name)));
+        assert!(row.is_some_and(|row| row.ends_with(&scene.description)), "docs/scenes.md: {}", scene.name);
+    }
+    Ok(())
+}
+
+const FRAME: &str = "description = \"d\"\nstop_time = 0.1\nstep = 1e-3\noutputs = [\"left.speed\"]\n";
+
+fn parsed(rest: &str) -> Result<Scene> {
+    load::parse("test", Path::new("test.toml"), &format!("{FRAME}{rest}"))
+}
+
+fn wrong(rest: &str) -> String {
+    parsed(rest).err().map(|error| format!("{error:#}")).expect(rest)
+}
+
+#[test]
+fn wrong_files_are_told_key_value_unit_range_and_the_nearest_name() {
+    let cases = [
+        ("[set]\ngeometry.modul = 1.0", vec!["[set]", "geometry.modul", "did you mean geometry.module?"]),
+        ("[set]\ngeometry.module = \"4.5 kg\"", vec!["geometry.module", "4.5 kg", "m, mm, um"]),
+        ("[set]\ngeometry.module = \"4.5\"", vec!["no unit"]),
+        (
+            "[set]\ngeometry.module = 4.5",
+            vec!["geometry.module", "4.5 m is outside", "did you mean 4.5 mm", "0.2 mm, 100 mm"],
+        ),
+        ("[set]\ngeometry.planet_teeth = 3", vec!["geometry.planet_teeth", "[5, 200]"]),
+        ("[set]\ngeometry.planet_teeth = 10.5", vec!["whole number"]),
+        ("[set]\nscene.start = \"roling\"", vec!["equilibrium, rolling, rest", "did you mean rolling?"]),
+        ("[set]\neffects.backlash = 1", vec!["true or false"]),
+        ("[set]\nleft.speed = 1.0", vec!["left.speed", "output"]),
+        ("[set]\ncarrier.speed_command = nan", vec!["not a finite number"]),
+        ("[[at]]\ntime = 0.05\ngeometry.module = \"4 mm\"", vec!["time = 0.05", "geometry.module is fixed"]),
+        ("[[at]]\ntime = 7\nleft.load_torque = 0", vec!["time = 7", "[0, 0.1] s"]),
+        ("[[at]]\nleft.load_torque = 0", vec!["no time"]),
+        ("[[table]]\ninput = \"left.speed\"\ntime = [0]\nvalue = [0]", vec!["left.speed", "not an input"]),
+        ("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1]\nvalue = [0]", vec!["2 times and 1 values"]),
+        ("[[table]]\ninput = \"left.load_torque\"\ntime = [1, 0]\nvalue = [0, 0]", vec!["must not fall"]),
+        (
+            "[[at]]\ntime = 0.05\nleft.load_torque = 1\n[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]",
+            vec!["time = 0.05", "left.load_torque follows a table"],
+        ),
+        ("stop_tim = 3", vec!["stop_tim"]),
+    ];
+    for (rest, wanted) in cases {
+        let problem = wrong(rest);
+        println!("{problem}");
+        for part in wanted {
+            assert!(problem.contains(part), "\"{part}\" is not in: {problem}");
+        }
+    }
+    // all at once
+    let both = wrong("[set]\ngeometry.modul = 1.0\neffects.backlash = 1");
+    assert_eq!(both.lines().count(), 2, "{both}");
+    let outputs = load::parse("test", Path::new("t"), &FRAME.replace("left.speed", "left.sped")).err().expect("wrong");
+    assert!(format!("{outputs:#}").contains("did you mean left.speed?"));
+    let missing = find("study_strait", &folder()).err().expect("no such scene").to_string();
+    assert!(missing.contains("did you mean 'study_straight'?"), "{missing}");
+}
+
+#[test]
+fn contradictions_are_told_at_the_start_by_name() -> Result<()> {
+    let scene = parsed("[set]\nscene.gear_contact = \"ideal\"\neffects.tooth_friction = true")?;
+    let problem = SceneRun::start(&scene, scene.step).err().map(|error| format!("{error:#}")).expect("a contradiction");
+    assert!(problem.contains("effects.tooth_friction"), "{problem}");
+    Ok(())
+}
+
+#[test]
+fn inputs_change_when_they_are_told_to_even_between_communication_points() -> Result<()> {
+    let scene = parsed("[[at]]\ntime = 0.0105\ncarrier.speed_command = 40.0\n")?;
+    let mut run = SceneRun::start(&scene, scene.step)?;
+    let mut times = Vec::new();
+    while !run.is_over() {
+        run.advance()?;
+        times.push(run.time());
+        let wanted = if run.time() > 0.0105 + 1e-12 { 40.0 } else { 2861f64.to_radians() };
+        assert_eq!(run.simulation.motion().carrier_speed, wanted, "{}", run.time());
+    }
+    assert!(times.contains(&0.0105) && times.len() == 101);
+    Ok(())
+}
+
+#[test]
+fn tables_go_straight_from_point_to_point_and_begin_anew() -> Result<()> {
+    let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0.1, 0.3]\nvalue = [1.0, \"5 N.m\"]\n";
+    let at = |input_table: &InputTable, time| (input_table.at(time) * 1e6).round() / 1e6;
+    let scene = parsed(table)?;
+    let input_table = &scene.input_tables[0];
+    assert_eq!(
+        [at(input_table, 0.0), at(input_table, 0.1), at(input_table, 0.2), at(input_table, 0.3), at(input_table, 9.0)],
+        [1.0, 1.0, 3.0, 5.0, 5.0]
+    );
+    let again = parsed(&format!("{table}period = 0.4\n"))?;
+    assert_eq!([at(&again.input_tables[0], 0.6), at(&again.input_tables[0], 0.85)], [3.0, 1.0]);
+    assert_eq!(scene.inputs.load_torque[0], 1.0);
+    Ok(())
+}

@@ -1,0 +1,79 @@
+//! The command `study`: packages the FMU and lets the Python package compare it with the published study and with theory. The
+//! reports of both cases come with the comparison.
+
+use std::fs;
+use std::path::Path;
+
+use answers::text;
+use anyhow::{Context, Result};
+use clap::Args;
+
+use crate::fmu::package;
+use crate::tools::progress::Progress;
+use crate::tools::python::Environment;
+use crate::tools::{paths, script, sections};
+
+/// The document with the whole comparison.
+const DOCUMENT: &str = "docs/study.md";
+/// The lines between which it and README.md have their table.
+const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
+
+/// Packages the FMU, simulates the study and compares the results with it (the default command)
+#[derive(Args, Clone, Debug, Default)]
+pub struct StudyCommand {
+    /// Also write the comparison into README.md and docs/study.md, and renew the pictures
+    #[arg(long)]
+    pub readme: bool,
+}
+
+impl StudyCommand {
+    /// Runs the study and prints the comparison.
+    pub fn run(&self) -> Result<()> {
+        let progress = Progress::of_steps(expected());
+        // Python first: what the user has to install should come out at once
+        progress.step("looking for Python");
+        let environment = Environment::ready(|what| progress.stage(what))?;
+        progress.step("packaging the FMU");
+        let fmu = package::package()?;
+        let folder = paths::study();
+        paths::create_folder(&folder)?;
+        progress.step("simulating");
+        let mut study = environment.command();
+        study
+            .args(["-m", "bevel_differential", "study", "--progress", "lines", "--fmu"])
+            .arg(&fmu)
+            .arg("--out")
+            .arg(text::shown(&folder));
+        let told = script::follow(&mut study, "the study", &progress)?;
+        progress.finish();
+        print!("{told}");
+        println!("FMU: {}", paths::shown(&fmu));
+        if self.readme {
+            for (document, table) in [(DOCUMENT, "table.md"), ("README.md", "excerpt.md")] {
+                let text = fs::read_to_string(folder.join(table)).with_context(|| format!("{table} cannot be read"))?;
+                sections::renew(document, MARKS, &text)?;
+            }
+            copy_pictures(&folder)?;
+            println!("renewed: README.md, docs/study.md, docs/figures");
+        }
+        Ok(())
+    }
+}
+
+/// Time that the steps take on a machine of two cores [s]: the Python environment, the FMU, the study with its reports.
+fn expected() -> Vec<f64> {
+    let environment = if Environment::is_ready() { 0.3 } else { 17.0 };
+    vec![environment, 0.7, 11.5]
+}
+
+fn copy_pictures(folder: &Path) -> Result<()> {
+    let figures = paths::workspace().join("docs").join("figures");
+    fs::create_dir_all(&figures).context("docs/figures cannot be made")?;
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
+            fs::copy(&path, figures.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,107 @@
+"""Questions to the library of answers: scenes and gears as it reads them, and what can be found out without the FMU.
+
+Each question is a dict with the key "ask"; crates/answers/src/ask of the repository has all of them."""
+
+import ctypes
+import importlib.resources
+import json
+import os
+import sys
+from collections.abc import Callable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from .values import DifferentialError
+
+# told the part of the work that is done, from 0 to 1, and what is being done
+Progress: TypeAlias = Callable[[float, str], None]
+
+_PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, ctypes.c_char_p)
+_PLATFORMS = {"linux": ("linux64", "libanswers.so"), "win32": ("win64", "answers.dll"), "darwin": ("darwin64", "libanswers.dylib")}
+
+
+def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress: Progress | None = None) -> dict[str, Any]:
+    """The answer to a question, with the `numbers` that belong to it. Ctrl-C, or any error in `progress`, stops the work.
+
+    Raises `DifferentialError`; its `problems` are dicts with `message` and, where they are known, `variable`, `value`, `unit`,
+    `range` and `hint`; its `kind` is "use" if the question makes no sense, otherwise "failed"."""
+    library = _library()
+    raised: list[BaseException] = []
+
+    def told(_context, done, what):
+        try:
+            if progress is not None:
+                progress(done, what.decode())
+        except BaseException as stopped:
+            raised.append(stopped)
+        return len(raised)
+
+    callback = _PROGRESS(told)
+    values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
+    text = json.dumps(question, default=_plain).encode()
+    reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
+    try:
+        found = json.loads(ctypes.string_at(reply))
+    finally:
+        library.bd_free(reply)
+    if raised:
+        raise raised[0]
+    if "answer" not in found:
+        told = "\n".join(problem["message"] for problem in found["problems"])
+        raise DifferentialError(told, kind=found["kind"], problems=found["problems"])
+    return found["answer"]
+
+
+def about(scene: Any, changes: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """How a question names a scene: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, on top."""
+    given = {"given": scene.contents()} if hasattr(scene, "contents") else {}
+    name = scene.name if given else os.fspath(scene)
+    return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes)}
+
+
+def assignments(values: Mapping[str, Any] | None) -> list[str]:
+    """Values by name as texts "name=value"."""
+    return [f"{name}={_written(value)}" for name, value in (values or {}).items()]
+
+
+def scenes() -> Path:
+    """The folder of the shipped scenes: in this package, or of the repository that it is used from."""
+    if folder := os.environ.get("BEVEL_DIFFERENTIAL_SCENES"):
+        return Path(folder)
+    package = Path(str(importlib.resources.files(__package__)))
+    return package / "scenes" if (package / "scenes").is_dir() else package.parents[2] / "scenes"
+
+
+@cache
+def _library() -> ctypes.CDLL:
+    platform, name = _PLATFORMS.get(sys.platform, ("linux64", "libanswers.so"))
+    shipped = Path(str(importlib.resources.files(__package__))) / "answers" / platform / name
+    file = Path(os.environ.get("BEVEL_DIFFERENTIAL_ANSWERS") or shipped)
+    if not file.is_file():
+        raise DifferentialError(f"{file} is missing: this package was built without its library of answers for {platform}; install "
+                                "a wheel that has it, or name the library by the environment variable BEVEL_DIFFERENTIAL_ANSWERS")
+    library = ctypes.CDLL(str(file))
+    library.bd_ask.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t, _PROGRESS, ctypes.c_void_p]
+    # as an address, so that it can be freed
+    library.bd_ask.restype = ctypes.c_void_p
+    library.bd_free.argtypes, library.bd_free.restype = [ctypes.c_void_p], None
+    return library
+
+
+def _written(value):
+    """A value as a text that the reader of scenes takes: numbers read back to the same bits."""
+    if isinstance(value, (bool, np.bool_)):
+        return str(bool(value)).lower()
+    if isinstance(value, tuple):
+        number, unit = value
+        return f"{number} {unit or ''}".strip()
+    return value if isinstance(value, str) else repr(_plain(value) if isinstance(value, np.generic) else value)
+
+
+def _plain(value):
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    return os.fspath(value)

@@ -1,0 +1,1 @@
+"""Contact patterns of solid teeth."""

@@ -1,0 +1,44 @@
+"""The command `pattern`."""
+
+import argparse
+from pathlib import Path
+
+from ..command.arguments import add_set, once
+
+HELP = "show the contact pattern of solid teeth: pressure on the planet's flank over one engagement"
+EXTRA = "plot"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds what the command takes."""
+    from ..progress import add_progress
+
+    parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (start value: the study's "
+                                                                   "turn, aligned and with one thing out of place at a time)")
+    add_set(parser)
+    parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (start value: pattern)")
+    add_progress(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulates, writes files and pictures, prints what they show. Returns 0."""
+    from ..answers import about, ask
+    from ..progress import part, shown
+    from ..values import DifferentialError
+    from .picture import draw, style
+
+    changes = once("--set", arguments.set)
+    if changes and not arguments.scenes:
+        raise DifferentialError("--set changes scenes: name one")
+    with shown(arguments.progress) as progress:
+        question = {"ask": "pattern", "of": [about(scene, changes) for scene in arguments.scenes]}
+        found = ask(question, progress=part(progress, 0.0, 0.9))
+        folder = Path(arguments.out)
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, content in {**found["files"], "findings.md": found["document"]}.items():
+            (folder / name).write_text(content, encoding="utf-8")
+        progress(0.9, "drawing")
+        style.apply()
+        pictures = draw(folder)
+    print(f"{found['text']}files in {folder}: {', '.join([*found['files'], 'findings.md', *pictures])}")
+    return 0

@@ -1,0 +1,39 @@
+"""Progress of long work: a bar on the terminal, or lines for a program that shows it itself."""
+
+import argparse
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tqdm import tqdm
+
+from .answers import Progress
+
+HOW = ("bar", "lines", "none")
+
+
+def add_progress(parser: argparse.ArgumentParser) -> None:
+    """How progress is shown."""
+    parser.add_argument("--progress", choices=HOW, default="bar", help=argparse.SUPPRESS)
+
+
+@contextmanager
+def shown(how: str = "bar") -> Iterator[Progress]:
+    """A function that shows the part that is done, from 0 to 1, and what is being done."""
+    if how == "lines":
+        yield lambda done, what: print(f"progress {done:.4f} {what}", file=sys.stderr, flush=True)
+        return
+    layout = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}"
+    with tqdm(total=100, dynamic_ncols=True, leave=False, bar_format=layout, disable=how == "none" or None) as bar:
+
+        def told(done: float, what: str) -> None:
+            bar.set_description_str(what, refresh=False)
+            bar.update(max(min(round(100.0 * done), 100) - bar.n, 0))
+            bar.refresh()
+
+        yield told
+
+
+def part(progress: Progress, begin: float, end: float) -> Progress:
+    """The same for a part of the work, which goes from `begin` to `end` of the whole."""
+    return lambda done, what: progress(begin + done * (end - begin), what)

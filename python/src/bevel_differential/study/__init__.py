@@ -1,0 +1,1 @@
+"""The published study that this program replaces: its two cases, beside it and beside theory."""

@@ -1,0 +1,50 @@
+"""The command `study`."""
+
+import argparse
+from pathlib import Path
+
+from ..command.arguments import add_fmu
+
+HELP = "simulate the published study's two cases and compare them with it and with theory"
+EXTRA = "report"
+# their scenes, for reports
+SCENES = ("study_straight", "study_turning")
+# share of the work that is simulating, the rest is reports
+SIMULATING = 0.3
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds what the command takes."""
+    from ..progress import add_progress
+
+    parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (start value: study)")
+    add_fmu(parser)
+    add_progress(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Simulates, compares, and writes files. Returns 0."""
+    from .. import style
+    from ..answers import ask
+    from ..progress import part, shown
+    from ..report.write import write
+    from ..scene import Scene
+    from .simulation import simulated
+
+    folder = Path(arguments.out)
+    folder.mkdir(parents=True, exist_ok=True)
+    style.apply()
+    with shown(arguments.progress) as progress:
+        results = simulated(ask({"ask": "study"}), arguments.fmu, folder, part(progress, 0.0, SIMULATING))
+        for place, name in enumerate(SCENES):
+            share = (1.0 - SIMULATING) / len(SCENES)
+            begin = SIMULATING + place * share
+            with Scene.load(name, fmu=arguments.fmu) as scene:
+                write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
+    found = ask({"ask": "study", "results": results})
+    for name, text in (("table.md", found["document"]), ("excerpt.md", found["excerpt"])):
+        (folder / name).write_text(text, encoding="utf-8")
+    print(found["text"])
+    print(f"results: {folder}")
+    print(f"reports: {', '.join(str(folder / f'{name}.html') for name in SCENES)}")
+    return 0

@@ -1,0 +1,149 @@
+"""The study's two cases: simulated, evaluated and drawn."""
+
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..answers import Progress
+from ..differential import Differential
+from ..values import DifferentialError, FileName
+from . import figures
+
+MESH_OUTPUTS = ["left_normal_force", "right_normal_force", "left_pairs", "right_pairs", "pin_force", "thrust_force",
+                "left_transmission_error", "right_transmission_error"]
+OUTPUTS = [
+    *(f"carrier.{name}" for name in ["angle", "speed", "torque"]),
+    *(f"{side}.{name}" for side in ["left", "right"]
+      for name in ["angle", "speed", "shaft_torque", "tangential_force", "normal_force", "thrust_force"]),
+    "planet[1].spin_speed",
+    *(f"planet[1].{name}" for name in MESH_OUTPUTS),
+    "mesh.frequency", "power.in", "power.out", "power.loss", "heat.contact",
+    "solver.steps", "solver.rhs_calls", "solver.step_size", "solver.energy_residual",
+]
+# a line of a spectrum counts where it stands above this share of the strongest line and of the mean force
+LINE_SHARE = 0.02
+LINE_FLOOR = 1e-6
+# share of the progress bar that belongs to the figures
+FIGURES_SHARE = 0.15
+
+
+def simulated(order: dict[str, Any], fmu: FileName | None, folder: Path, progress: Progress) -> dict[str, Any]:
+    """Simulates both cases, writes their records and pictures into `folder`, and returns what came out, by case."""
+    runs = {}
+    for index, case in enumerate(["straight", "turning"]):
+        progress((1.0 - FIGURES_SHARE) / 2.0 * index, case)
+        with Differential(fmu=fmu) as differential:
+            begin = time.perf_counter()
+            record = simulate(differential, order, case, order["record"], order["interval"])
+            seconds = time.perf_counter() - begin
+            start = simulate(differential, order, case, order["start_record"], order["start_interval"])
+            variables = differential.fmu.variables
+        runs[case] = {"record": record, "start": start, "spectrum": force_spectra(record, order)}
+        runs[case]["results"] = evaluate(runs[case], order, case) | {"seconds_per_second": seconds / order["record"]}
+        write_csv(folder / f"{case}.csv", cut(record, order["duration"]), variables)
+        write_csv(folder / f"{case}_start.csv", start, variables)
+    write_spectra(folder / "force_spectrum.csv", {case: run["spectrum"] for case, run in runs.items()})
+    drawings = [figures.speeds, figures.tooth_forces, figures.force_spectrum]
+    for index, draw in enumerate(drawings):
+        progress(1.0 - FIGURES_SHARE * (1.0 - index / len(drawings)), f"drawing {draw.__name__}.png")
+        draw(folder, order, runs)
+    return {case: run["results"] for case, run in runs.items()}
+
+
+def simulate(differential, order, case, duration, interval):
+    """A record of a case, sampled at every communication point."""
+    values = {name: (value, unit) if unit else value for name, (value, unit) in order[case]["start_values"].items()}
+    try:
+        return differential.set(values).run(outputs=OUTPUTS, stop=duration, step=interval)
+    except DifferentialError as error:
+        raise DifferentialError(f"the {case} case fails: {error}") from error
+
+
+def cut(record, end):
+    return record[record["time"] <= end + 1e-9]
+
+
+def settled_part(record, order, case):
+    """The study's own record without its start: its second half, in a turn its last whole mesh periods."""
+    own = cut(record, order["duration"])
+    frequency = order[case]["mesh_frequency"]
+    begin = order["duration"] / 2.0
+    if frequency > 0.0:
+        begin = order["duration"] - np.floor(order["duration"] * frequency - 0.5) / frequency
+    # whole periods: the last sample is the first one of the next period
+    return own[(own["time"] > begin - 1e-9) & (own["time"] < order["duration"] - 1e-9)]
+
+
+def evaluate(run, order, case):
+    """Means over the settled part, and the start from its fine record."""
+    record, start = run["record"], run["start"]
+    own, part = cut(record, order["duration"]), settled_part(record, order, case)
+    speeds = [np.degrees(part[f"{side}.speed"]) for side in ["left", "right"]]
+    throughput = np.mean(np.abs(part["power.in"])) * order["duration"]
+    return {
+        "side_speeds": [float(np.mean(s)) for s in speeds],
+        "ripple": [float(100.0 * np.ptp(s) / abs(np.mean(s))) for s in speeds],
+        "carrier_speed": float(np.degrees(np.mean(part["carrier.speed"]))),
+        "normal_force": [float(np.mean(part[f"planet[1].{side}_normal_force"])) for side in ["left", "right"]],
+        "tangential_force": [float(np.mean(part[f"{side}.tangential_force"])) for side in ["left", "right"]],
+        "peak_tangential_force": float(max(np.max(start[f"{side}.tangential_force"]) for side in ["left", "right"])),
+        "peak_time": float(start["time"][np.argmax(start["left.tangential_force"])]),
+        "mesh_frequency": float(np.mean(part["mesh.frequency"])),
+        "first_line": first_line(run["spectrum"], float(np.mean(part["left.normal_force"]))),
+        "settled_after": settling_time(start, order[case]["side_speeds"], order["settled_band"]),
+        "steps": float(own["solver.steps"][-1]),
+        "relative_energy_residual": float(own["solver.energy_residual"][-1] / throughput),
+    }
+
+
+def settling_time(start, expected, band):
+    """Last time at which a speed was farther from theory than `band`, as a fraction."""
+    speeds = zip(["left", "right"], expected)
+    far = [np.abs(np.degrees(start[f"{side}.speed"]) / speed - 1.0) > band for side, speed in speeds]
+    outside = np.any(far, axis=0)
+    return float(start["time"][outside][-1]) if np.any(outside) else 0.0
+
+
+def force_spectra(record, order):
+    """Amplitudes over whole mesh periods of the turn at the record's end; so a rectangular window leaks nothing."""
+    count = round(order["spectrum_window"] / order["interval"])
+    part = record[-count - 1:-1]
+    spectra = {"frequency": np.fft.rfftfreq(count, order["interval"])}
+    for name in ["left.normal_force", "right.normal_force", "left.thrust_force", "right.thrust_force",
+                 "left.tangential_force"]:
+        amplitude = 2.0 / count * np.abs(np.fft.rfft(part[name]))
+        amplitude[0] /= 2.0
+        spectra[name] = amplitude
+    return spectra
+
+
+def first_line(spectra, mean_force):
+    """Lowest frequency at which the force has a line; None where nothing stands out."""
+    amplitude = spectra["left.normal_force"][1:]
+    threshold = max(LINE_SHARE * np.max(amplitude), LINE_FLOOR * mean_force)
+    lines = np.flatnonzero(amplitude >= threshold)
+    return float(spectra["frequency"][1:][lines[0]]) if len(lines) else None
+
+
+def write_csv(path, record, variables):
+    """A record with units in the header, values in the units people think in."""
+    columns = [("time [s]", record["time"])]
+    for name in record.dtype.names[1:]:
+        unit, values = variables[name].shown(record[name])
+        columns.append((f"{name} [{unit or 1}]", values))
+    save(path, columns)
+
+
+def write_spectra(path, spectra):
+    columns = [("frequency [Hz]", spectra["straight"]["frequency"])]
+    for case, spectrum in spectra.items():
+        columns += [(f"{case} {name} [N]", spectrum[name]) for name in spectrum if name != "frequency"]
+    save(path, columns)
+
+
+def save(path, columns):
+    header = ",".join(title for title, _ in columns)
+    np.savetxt(path, np.column_stack([values for _, values in columns]), delimiter=",", header=header, comments="",
+               fmt="%.10g")

@@ -1,0 +1,82 @@
+"""One style for all pictures of the project: colours, fonts, widths, caption and file.
+
+`apply` makes it that of the process, `styled` that of a block. Units are written the same everywhere: N·m, deg/s, N/mm; a
+label is "quantity, unit". Every picture ends with a caption that says what to see.
+"""
+
+import textwrap
+
+import matplotlib
+from cycler import cycler
+from matplotlib.figure import Figure
+from PIL import Image
+
+BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
+PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
+# black of theory, text, and text of less weight
+INK, TEXT, FAINT = "#111111", "#333333", "#666666"
+# in the order in which curves take them
+CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d98cb3"]
+MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
+# width of a picture, inches: the same for all, so that letters are the same size on a page
+WIDTH = 13.0
+DPI = 130
+COLOURS = 256
+# caption: characters per inch of width, height of a line in inches, at its font size
+CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
+SMALL = 10
+
+STYLE = {
+    "font.size": 11.5, "axes.titlesize": 12.5, "axes.titleweight": "bold", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
+    "axes.prop_cycle": cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
+    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.7,
+    "figure.facecolor": "white", "savefig.dpi": DPI,
+}
+
+
+def apply() -> None:
+    """Makes it the style of the process, which draws into files."""
+    matplotlib.use("Agg")
+    matplotlib.rcParams.update(STYLE)
+
+
+def styled():
+    """The style, for pictures made within the block."""
+    return matplotlib.rc_context(STYLE)
+
+
+def figure(height):
+    """An empty picture of the common width; panels arrange themselves."""
+    return Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def panels(rows, columns, height, **options):
+    """A picture of the common width with its panels, as `Figure.subplots` returns them."""
+    picture = figure(height)
+    return picture, picture.subplots(rows, columns, **options)
+
+
+def caption(picture, text, above=0.0):
+    """What to see, in lines under the panels; `above` the panels so many inches stay free."""
+    lines = textwrap.wrap(text, int(CAPTION_DENSITY * picture.get_figwidth()))
+    height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
+    share = 0.99 - height - above / picture.get_figheight()
+    picture.get_layout_engine().set(rect=(0.0, height, 0.995, share), hspace=0.04, wspace=0.03)
+    picture.text(0.02, height - 0.08 / picture.get_figheight(), "\n".join(lines), va="top", fontsize=CAPTION_SIZE,
+                 color=TEXT, linespacing=1.3)
+
+
+def note(axes, x, y, text, **options):
+    """A remark at a place in shares of the panel, right-aligned."""
+    axes.text(x, y, text, transform=axes.transAxes, **{"ha": "right", "va": "center", "color": TEXT, **options})
+
+
+def save(picture, path, shaded=False):
+    """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
+    `shaded` surfaces keep all."""
+    picture.savefig(path)
+    if shaded or not str(path).lower().endswith(".png"):
+        return
+    with Image.open(path) as drawn:
+        few = drawn.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
