@@ -1,11 +1,12 @@
 //! Questions about gears alone.
 
-use anyhow::Result;
+use anyhow::{Result, anyhow};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
 use crate::geometry::design::Design;
 use crate::geometry::interference::InterferenceCheck;
+use crate::geometry::shape::CadShape;
 use crate::geometry::{json, text, xyz};
 use crate::problem::{Problem, Problems};
 use crate::scene::set::{real, value, variable};
@@ -13,6 +14,8 @@ use crate::watch::Watch;
 
 /// Fewest and most points between the ends of a flank's curve: fewer show no involute, more no CAD program wants.
 const FACETS: [usize; 2] = [2, 1000];
+/// Most facets of a flank in surfaces, which are hundreds of megabytes beyond.
+const MOST_OF_SURFACES: usize = 200;
 
 /// Dimensions, interference and curves of gears.
 #[derive(Deserialize)]
@@ -21,9 +24,12 @@ pub struct GeometryQuestion {
     /// Parameters, each `name=value`.
     #[serde(default)]
     set: Vec<String>,
-    /// Pieces of a flank's curve.
+    /// Pieces of a flank's curve and of faceted surfaces.
     #[serde(default = "usual")]
     facets: usize,
+    /// Answer with the gears as data for CAD, too.
+    #[serde(default)]
+    solids: bool,
     /// Look for interference with teeth thicker by this length.
     #[serde(default)]
     thicken: Option<String>,
@@ -47,14 +53,22 @@ impl GeometryQuestion {
         for curve in xyz::curves(&design.pair, &design.spec, self.facets + 1) {
             add(format!("{}.txt", curve.name), curve.text());
         }
-        Ok(json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "files": files}))
+        let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "files": files});
+        if self.solids {
+            watch.say(1.0, "making solids");
+            let density = design.parameters.material.density;
+            let shape =
+                CadShape::new(&design.pair, &design.spec, density, self.facets).map_err(|found| anyhow!("{found}"))?;
+            answer["shape"] = serde_json::to_value(shape)?;
+        }
+        Ok(answer)
     }
 
     /// The gears, and by how much teeth are thicker [m]; or all that is wrong.
     fn checked(&self) -> Result<(Design, f64), Problems> {
         let mut problems = Problems::default();
         let design = Design::new(&self.set).map_err(|found| problems.extend(found.0));
-        let [least, most] = FACETS;
+        let [least, most] = [FACETS[0], if self.solids { MOST_OF_SURFACES } else { FACETS[1] }];
         if !(least..=most).contains(&self.facets) {
             let message = format!("facets {}: must be a whole number from {least} to {most}", self.facets);
             problems.push(Problem {

@@ -10,6 +10,7 @@ use bevel_differential::geometry::GearSpec;
 use bevel_differential::geometry::assembly::{azimuth, phases};
 use bevel_differential::numeric::{PI, TAU, cos, sin};
 use bevel_differential::problem::Problem;
+use serde::Serialize;
 
 /// Rotation matrix by rows: turns vectors from a gear's own frame into that of the assembly.
 pub type Rotation = [[f64; 3]; 3];
@@ -36,7 +37,7 @@ impl Position {
 }
 
 /// A gear of the assembly.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Body {
     /// Its name: `side_gear_left`, `side_gear_right`, `planet_1` and so on.
     pub name: String,

@@ -8,6 +8,7 @@ mod gear_rows;
 pub mod interference;
 pub mod json;
 mod pair_rows;
+pub mod shape;
 pub mod text;
 mod tooth_rows;
 pub mod tredgold;

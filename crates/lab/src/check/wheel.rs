@@ -15,7 +15,7 @@ use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python;
 
 /// All extras of the package.
-const EXTRAS: &str = "[sweep,design,plot,report]";
+const EXTRAS: &str = "[sweep,design,plot,report,cad]";
 /// The pages whose examples must run.
 const PAGES: [&str; 2] = ["README.md", "docs/python.md"];
 /// Programs of Rust, which the environment must not find.

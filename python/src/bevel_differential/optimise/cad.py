@@ -1,7 +1,6 @@
 """A chosen design for other programs: a scene file, and the gears."""
 
-from pathlib import Path
-
+from .. import cad
 from ..answers import ask, assignments
 from ..values import FileName
 from .design_task import DesignRow
@@ -25,12 +24,11 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
 
 
 def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
-    """Writes dimensions and curves of the design's gears; whether the check with fillets finds them free of interference."""
-    folder = Path(folder)
-    found = ask({"ask": "geometry", "set": settings(problem, row)})
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, content in found["files"].items():
-        (folder / name).write_text(content, encoding="utf-8")
+    """Writes dimensions and curves of the design's gears, and with the extra `cad` solids, meshes and drawings; whether the check
+    with fillets finds them free of interference."""
+    kinds = ("step", "glb", "dxf") if cad.available() else ()
+    found = ask({"ask": "geometry", "set": settings(problem, row), "solids": bool(kinds)})
+    cad.write(found, folder, kinds)
     return not found["interference"]
 
 

@@ -1,0 +1,68 @@
+"""The gears for other programs: solids as STEP, meshes as STL, 3MF and GLB, drawings as DXF. All are made from one dictionary, the
+`shape` in the answer about gears."""
+
+from collections.abc import Collection, Iterator
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from ..extras import needed
+from ..values import FileName
+
+GEARS = ("planet", "side_gear")
+PARTS = (*GEARS, "assembly")
+MESHES = ("stl", "3mf", "glb")
+KINDS = ("step", *MESHES, "dxf")
+EXTRA = "cad"
+
+
+def available() -> bool:
+    """Whether the packages of the extra are there."""
+    return all(find_spec(name) for name in ("OCP", "ezdxf", "trimesh"))
+
+
+def step(shape: dict[str, Any], part: str = "assembly") -> bytes:
+    """The solid of a gear, or all gears and pins of the differential, as STEP in millimetres."""
+    needed("OCP.gp", EXTRA)
+    from .step_file import step
+
+    return step(shape, part)
+
+
+def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> bytes:
+    """The same as facets; STL and 3MF in millimetres, GLB in metres."""
+    for module in ("trimesh", "lxml", "networkx") if kind == "3mf" else ("trimesh",):
+        needed(module, EXTRA)
+    from .mesh_file import mesh
+
+    return mesh(shape, part, kind)
+
+
+def drawing(shape: dict[str, Any], part: str) -> bytes:
+    """Outlines at heel and toe as curves in space, and the section of a gear with its dimensions, as DXF in millimetres."""
+    needed("ezdxf", EXTRA)
+    from .dxf_file import drawing
+
+    return drawing(shape, part)
+
+
+def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), parts: Collection[str] = PARTS) -> list[str]:
+    """Writes the files of an answer about gears, and of these kinds for these parts; all are made before the first is written.
+    Returns their names."""
+    made = {name: content.encode() for name, content in found["files"].items()}
+    for part in parts:
+        made.update(file for kind in kinds for file in _files(found["shape"], part, kind))
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in made.items():
+        (folder / name).write_bytes(content)
+    return list(made)
+
+
+def _files(shape: dict[str, Any], part: str, kind: str) -> Iterator[tuple[str, bytes]]:
+    if kind == "step":
+        yield f"{part}.step", step(shape, part)
+    elif kind in MESHES:
+        yield f"{part}.{kind}", mesh(shape, part, kind)
+    elif part in GEARS:
+        yield f"{part}.dxf", drawing(shape, part)

@@ -1,0 +1,48 @@
+"""Meshes by trimesh: one gear, or the differential with pins in place. STL and 3MF in millimetres, GLB in metres as glTF wants it."""
+
+import numpy as np
+import trimesh
+from trimesh.visual.material import PBRMaterial
+
+METRE = {"stl": 1e3, "3mf": 1e3, "glb": 1.0}
+# edges of a pin's circle
+AROUND = 128
+# of planet, side gear and pins
+COLOURS = [(0.80, 0.62, 0.35), (0.62, 0.65, 0.70), (0.40, 0.42, 0.45)]
+
+
+def mesh(shape, part, kind):
+    """The file as bytes; `part` is planet, side_gear or assembly, `kind` one of METRE."""
+    scale, scene = METRE[kind], trimesh.Scene()
+    names = [gear["name"] for gear in shape["gears"]]
+    solids = [_gear(gear, colour, scale) for gear, colour in zip(shape["gears"], COLOURS, strict=False)]
+    if part == "assembly":
+        for body in shape["bodies"]:
+            placed = np.eye(4)
+            placed[:3, :3] = body["rotation"]
+            i = body["gear"]
+            scene.add_geometry(solids[i], node_name=body["name"], geom_name=names[i], transform=placed)
+        for number, pin in enumerate(_pins(shape["pins"], scale), 1):
+            scene.add_geometry(pin, node_name=f"pin_{number}", geom_name=f"pin_{number}")
+    else:
+        scene.add_geometry(solids[names.index(part)], node_name=part, geom_name=part)
+    # without normals glTF shades facets flat
+    return scene.export(file_type=kind, **({"include_normals": False} if kind == "glb" else {}))
+
+
+def _gear(gear, colour, scale):
+    faces = gear["mesh"]
+    vertices = scale * np.array(faces["vertices"])
+    return trimesh.Trimesh(vertices, np.array(faces["triangles"]), process=False, visual=_metal(colour))
+
+
+def _pins(pins, scale):
+    for ends in pins["rods"] if pins else []:
+        rod = trimesh.creation.cylinder(scale * pins["radius"], segment=scale * np.array(ends), sections=AROUND)
+        rod.visual = _metal(COLOURS[2])
+        yield rod
+
+
+def _metal(colour):
+    return trimesh.visual.TextureVisuals(material=PBRMaterial(
+        baseColorFactor=[round(255 * c) for c in colour] + [255], metallicFactor=0.85, roughnessFactor=0.4))
