@@ -1,0 +1,94 @@
+"""Questions to the library of answers: objects, problems as values, work that is stopped, threads."""
+
+import signal
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
+from bevel_differential.answers import about, ask
+from bevel_differential.statistic import Statistic, figures
+
+# long enough to be stopped in the middle: seconds of the richest model
+LONG = {"stop_time": "5 s", "step": "1 ms"}
+
+
+def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_path):
+    found = accuracy("limited_slip", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
+    assert isinstance(found, Accuracy) and found.wants == ["left.shaft_torque:max"] and found.within == 0.01
+    assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
+    assert found.cheaper.run.price < found.use.run.price < found.reference.price
+    assert "limited_slip" in found.needed and found.needed["limited_slip"] > 0.01
+    # the setting, run through the FMU, has the figure that was promised
+    (tmp_path / "chosen.toml").write_text(found.answer["file"], encoding="utf-8")
+    with Scene.load("limited_slip", fmu=fmu_file) as rich, Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
+        peaks = [scene.run(["left.shaft_torque"])["left.shaft_torque"][1:].max() for scene in (rich, chosen)]
+        assert chosen.values["solver.relative_tolerance"] == found.use.set["solver.relative_tolerance"]
+    assert peaks[1] == pytest.approx(peaks[0], rel=0.02)
+    assert "Needed" in str(found) and len(found.table.splitlines()) == len(found.runs) + 1
+    found.plot(tmp_path / "front.png")
+    assert (tmp_path / "front.png").stat().st_size > 10_000
+
+
+def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):
+    with Scene.load("limited_slip", fmu=fmu_file) as scene:
+        told = [ask({"ask": "plan", "of": about(what)})["text"] for what in (scene, "limited_slip")]
+    # file and measured time differ
+    lines = [[line for line in text.splitlines() if not line.startswith(("  file", "  cost  "))] for text in told]
+    assert lines[0] == lines[1] and len(lines[0]) > 10
+
+
+def test_what_is_wrong_comes_as_values():
+    with pytest.raises(DifferentialError) as caught:
+        accuracy("limited_slip", within="1%", set={"geometry.module": "4.5 kg", "geometry.face_widht": 0.02})
+    assert caught.value.kind == "use"
+    module, width = caught.value.problems
+    assert (module["variable"], module["unit"], module["value"]) == ("geometry.module", "m", '"4.5 kg"')
+    assert width["hint"] == "geometry.face_width" and len(module["range"]) == 2
+
+
+def test_an_error_in_the_progress_stops_the_work_and_is_raised():
+    class Enough(Exception):
+        pass
+
+    def progress(done, what):
+        raise Enough(what)
+
+    with pytest.raises(Enough):
+        accuracy("torque_bias", within="1%", set=LONG, progress=progress)
+
+
+def test_ctrl_c_stops_the_command():
+    command = subprocess.Popen([sys.executable, "-m", "bevel_differential", "accuracy", "torque_bias", "--within", "1%", "--progress",
+                                "lines", "--set", "stop_time=20 s"], stderr=subprocess.PIPE, text=True)
+    assert "reference" in command.stderr.readline()
+    begin = time.monotonic()
+    command.send_signal(signal.SIGINT)
+    said = command.communicate(timeout=30)[1]
+    assert command.returncode == 130 and "stopped" in said and "Traceback" not in said and time.monotonic() - begin < 10.0
+
+
+def test_threads_get_answers_of_their_own():
+    def module(size):
+        text = ask({"ask": "geometry", "set": [f"geometry.module={size} mm"], "facets": 4})["files"]["dimensions.txt"]
+        return f"geometry.module = {size} mm" in text
+
+    with ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(module, (3, 3.5, 4, 5, 5.5, 6, 6.5, 7)))
+
+
+def test_figures_are_those_of_closed_forms():
+    # unequal steps over whole periods of a sine on a mean
+    phase = np.sort(np.concatenate([np.linspace(0.0, 6.0 * np.pi, 6001), np.linspace(0.0, 2.0 * np.pi, 777)[1:-1]]))
+    times, values = phase / 10.0, 2.0 + 0.5 * np.sin(phase)
+    found = figures(["mean", "rms", "min", "max", "peak_to_peak", "final", "mesh_order_1", "mesh_order_2"], times, values, phase)
+    wanted = [2.0, np.sqrt(4.0 + 0.125), 1.5, 2.5, 1.0, 2.0, 0.5, 0.0]
+    assert found == pytest.approx(wanted, abs=2e-6)
+    assert Statistic.parse("order 2 of shaft") == Statistic("shaft_order_2", "carrier.angle")
+    for word in ("meen", "mesh_order_0", ""):
+        with pytest.raises(DifferentialError):
+            Statistic.parse(word)
