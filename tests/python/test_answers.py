@@ -18,14 +18,14 @@ LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
 def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_path):
-    found = accuracy("limited_slip", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
+    found = accuracy("split_friction", "left.shaft_torque:max", "1%", timed=False, file=tmp_path / "chosen.toml")
     assert isinstance(found, Accuracy) and found.wants == ["left.shaft_torque:max"] and found.within == 0.01
     assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
     assert found.cheaper.run.price < found.use.run.price < found.reference.price
-    assert "limited_slip" in found.needed and found.needed["limited_slip"] > 0.01
+    assert "half_shaft" in found.needed and found.needed["half_shaft"] > 0.01
     # the setting, run through the FMU, has the figure that was promised
     (tmp_path / "chosen.toml").write_text(found.answer["file"], encoding="utf-8")
-    with Scene.load("limited_slip", fmu=fmu_file) as rich, Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
+    with Scene.load("split_friction", fmu=fmu_file) as rich, Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
         peaks = [scene.run(["left.shaft_torque"])["left.shaft_torque"][1:].max() for scene in (rich, chosen)]
         assert chosen.values["solver.relative_tolerance"] == found.use.set["solver.relative_tolerance"]
     assert peaks[1] == pytest.approx(peaks[0], rel=0.02)

@@ -6,8 +6,11 @@ import ctypes
 import importlib.resources
 import json
 import os
+import signal
 import sys
+import threading
 from collections.abc import Callable, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -33,7 +36,7 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
 
     def told(_context, done, what):
         try:
-            if progress is not None:
+            if progress is not None and not raised:
                 progress(done, what.decode())
         except BaseException as stopped:
             raised.append(stopped)
@@ -42,11 +45,10 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     callback = _PROGRESS(told)
     values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
     text = json.dumps(question, default=_plain).encode()
-    reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
-    try:
-        found = json.loads(ctypes.string_at(reply))
-    finally:
-        library.bd_free(reply)
+    with _interrupts(raised):
+        reply = library.bd_ask(text, values.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), len(values), callback, None)
+    found = json.loads(ctypes.string_at(reply))
+    library.bd_free(reply)
     if raised:
         raise raised[0]
     if "answer" not in found:
@@ -73,6 +75,19 @@ def scenes() -> Path:
         return Path(folder)
     package = Path(str(importlib.resources.files(__package__)))
     return package / "scenes" if (package / "scenes").is_dir() else package.parents[2] / "scenes"
+
+
+@contextmanager
+def _interrupts(raised):
+    """Ctrl-C becomes an entry of `raised`, so that it is not lost between calls of the library."""
+    own = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    if own:
+        signal.signal(signal.SIGINT, lambda *_: raised.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        if own:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @cache

@@ -54,7 +54,7 @@ pub enum Question {
 
 /// Answers a question, with the `numbers` that come beside it. `watch` is told how far the work is, and may stop it.
 pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Value> {
-    match question {
+    let answer = match question {
         Question::Scenes(question) => question.answer(),
         Question::Scene(question) => question.values(),
         Question::Plan(question) => question.plan(),
@@ -67,7 +67,9 @@ pub fn ask(question: &Question, numbers: &[f64], watch: &mut Watch) -> Result<Va
         Question::Study(question) => question.answer(),
         Question::Word(question) => question.answer(),
         Question::Statistics(question) => question.answer(numbers),
-    }
+    };
+    // what fails because it was stopped tells nothing else
+    answer.map_err(|why| watch.go_on().err().map_or(why, Into::into))
 }
 
 /// Why there is no answer.
