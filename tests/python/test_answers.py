@@ -25,10 +25,10 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
     assert "half_shaft" in found.needed and found.needed["half_shaft"] > 0.01
     # the setting, run through the FMU, has the figure that was promised
     (tmp_path / "chosen.toml").write_text(found.answer["file"], encoding="utf-8")
-    with Scene.load("split_friction", fmu=fmu_file) as rich, Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
-        peaks = [scene.run(["left.shaft_torque"])["left.shaft_torque"][1:].max() for scene in (rich, chosen)]
+    with Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
+        peak = chosen.run(["left.shaft_torque"])["left.shaft_torque"][1:].max()
         assert chosen.values["solver.relative_tolerance"] == found.use.set["solver.relative_tolerance"]
-    assert peaks[1] == pytest.approx(peaks[0], rel=0.02)
+    assert peak == pytest.approx(found.values["left.shaft_torque:max"], rel=0.01)
     assert "Needed" in str(found) and len(found.table.splitlines()) == len(found.runs) + 1
     found.plot(tmp_path / "front.png")
     assert (tmp_path / "front.png").stat().st_size > 10_000

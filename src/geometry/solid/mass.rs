@@ -9,8 +9,10 @@ use parry3d_f64::math::Vector;
 use super::manifold::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
-/// Millimetres per metre: parry3d's tolerances suit bodies of some units.
+/// Units of length per metre, millimetres or less: parry3d's tolerances are absolute and suit bodies of some units. A gear within
+/// [`LEAST`] units is measured in tenths.
 const MM: f64 = 1e3;
+const LEAST: f64 = 10.0;
 /// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
 pub(super) const FACETS: usize = 96;
 
@@ -46,9 +48,15 @@ pub(super) fn of_sectors(pair: &Pair, spec: &GearSpec, gear: usize, density: f64
 impl GearSolid {
     /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
     pub fn mass(&self, density: f64) -> GearMass {
-        let vertices: Vec<Vector> = self.vertices.iter().map(|v| Vector::new(v.x * MM, v.y * MM, v.z * MM)).collect();
-        let p = MassProperties::from_trimesh(density / (MM * MM * MM), &vertices, &self.triangles);
-        let (com, inertia) = (p.local_com / MM, p.reconstruct_inertia_matrix() * (1.0 / (MM * MM)));
+        let reach = self.vertices.iter().map(|v| v.norm_squared()).fold(0.0, f64::max);
+        let mut unit = MM;
+        while reach > 0.0 && reach * unit * unit < LEAST * LEAST {
+            unit *= 10.0;
+        }
+        let vertices: Vec<Vector> =
+            self.vertices.iter().map(|v| Vector::new(v.x * unit, v.y * unit, v.z * unit)).collect();
+        let p = MassProperties::from_trimesh(density / (unit * unit * unit), &vertices, &self.triangles);
+        let (com, inertia) = (p.local_com / unit, p.reconstruct_inertia_matrix() * (1.0 / (unit * unit)));
         // about the apex, by Steiner; the mean of x and y holds for the whole gear by symmetry
         let (xx, yy, zz) = (com.x * com.x, com.y * com.y, com.z * com.z);
         GearMass {

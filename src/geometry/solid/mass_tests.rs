@@ -155,3 +155,24 @@ fn a_root_circle_all_around_gives_a_cone() {
         assert!((found / textbook - 1.0).abs() < 1e-14, "{found} {textbook}");
     }
 }
+
+#[test]
+fn small_gears_are_large_ones_scaled_down() {
+    let scale = 0.05f64;
+    for (name, spec, pair, i, _) in gears() {
+        let [face_width, backlash] = [spec.face_width, spec.backlash].map(|v| v * scale);
+        let [planet_bore, side_bore] = [spec.planet_bore, spec.side_bore].map(|v| v * scale);
+        let small = GearSpec { module: spec.module * scale, face_width, backlash, planet_bore, side_bore, ..spec };
+        // the dedendum of some systems has a fixed part
+        let small_pair = Pair { gears: pair.gears, ..Pair::new(&small) };
+        let found = gear_mass(&small_pair, &small, i, DENSITY);
+        let grown = GearMass {
+            mass: found.mass / scale.powi(3),
+            centre: found.centre / scale,
+            axial: found.axial / scale.powi(5),
+            transverse_at_apex: found.transverse_at_apex / scale.powi(5),
+        };
+        let apart = errors(&grown, &gear_mass(&pair, &spec, i, DENSITY));
+        assert!(apart.iter().all(|e| e.abs() < 1e-9), "{name} {i}: {apart:?}");
+    }
+}

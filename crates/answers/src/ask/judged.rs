@@ -106,6 +106,7 @@ impl AccuracyQuestion {
             "scene": found.scene.name,
             "wants": wants,
             "within": found.within,
+            "values": found.reference.values,
             "uncertain": found.is_uncertain(),
             "runs": table::rows(&found),
             "csv": table::csv(&found)?,

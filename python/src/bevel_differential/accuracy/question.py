@@ -47,13 +47,14 @@ class Choice:
 class Accuracy:
     """The answer.
 
-    `use`: the chosen setting, None if nothing is accurate enough; `cheaper`: the dearest one below it, which fails; `richer`: the
+    `wants`: what was wanted; `values`: by it what the reference gives, SI. `use`: the chosen setting, None if nothing is accurate enough; `cheaper`: the dearest one below it, which fails; `richer`: the
     next one nearer to the reference; `reference`: what all were compared with. `needed`, `out`: effects that are in the setting, and
     that are not, by how much each changes a wanted quantity. `effects`: what became of each effect, and why. `uncertain`: the
     reference itself is not sure to a third of the accuracy. `runs`: all that was tried; `table`: the same as CSV."""
 
     scene: str
     wants: list[str]
+    values: dict[str, float]
     within: float
     use: Choice | None
     cheaper: Choice | None
@@ -102,7 +103,7 @@ def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: fl
         return {effect["name"]: effect["by"] for effect in found["effects"] if effect["role"] == role}
 
     return Accuracy(
-        scene=found["scene"], wants=found["wants"], within=found["within"], use=choice("use", "chosen"),
+        scene=found["scene"], wants=found["wants"], values=dict(zip(found["wants"], found["values"])), within=found["within"], use=choice("use", "chosen"),
         cheaper=choice("cheaper", "cheaper"), richer=choice("richer", "richer"), reference=places["reference"],
         needed=effects("needed"), out=effects("out"), effects={effect["name"]: effect for effect in found["effects"]},
         uncertain=found["uncertain"], runs=runs, table=found["csv"], text=found["text"], answer=found)
