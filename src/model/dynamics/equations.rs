@@ -185,10 +185,11 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         }
     }
 
-    /// Force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all others.
+    /// Writes the force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all
+    /// others.
     #[inline]
-    fn mesh_force(&self, state: &MeshState) -> MeshForce {
-        if Self::EXACT { self.teeth.mesh.force(state) } else { self.teeth.mesh.force_apart(state) }
+    pub(super) fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
+        if Self::EXACT { self.teeth.mesh.write_force(state, to) } else { self.teeth.mesh.write_force_apart(state, to) }
     }
 
     /// The same linearised.
@@ -357,10 +358,9 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         power.input += input;
     }
 
-    /// Sums of tooth torques on side gears, carrier, planets and pins without any input, and the heat of contact.
-    #[inline]
-    pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
-        let mut sum = [0.0; N];
+    /// Adds tooth torques without any input to the sums of side gears, carrier, planets and pins; returns the heat of contact.
+    #[inline(never)]
+    pub fn add_tooth_torques(&self, at: &Point<N>, sum: &mut [f64; N]) -> f64 {
         let mut load = [[MeshForce::default(); 2]; G];
         for g in 0..self.groups() {
             if let Some(twin) = self.twin(at, g) {
@@ -372,11 +372,11 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 continue;
             }
             for s in 0..2 {
-                load[g][s] = self.mesh_force(&self.mesh_state(at, g, s));
+                self.write_force(&self.mesh_state(at, g, s), &mut load[g][s]);
             }
         }
-        self.add_forces(|g, s| load[g][s].force, &mut sum);
-        (sum, self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
+        self.add_forces(|g, s| load[g][s].force, sum);
+        self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat))
     }
 
     /// Elastic energy of all meshes [J].

@@ -72,18 +72,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
 
     #[inline]
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
-        let mut power = Power::default();
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
         if WITH_EFFECTS {
-            let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
             self.act(at, &mut sum, &mut imposed, &mut power, None);
-            self.finish(at, &mut sum, &imposed, &mut power);
-            (sum, power)
         } else {
-            let (mut sum, heat) = self.tooth_torques(at);
-            power.heat[CONTACT_HEAT] = heat;
-            self.finish(at, &mut sum, &[0.0; N], &mut power);
-            (sum, power)
+            power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
         }
+        self.finish(at, &mut sum, &imposed, &mut power);
+        (sum, power)
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {

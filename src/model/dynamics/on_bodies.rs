@@ -154,7 +154,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let force = match self.bodies_of_gears() {
             Some(bodies) => self.forces_on_bodies(bodies, still, g),
-            None => [0, 1].map(|s| self.teeth.mesh.force_apart(&self.mesh_state(still, g, s))),
+            None => {
+                let mut force = [MeshForce::default(); 2];
+                for s in 0..2 {
+                    self.write_force(&self.mesh_state(still, g, s), &mut force[s]);
+                }
+                force
+            }
         };
         force.map(|force| side * force.force[0])
     }
