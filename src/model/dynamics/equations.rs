@@ -21,6 +21,7 @@ use crate::model::effect_kinds::friction::Friction;
 use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{InputDerivatives, Inputs};
+use crate::numeric::lanes;
 
 /// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
 /// degrees of freedom and `G` groups of planets; in larger ones these are the most there can be, and the layout tells how
@@ -375,7 +376,9 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 self.write_force(&self.mesh_state(at, g, s), &mut load[g][s]);
             }
         }
-        self.add_forces(|g, s| load[g][s].force, sum);
+        let mut all = *sum;
+        self.add_forces(|g, s| load[g][s].force, &mut all);
+        lanes::write(all, sum);
         self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat))
     }
 

@@ -78,6 +78,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
         } else {
             power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
         }
+        // a copy that stays in registers
+        let mut sum = std::array::from_fn(|i| sum[i]);
         self.finish(at, &mut sum, &imposed, &mut power);
         (sum, power)
     }
