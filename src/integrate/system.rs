@@ -125,6 +125,12 @@ pub trait SecondOrder<const N: usize> {
         self.evaluate(at)
     }
 
+    /// The accelerations of it alone, as stages of a step ask for them.
+    #[inline]
+    fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        self.evaluate_at(at, time).0
+    }
+
     /// [`Self::linearise`] of a driven system at `time` [s].
     #[inline]
     fn linearise_at(&self, at: &Point<N>, _time: f64) -> Linearisation<N, Self::Power> {
