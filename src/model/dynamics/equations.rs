@@ -123,7 +123,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Index of the end of the half-shaft of side `s`.
     #[inline]
     pub(in crate::model) fn end(&self, s: usize) -> usize {
-        self.teeth.layout.end(s)
+        if Self::EXACT { PLANET + G + s } else { self.teeth.layout.end(s) }
     }
 
     /// Degrees of freedom.
@@ -317,7 +317,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     }
 
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
-    #[inline]
+    #[inline(always)]
     pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.input_derivatives.rates[0];
