@@ -15,6 +15,12 @@ pub struct Point<const N: usize> {
     pub v: [f64; N],
 }
 
+impl<const N: usize> Default for Point<N> {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
 impl<const N: usize> Point<N> {
     /// All zero.
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
