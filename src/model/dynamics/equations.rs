@@ -46,7 +46,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
 impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
     /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins and seats, and with ends of
     /// half-shafts in the largest of these sizes alone.
-    const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
+    pub(super) const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
 
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {

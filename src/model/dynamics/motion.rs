@@ -30,8 +30,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         } else {
             power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
         }
-        // a copy that stays in registers
-        let mut sum = std::array::from_fn(|i| sum[i]);
+        // in small sizes a copy that stays in registers
+        let mut sum = if Self::EXACT { std::array::from_fn(|i| sum[i]) } else { sum };
         self.finish(at, &mut sum, &imposed, power);
         sum
     }
