@@ -131,7 +131,7 @@ impl Detailed {
         (flank, number, s): (Flank, i64, f64),
         cone: f64,
     ) -> f64 {
-        let mut opening = self.opening(teeth, teeth.name(flank, number, state.wrapped), s);
+        let mut opening = self.opening(teeth, &teeth.name(flank, number, state.wrapped), s);
         if self.seats {
             opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(s))[0];
         }
@@ -165,7 +165,7 @@ impl Detailed {
     pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
         let (spring, mut energy) = (&self.spring, 0.0);
         self.each(teeth, state, [0.0; 2], |name, pair| {
-            let mut opening = self.opening(teeth, name, pair.s);
+            let mut opening = self.opening(teeth, &name, pair.s);
             if self.seats {
                 opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
             }
@@ -216,13 +216,13 @@ impl Detailed {
     }
 
     #[inline(always)]
-    pub(super) fn opening(&self, teeth: &Teeth, name: PairName, s: f64) -> Opening {
+    pub(super) fn opening(&self, teeth: &Teeth, name: &PairName, s: f64) -> Opening {
         teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
     /// What opens the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs where seats need them.
     #[inline(always)]
-    pub(super) fn opened_pair(&self, teeth: &Teeth, name: PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
+    pub(super) fn opened_pair(&self, teeth: &Teeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
         let mut opening = self.opening(teeth, name, s);
         if !self.seats {
             return (opening, [0.0; 2], Arcs::NONE);
@@ -247,7 +247,7 @@ impl Detailed {
         let mut cut = Cut::default();
         let mut parts = [Part::of(&self.whole), Part::NONE];
         if OPEN {
-            (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
+            (opening, axial, arcs) = self.opened_pair(teeth, &name, pair.s, state.position[2]);
             parts = self.face.loaded(pair.depth, &opening, &mut cut);
         }
         // most pairs that are near do not touch

@@ -129,7 +129,7 @@ impl Detailed {
             let margin = [0, 1].map(|flank| shared.bodies.pull.margin(&depth, side, flank) + lookout * deepest);
             self.each(teeth, state, margin, |name, pair| {
                 let margin = margin[usize::from(pair.flank == Flank::Coast)];
-                let (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
+                let (opening, axial, arcs) = self.opened_pair(teeth, &name, pair.s, state.position[2]);
                 let mut cut = Cut::default();
                 let parts = self.face.loaded(pair.depth + margin, &opening, &mut cut);
                 if parts.iter().all(Part::is_empty) {

@@ -129,7 +129,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         g: usize,
         act: impl FnOnce(&SharedTeeth) -> R,
     ) -> R {
-        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(name)[0];
+        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(&name)[0];
         act(&SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, numbers: &numbers })
     }
 
