@@ -165,7 +165,7 @@ impl Detailed {
     pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
         let (spring, mut energy) = (&self.spring, 0.0);
         self.each(teeth, state, [0.0; 2], |name, pair| {
-            let mut opening = self.opening(teeth, &name, pair.s);
+            let mut opening = self.opening(teeth, name, pair.s);
             if self.seats {
                 opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
             }
@@ -194,7 +194,7 @@ impl Detailed {
         teeth: &Teeth,
         state: &DetailedState,
         margin: [f64; 2],
-        mut visit: impl FnMut(PairName, &ToothPair),
+        mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
         let [q, x, w] = state.position;
         // closes gaps beyond the approach of error-free teeth
@@ -206,7 +206,7 @@ impl Detailed {
             if approach + excess <= 0.0 {
                 continue;
             }
-            let mut see = |pair: &ToothPair| visit(teeth.name(flank, pair.number, state.wrapped), pair);
+            let mut see = |pair: &ToothPair| visit(&teeth.name(flank, pair.number, state.wrapped), pair);
             if self.single {
                 see(&ToothPair::single(flank, approach));
             } else {
@@ -239,7 +239,7 @@ impl Detailed {
         &self,
         (spring, teeth, thrust): (&S, &Teeth, bool),
         totals: &mut Totals<ROWS, LOCAL>,
-        (name, pair): (PairName, &ToothPair),
+        (name, pair): (&PairName, &ToothPair),
         state: &DetailedState,
         look: impl FnMut(&SliceLoad),
     ) {
@@ -247,7 +247,7 @@ impl Detailed {
         let mut cut = Cut::default();
         let mut parts = [Part::of(&self.whole), Part::NONE];
         if OPEN {
-            (opening, axial, arcs) = self.opened_pair(teeth, &name, pair.s, state.position[2]);
+            (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
             parts = self.face.loaded(pair.depth, &opening, &mut cut);
         }
         // most pairs that are near do not touch
