@@ -79,7 +79,7 @@ impl FlankGaps {
     /// on the drive flank and from the right mesh, half a turn on, down; side gear teeth forward. The drive flank pushes
     /// the side gear's tooth ahead of the planet's, the coast flank the one behind it.
     #[inline(always)]
-    fn ids(&self, name: PairName) -> (MeshId, PairId) {
+    fn ids(&self, name: &PairName) -> (MeshId, PairId) {
         let [planet, side] = &self.teeth_of;
         let [planet_tooth, side_tooth] = self.unrolled(name);
         (
@@ -96,7 +96,7 @@ impl FlankGaps {
 
     /// The same numbers of teeth, beyond whole turns.
     #[inline(always)]
-    pub fn unrolled(&self, name: PairName) -> [i64; 2] {
+    pub fn unrolled(&self, name: &PairName) -> [i64; 2] {
         let z_p = i64::from(self.teeth_of[0].teeth.get());
         let Turned { ahead, .. } = self.turned[name.planet];
         let planet_tooth =
@@ -120,13 +120,13 @@ impl FlankGaps {
 
     /// Numbers of the teeth of a pair: the planet's and the side gear's.
     pub fn teeth(&self, name: PairName) -> [usize; 2] {
-        let (_, pair) = self.ids(name);
+        let (_, pair) = self.ids(&name);
         [pair.planet_tooth, pair.side_tooth]
     }
 }
 
 impl Gaps for FlankGaps {
-    fn opening(&self, name: PairName, s: f64) -> Opening {
+    fn opening(&self, name: &PairName, s: f64) -> Opening {
         let (mesh, pair) = self.ids(name);
         self.of(mesh, pair, s)
     }

@@ -176,14 +176,23 @@ impl Mesh {
     /// Forces and heat.
     #[inline(always)]
     pub fn force(&self, state: &MeshState) -> MeshForce {
+        let mut force = MeshForce::default();
+        self.write_force(state, &mut force);
+        force
+    }
+
+    /// Writes forces and heat to where they stay, number by number: whoever reads one right after it was written as part of
+    /// several waits for all.
+    #[inline(always)]
+    pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
         with_law!(&self.law, law, SINGLE => {
             let mut sum = MeshForce::default();
             self.visit::<SINGLE>(state.position, |pair| {
                 let (rate, response) = self.respond::<false>(law, pair, state);
                 self.add(law, &mut sum, pair, rate, &response);
             });
-            sum
-        }, solid => solid.force(state))
+            (to.force[0], to.force[1], to.heat) = (sum.force[0], sum.force[1], sum.heat);
+        }, solid => *to = solid.force(state))
     }
 
     /// Forces, heat and the forces' exact derivatives.
@@ -230,10 +239,10 @@ impl Mesh {
         }, solid => solid.linearise(state))
     }
 
-    /// [`Self::force`], compiled once, for whoever is not the steps of plain teeth.
+    /// [`Self::write_force`], compiled once, for whoever is not the steps of plain teeth.
     #[inline(never)]
-    pub fn force_apart(&self, state: &MeshState) -> MeshForce {
-        self.force(state)
+    pub fn write_force_apart(&self, state: &MeshState, to: &mut MeshForce) {
+        self.write_force(state, to);
     }
 
     /// [`Self::linearise`], compiled once.

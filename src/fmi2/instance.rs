@@ -195,12 +195,17 @@ impl Instance {
         if until <= time {
             return Ok(());
         }
-        let input_derivatives = self.now.input_derivatives;
+        let input_derivatives = self.now.input_derivatives.as_ref();
+        let is_driven = input_derivatives.is_some();
+        if let Some(simulation) = &mut self.now.simulation
+            && simulation.input_derivatives() != input_derivatives
+        {
+            simulation.set_input_derivatives(input_derivatives.copied());
+        }
         let simulation = self.simulation()?;
-        simulation.set_input_derivatives(input_derivatives);
         let outcome = simulation.advance(until);
         let last = simulation.time();
-        if input_derivatives.is_some() {
+        if is_driven {
             let (inputs, input_derivatives) = (*simulation.inputs(), simulation.input_derivatives().copied());
             (self.now.inputs, self.now.input_derivatives) = (inputs, input_derivatives);
         }

@@ -28,6 +28,14 @@ const CLIP_MARGIN: f64 = 3e-3;
 /// Steps per base pitch, and their number, in the search for the end of the table.
 const SEARCH: (f64, i32) = (64.0, 256);
 
+/// Where a cell of the table begins, and the coefficients of its quintic from there; it fills a line of a cache.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(align(64))]
+struct Cell {
+    knot: f64,
+    c: [f64; 6],
+}
+
 /// Gap function of one corner.
 #[derive(Clone, Debug)]
 pub struct CornerGap {
@@ -39,7 +47,7 @@ pub struct CornerGap {
     first: u64,
     /// Reciprocal of a lower bound of g/Δ² over the table: a corner at Δ² ≥ a·spread is clear of the flank.
     pub spread: f64,
-    cells: Arc<[[f64; 6]; CELLS]>,
+    cells: Arc<[Cell; CELLS]>,
 }
 
 /// Contact of a corner: gap with derivatives, and polar angles about both axes.
@@ -128,14 +136,14 @@ impl CornerGap {
         // the power of two above the span ends the table
         let smallest = f64::from_bits(((span.to_bits() >> 52) + 1 - OCTAVES as u64) << 52);
         let first = smallest.to_bits() >> SHIFT;
-        let mut cells = [[0.0; 6]; CELLS];
+        let mut cells = [Cell::default(); CELLS];
         let mut least_curvature = f64::INFINITY;
         let (mut from, mut left) = (0.0, Jet { v: 0.0, d: 0.0, dd: exact.at(0.0).gap.dd });
         for (j, cell) in cells.iter_mut().enumerate() {
             let to = f64::from_bits((first + j as u64) << SHIFT);
             // beyond the span the gap continues quadratically
             let right = if to <= span { exact.at(to).gap } else { grow(exact.at(span).gap, to - span) };
-            *cell = quintic_hermite(left, right, to - from);
+            *cell = Cell { knot: from, c: quintic_hermite(left, right, to - from) };
             least_curvature = least_curvature.min(0.5 * right.dd);
             (from, left) = (to, right);
         }
@@ -170,9 +178,8 @@ impl CornerGap {
     pub fn at(&self, delta: f64) -> Jet {
         let count = delta.to_bits() >> SHIFT;
         let j = ((count + 1).saturating_sub(self.first) as usize).min(CELLS - 1);
-        let knot = if j == 0 { 0.0 } else { f64::from_bits((self.first + (j as u64 - 1)) << SHIFT) };
+        let Cell { knot, c } = &self.cells[j];
         let x = delta - knot;
-        let c = &self.cells[j];
         Jet {
             v: c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))),
             d: c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5]))),

@@ -5,8 +5,9 @@
 //!
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
-use super::linear::{Inverse, Shape, times};
+use super::linear::{Inverse, Shape, add_times, times};
 use super::system::{Linearisation, Matrix, Point, SecondOrder};
+use crate::numeric::lanes;
 
 /// I/s − J, inverted.
 pub struct Block<const N: usize> {
@@ -52,13 +53,9 @@ impl<const N: usize> Block<N> {
     pub fn solve<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
         let s = self.s;
         let pulled = times(shape, &self.stiffness, &r.q);
-        for i in 0..N {
-            r.v[i] += pulled[i];
-        }
+        add_times(&mut r.v, 1.0, &pulled);
         self.inverse.solve(shape, &mut r.v);
-        let rate = system.rates(&r.v);
-        for i in 0..N {
-            r.q[i] = s * (r.q[i] + rate[i]);
-        }
+        add_times(&mut r.q, 1.0, &system.rates(&r.v));
+        lanes::multiply(&mut r.q, s);
     }
 }

@@ -13,6 +13,7 @@
 use std::ops::Range;
 
 use super::system::{Matrix, SecondOrder};
+use crate::numeric::lanes;
 
 /// Least pivot over the element on the diagonal that it comes from.
 pub const LEAST_PIVOT: f64 = 1e-10;
@@ -47,6 +48,17 @@ fn eliminate<const N: usize>(a: &mut Matrix<N>, i: usize, k: usize) {
     a[i][k] = 0.0;
     for j in 0..N {
         a[i][j] -= factor * a[k][j];
+    }
+}
+
+/// to += x of.
+#[inline(always)]
+pub fn add_times<const N: usize>(to: &mut [f64; N], x: f64, of: &[f64; N]) {
+    if N.is_multiple_of(2) {
+        return lanes::add_times(to, x, of);
+    }
+    for j in 0..N {
+        to[j] += x * of[j];
     }
 }
 
@@ -150,11 +162,9 @@ impl<const N: usize> Inverse<N> {
     pub fn solve(&self, shape: Shape, b: &mut [f64; N]) {
         let (mut x, mut left) = ([0.0; N], *b);
         add_in_pairs(&self.columns, &shape.inner(), b, &mut x);
+        add_times(&mut left, 1.0, &x);
         for others in shape.others() {
-            for j in others {
-                left[j] += x[j];
-                x[j] = 0.0;
-            }
+            x[others].fill(0.0);
         }
         add(&self.columns, shape, &left, &mut x);
         *b = x;
@@ -169,7 +179,7 @@ fn add_in_pairs<const N: usize>(columns: &Matrix<N>, inner: &Range<usize>, x: &[
     let four = |k: usize, i: usize| two(k, i) + two(k + 2, i);
     match inner.len() {
         0 => {}
-        1 => add_each(sum, |i| one(0, i)),
+        1 => add_times(sum, x[inner.start], &columns[inner.start]),
         2 => add_each(sum, |i| two(0, i)),
         4 => add_each(sum, |i| four(0, i)),
         _ => add_each(sum, |i| four(0, i) + four(4, i)),
@@ -188,9 +198,7 @@ fn add_each<const N: usize>(sum: &mut [f64; N], term: impl Fn(usize) -> f64) {
 fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mut [f64; N]) {
     for others in shape.others() {
         for j in others {
-            for i in 0..N {
-                sum[i] += columns[j][i] * x[j];
-            }
+            add_times(sum, x[j], &columns[j]);
         }
     }
 }

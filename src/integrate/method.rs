@@ -3,6 +3,7 @@
 use super::course::Extension;
 use super::statistics::Statistics;
 use super::system::{Linearisation, Point, SecondOrder};
+use crate::numeric::lanes;
 
 /// Result of a step that may still be rejected.
 #[derive(Clone, Copy, Debug)]
@@ -136,11 +137,21 @@ pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u:
     if N > IN_REGISTERS {
         return combine_in_parts(y, weights, scale, u);
     }
+    let mut sum = *y;
     for (weight, u) in weights.iter().zip(u) {
-        let weight = weight * scale;
-        for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
-            *y += weight * u;
-        }
+        add_times(&mut sum, weight * scale, u);
+    }
+    *y = sum;
+}
+
+/// y += weight u, two by two if positions and velocities are so.
+#[inline(always)]
+fn add_times<const N: usize>(y: &mut Point<N>, weight: f64, u: &Point<N>) {
+    if N.is_multiple_of(2) {
+        return lanes::add_times(y.row_mut(), weight, u.row());
+    }
+    for (y, u) in y.row_mut().iter_mut().zip(u.row()) {
+        *y += weight * u;
     }
 }
 

@@ -75,10 +75,8 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
             } else {
                 combine(&mut y, &[1.0], 1.0, &u[row..]);
             }
-            acceleration = match drift {
-                None => system.evaluate(&y).0,
-                Some(_) => system.evaluate_at(&y, time + h * tableau.place(stage, &g)).0,
-            };
+            let later = if drift.is_some() { h * tableau.place(stage, &g) } else { 0.0 };
+            acceleration = system.accelerate_at(&y, time + later);
         }
         let mut r = Point { q: system.rates(&y.v), v: acceleration };
         if let Some(row) = stage.checked_sub(1) {

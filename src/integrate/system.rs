@@ -15,6 +15,12 @@ pub struct Point<const N: usize> {
     pub v: [f64; N],
 }
 
+impl<const N: usize> Default for Point<N> {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
 impl<const N: usize> Point<N> {
     /// All zero.
     pub const ZERO: Self = Self { q: [0.0; N], v: [0.0; N] };
@@ -123,6 +129,12 @@ pub trait SecondOrder<const N: usize> {
     #[inline]
     fn evaluate_at(&self, at: &Point<N>, _time: f64) -> ([f64; N], Self::Power) {
         self.evaluate(at)
+    }
+
+    /// The accelerations of it alone, as stages of a step ask for them.
+    #[inline]
+    fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        self.evaluate_at(at, time).0
     }
 
     /// [`Self::linearise`] of a driven system at `time` [s].

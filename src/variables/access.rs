@@ -12,6 +12,8 @@ pub enum OutputSource {
     Motion(fn(&Motion) -> f64),
     /// From forces, which take one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
+    /// The same, of the parts of normal forces along axes and across pins.
+    Parts(fn(&Forces) -> f64),
     /// From a loaded tooth pair of planet 1 with the left side gear, by its number.
     Pair(usize, fn(&PairLine) -> f64),
     /// From the ledger and the solver's statistics.
@@ -34,7 +36,7 @@ impl OutputSource {
         match self {
             Self::Constant(of) => of(simulation),
             Self::Motion(of) => of(&simulation.motion()),
-            Self::Forces(of) => of(simulation.forces()),
+            Self::Forces(of) | Self::Parts(of) => of(simulation.forces()),
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
             Self::Reading(place) => simulation.forces().readings[place],
             Self::Ledger(of) => of(&simulation.ledger()),

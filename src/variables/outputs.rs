@@ -21,6 +21,10 @@ fn forces(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static
     output(name, unit, None, OutputSource::Forces(of), text)
 }
 
+fn parts(name: &'static str, unit: Unit, of: fn(&Forces) -> f64, text: &'static str) -> Output {
+    output(name, unit, None, OutputSource::Parts(of), text)
+}
+
 fn ledger(name: &'static str, unit: Unit, of: fn(&LedgerReadings) -> f64, text: &'static str) -> Output {
     output(name, unit, None, OutputSource::Ledger(of), text)
 }
@@ -90,7 +94,7 @@ macro_rules! side {
                 |f| f.side_normal[$s],
                 "Normal forces of all meshes of the side gear, summed",
             ),
-            forces(
+            parts(
                 concat!($name, ".thrust_force"),
                 units::NEWTON,
                 |f| f.side_thrust[$s],
@@ -142,13 +146,13 @@ macro_rules! planet {
                 |f| f.mesh[$i][1].pairs,
                 "Tooth pairs under load in the mesh with the right side gear",
             ),
-            forces(
+            parts(
                 concat!($name, ".pin_force"),
                 units::NEWTON,
                 |f| f.pin_force[$i],
                 "Resultant of the mesh forces across the pin",
             ),
-            forces(
+            parts(
                 concat!($name, ".thrust_force"),
                 units::NEWTON,
                 |f| f.planet_thrust[$i],

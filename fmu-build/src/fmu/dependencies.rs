@@ -67,7 +67,9 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
                     .any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
         }),
         Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
-        Access::Output(OutputSource::Forces(_) | OutputSource::Reading(_)) if !named(&BY_POSITION) => {
+        Access::Output(OutputSource::Forces(_) | OutputSource::Parts(_) | OutputSource::Reading(_))
+            if !named(&BY_POSITION) =>
+        {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {
                 return inputs_where(table, |input| {
                     is_torque(input) && input.name.starts_with(side) || is_followed(input)

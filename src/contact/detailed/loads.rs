@@ -154,7 +154,7 @@ impl Opening {
 /// How tooth errors open the flanks of a pair.
 pub trait Gaps: Send + Sync + std::fmt::Debug {
     /// Opening of a pair at place `s` [rad].
-    fn opening(&self, pair: PairName, s: f64) -> Opening;
+    fn opening(&self, pair: &PairName, s: f64) -> Opening;
     /// Lower bound of all gaps (zero or negative) [m].
     fn least(&self) -> f64;
 }

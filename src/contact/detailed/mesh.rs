@@ -131,7 +131,7 @@ impl Detailed {
         (flank, number, s): (Flank, i64, f64),
         cone: f64,
     ) -> f64 {
-        let mut opening = self.opening(teeth, teeth.name(flank, number, state.wrapped), s);
+        let mut opening = self.opening(teeth, &teeth.name(flank, number, state.wrapped), s);
         if self.seats {
             opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(s))[0];
         }
@@ -194,7 +194,7 @@ impl Detailed {
         teeth: &Teeth,
         state: &DetailedState,
         margin: [f64; 2],
-        mut visit: impl FnMut(PairName, &ToothPair),
+        mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
         let [q, x, w] = state.position;
         // closes gaps beyond the approach of error-free teeth
@@ -206,7 +206,7 @@ impl Detailed {
             if approach + excess <= 0.0 {
                 continue;
             }
-            let mut see = |pair: &ToothPair| visit(teeth.name(flank, pair.number, state.wrapped), pair);
+            let mut see = |pair: &ToothPair| visit(&teeth.name(flank, pair.number, state.wrapped), pair);
             if self.single {
                 see(&ToothPair::single(flank, approach));
             } else {
@@ -216,13 +216,13 @@ impl Detailed {
     }
 
     #[inline(always)]
-    pub(super) fn opening(&self, teeth: &Teeth, name: PairName, s: f64) -> Opening {
+    pub(super) fn opening(&self, teeth: &Teeth, name: &PairName, s: f64) -> Opening {
         teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
     /// What opens the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs where seats need them.
     #[inline(always)]
-    pub(super) fn opened_pair(&self, teeth: &Teeth, name: PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
+    pub(super) fn opened_pair(&self, teeth: &Teeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
         let mut opening = self.opening(teeth, name, s);
         if !self.seats {
             return (opening, [0.0; 2], Arcs::NONE);
@@ -239,7 +239,7 @@ impl Detailed {
         &self,
         (spring, teeth, thrust): (&S, &Teeth, bool),
         totals: &mut Totals<ROWS, LOCAL>,
-        (name, pair): (PairName, &ToothPair),
+        (name, pair): (&PairName, &ToothPair),
         state: &DetailedState,
         look: impl FnMut(&SliceLoad),
     ) {

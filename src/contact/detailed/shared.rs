@@ -136,9 +136,9 @@ impl Detailed {
                     return;
                 }
                 if let Some(place) = place_for(pair.depth, &mut count, |k| arc[k]) {
-                    let tooth = (shared.numbers)(name);
+                    let tooth = (shared.numbers)(*name);
                     let standing = Standing { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
-                    near[place] = Some(Near { side, name, pair: *pair, opening, axial, arcs, standing });
+                    near[place] = Some(Near { side, name: *name, pair: *pair, opening, axial, arcs, standing });
                     arc[place] = pair.depth;
                 }
             });
@@ -272,7 +272,8 @@ impl Detailed {
             let force = self.moment * pair.s_slope * own.load[k] * along[k];
             let energy = 0.5 * self.moment * own.load[k] * (arc[k] - own.arc[k]);
             totals[side].add_moving(force, along_by, energy);
-            let touching = Touching { name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
+            let touching =
+                Touching { name: &name, pair: &pair, opening: &near.opening, arcs: near.arcs, parts, motion };
             let engagement = shared.teeth[side].engagement;
             self.add_touching((spring, engagement, thrust), &mut totals[side], touching, &mut see);
         }

@@ -12,7 +12,7 @@ use super::{Detailed, Opening, PairName, SliceLoad};
 /// A pair that touches.
 pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {
     /// Which teeth.
-    pub name: PairName,
+    pub name: &'a PairName,
     /// The pair; its depth is that of its own arc.
     pub pair: &'a ToothPair,
     /// What opens its flanks.
@@ -64,7 +64,7 @@ impl Detailed {
                 arc: node.arc,
                 s: pair.s,
                 energy: node.elastic.energy * node.node.weight,
-                name,
+                name: *name,
                 normal: force,
                 friction: node.friction.map_or(0.0, |(h, _)| -h * force),
                 sliding: node.friction.map(|(_, sliding)| sliding),

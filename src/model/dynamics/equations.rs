@@ -21,6 +21,7 @@ use crate::model::effect_kinds::friction::Friction;
 use crate::model::effect_kinds::friction_state::FrictionState;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{InputDerivatives, Inputs};
+use crate::numeric::lanes;
 
 /// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
 /// degrees of freedom and `G` groups of planets; in larger ones these are the most there can be, and the layout tells how
@@ -45,7 +46,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
 impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
     /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins and seats, and with ends of
     /// half-shafts in the largest of these sizes alone.
-    const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
+    pub(super) const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
 
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
@@ -122,7 +123,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     /// Index of the end of the half-shaft of side `s`.
     #[inline]
     pub(in crate::model) fn end(&self, s: usize) -> usize {
-        self.teeth.layout.end(s)
+        if Self::EXACT { PLANET + G + s } else { self.teeth.layout.end(s) }
     }
 
     /// Degrees of freedom.
@@ -185,10 +186,11 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         }
     }
 
-    /// Force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all others.
+    /// Writes the force of a plain mesh: part of the steps where these are compiled for just this size, and one function for all
+    /// others.
     #[inline]
-    fn mesh_force(&self, state: &MeshState) -> MeshForce {
-        if Self::EXACT { self.teeth.mesh.force(state) } else { self.teeth.mesh.force_apart(state) }
+    pub(super) fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
+        if Self::EXACT { self.teeth.mesh.write_force(state, to) } else { self.teeth.mesh.write_force_apart(state, to) }
     }
 
     /// The same linearised.
@@ -315,7 +317,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     }
 
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
-    #[inline]
+    #[inline(always)]
     pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.input_derivatives.rates[0];
@@ -357,10 +359,9 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         power.input += input;
     }
 
-    /// Sums of tooth torques on side gears, carrier, planets and pins without any input, and the heat of contact.
-    #[inline]
-    pub fn tooth_torques(&self, at: &Point<N>) -> ([f64; N], f64) {
-        let mut sum = [0.0; N];
+    /// Adds tooth torques without any input to the sums of side gears, carrier, planets and pins; returns the heat of contact.
+    #[inline(never)]
+    pub fn add_tooth_torques(&self, at: &Point<N>, sum: &mut [f64; N]) -> f64 {
         let mut load = [[MeshForce::default(); 2]; G];
         for g in 0..self.groups() {
             if let Some(twin) = self.twin(at, g) {
@@ -372,11 +373,13 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 continue;
             }
             for s in 0..2 {
-                load[g][s] = self.mesh_force(&self.mesh_state(at, g, s));
+                self.write_force(&self.mesh_state(at, g, s), &mut load[g][s]);
             }
         }
-        self.add_forces(|g, s| load[g][s].force, &mut sum);
-        (sum, self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat)))
+        let mut all = *sum;
+        self.add_forces(|g, s| load[g][s].force, &mut all);
+        lanes::write(all, sum);
+        self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat))
     }
 
     /// Elastic energy of all meshes [J].

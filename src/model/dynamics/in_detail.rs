@@ -204,7 +204,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(in crate::model) fn all_loads<T: Local>(&self, at: &Point<N>) -> [[DetailedLoad<T>; 2]; G] {
         let mut loads = [[DetailedLoad::zero(); 2]; G];
         for g in 0..self.groups() {
-            loads[g] = self.planet_loads(at, g);
+            self.write_planet_loads(at, g, &mut loads[g]);
         }
         loads
     }

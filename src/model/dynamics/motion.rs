@@ -20,6 +20,23 @@ const SPEED_FLOOR: f64 = 1.0;
 /// Twist below which that of a half-shaft is resolved absolutely [rad].
 const TWIST_FLOOR: f64 = 1e-3;
 
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
+    /// Accelerations; completes the ledger rates.
+    #[inline]
+    fn accelerate(&self, at: &Point<N>, power: &mut Power) -> [f64; N] {
+        let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
+        if WITH_EFFECTS {
+            self.act(at, &mut sum, &mut imposed, power, None);
+        } else {
+            power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, &mut sum);
+        }
+        // in small sizes a copy that stays in registers
+        let mut sum = if Self::EXACT { std::array::from_fn(|i| sum[i]) } else { sum };
+        self.finish(at, &mut sum, &imposed, power);
+        sum
+    }
+}
+
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> for Equations<'_, N, G, WITH_EFFECTS> {
     type Power = Power;
 
@@ -73,17 +90,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     #[inline]
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
         let mut power = Power::default();
-        if WITH_EFFECTS {
-            let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
-            self.act(at, &mut sum, &mut imposed, &mut power, None);
-            self.finish(at, &mut sum, &imposed, &mut power);
-            (sum, power)
-        } else {
-            let (mut sum, heat) = self.tooth_torques(at);
-            power.heat[CONTACT_HEAT] = heat;
-            self.finish(at, &mut sum, &[0.0; N], &mut power);
-            (sum, power)
-        }
+        (self.accelerate(at, &mut power), power)
     }
 
     fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
@@ -105,6 +112,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     #[inline]
     fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
         if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
+    }
+
+    #[inline]
+    fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
+        let power = &mut Power::default();
+        if self.is_driven_by_inputs() { self.later(time).accelerate(at, power) } else { self.accelerate(at, power) }
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {

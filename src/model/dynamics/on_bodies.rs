@@ -129,19 +129,25 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         g: usize,
         act: impl FnOnce(&SharedTeeth) -> R,
     ) -> R {
-        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(name)[0];
+        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(&name)[0];
         act(&SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, numbers: &numbers })
     }
 
-    /// Loads of both meshes of group `g` in detail.
+    /// Writes the loads of both meshes of group `g` in detail to where they stay.
     #[inline]
-    pub(super) fn planet_loads<T: Local>(&self, at: &Point<N>, g: usize) -> [DetailedLoad<T>; 2] {
+    pub(super) fn write_planet_loads<T: Local>(&self, at: &Point<N>, g: usize, loads: &mut [DetailedLoad<T>; 2]) {
         let mesh = &self.teeth.additions.detailed;
         match self.bodies_of_gears() {
             Some(bodies) => {
-                self.with_shared_teeth(bodies, g, |teeth| T::load_shared(mesh, teeth, &self.detailed_states(at, g)))
+                self.with_shared_teeth(bodies, g, |teeth| {
+                    *loads = T::load_shared(mesh, teeth, &self.detailed_states(at, g));
+                });
             }
-            None => [0, 1].map(|s| T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s))),
+            None => {
+                for s in 0..2 {
+                    loads[s] = T::load(mesh, &self.mesh_teeth(g, s), &self.detailed_state(at, g, s));
+                }
+            }
         }
     }
 
@@ -150,11 +156,19 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         let still = &Point { q: at.q, v: [0.0; N] };
         let side = self.teeth.sin_base[1];
         if WITH_EFFECTS && self.in_detail() {
-            return self.planet_loads::<f64>(still, g).map(|load| side * load.force[0]);
+            let mut loads = [DetailedLoad::<f64>::zero(); 2];
+            self.write_planet_loads(still, g, &mut loads);
+            return loads.map(|load| side * load.force[0]);
         }
         let force = match self.bodies_of_gears() {
             Some(bodies) => self.forces_on_bodies(bodies, still, g),
-            None => [0, 1].map(|s| self.teeth.mesh.force_apart(&self.mesh_state(still, g, s))),
+            None => {
+                let mut force = [MeshForce::default(); 2];
+                for s in 0..2 {
+                    self.write_force(&self.mesh_state(still, g, s), &mut force[s]);
+                }
+                force
+            }
         };
         force.map(|force| side * force.force[0])
     }

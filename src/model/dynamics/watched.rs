@@ -20,7 +20,7 @@ pub struct Watched {
 }
 
 /// Loads of the teeth at the end of a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LastLoads {
     /// Where it ended.
     pub at: Point<LARGEST>,

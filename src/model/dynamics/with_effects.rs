@@ -94,7 +94,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             let side = self.teeth.sin_base[1];
             return [0, 1].map(|s| self.sum(|g| self.members(g) * side * loads[g][s].force[0]));
         }
-        (*sum, power.heat[CONTACT_HEAT]) = self.tooth_torques(at);
+        power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, sum);
         let gears = [sum[0], sum[1]];
         self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
         gears

@@ -43,6 +43,8 @@ pub struct Forces {
     pub locking_value: f64,
     /// Readings of the effects that change at any instant.
     pub readings: [f64; INSTANT_READINGS],
+    /// Whether thrusts, tangential and pin forces are in it: the parts of normal forces in space.
+    pub has_parts: bool,
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds.

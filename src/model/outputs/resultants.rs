@@ -17,7 +17,7 @@ use crate::model::effect_kinds::effect::{Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
 use crate::model::scene::{Inputs, Plan};
-use crate::model::setup::effect_outputs::{HEATS, heats_within, places_of};
+use crate::model::setup::effect_outputs::{HEATS, HEATS_WITHIN, places_of};
 use crate::model::setup::scene_effects;
 use crate::numeric::{sin, sqrt};
 
@@ -74,15 +74,16 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
 
 /// Power turned into heat within the differential [W].
 fn lost(heat: &[f64; HEATS]) -> f64 {
-    heat.iter().zip(heats_within()).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
+    heat.iter().zip(HEATS_WITHIN).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
 }
 
-/// Forces of the differential with teeth.
-pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, state: &State) -> Forces {
+/// Forces of the differential with teeth, with the parts of normal forces in space if these are asked for.
+pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, has_parts): (&State, bool)) -> Forces {
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
     let ForcesAtInstant { acceleration: a, gears, carrier_torque, spin_torque, power } = equations.instant(point);
-    let mut out = Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], ..Forces::default() };
+    let mut out =
+        Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], has_parts, ..Forces::default() };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
     let brakes = equations.brake_torques(point);
     for s in 0..2 {
@@ -101,7 +102,12 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, state: 
             let mesh = &mut groups[g][s];
             mesh.transmission_error =
                 teeth.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
-            equations.tooth_loads(pair, point, g, s, |load| mesh.add(load));
+            let add = &mut |load: &ToothLoad| mesh.add(load);
+            if has_parts {
+                equations.tooth_loads(pair, point, g, s, add);
+            } else {
+                equations.loads_over_the_face(point, g, s, |load, _| add(load));
+            }
             if let Some(strength) = model.strength() {
                 equations.pair_loads(pair, point, g, s, |load| {
                     strength.add_load(&mut stress[g][s], load);
@@ -112,7 +118,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, state: 
     }
     if let Some(strength) = model.strength() {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        strength.read_stresses(meshes, &mut out.readings[places_of("strength", Changes::Always)]);
+        strength.read_stresses(meshes, &mut out.readings[const { places_of("strength", Changes::Always) }]);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];
@@ -184,6 +190,7 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
         side_acceleration,
         carrier_torque: motion.carrier_torque,
         spin_torque: motion.spin_torque,
+        has_parts: true,
         ..Forces::default()
     };
     for s in 0..2 {
@@ -206,6 +213,7 @@ pub fn rigid_forces(model: &Model, equations: &RigidEquations, inputs: &Inputs, 
         side_acceleration: [a[0], a[1]],
         carrier_torque: torques.carrier,
         spin_torque: torques.spin,
+        has_parts: true,
         ..Forces::default()
     };
     let brakes = equations.brake_torques(point);

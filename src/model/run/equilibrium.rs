@@ -31,7 +31,9 @@ impl Largest<'_> {
             return self.structure(at);
         }
         let still = Point { q: at.q, v: [0.0; LARGEST] };
-        (self.tooth_torques(&still).0, self.tooth_stiffness(at))
+        let mut sum = [0.0; LARGEST];
+        self.add_tooth_torques(&still, &mut sum);
+        (sum, self.tooth_stiffness(at))
     }
 
     /// Torque that plain teeth of side `s` put on its gear at rest, and its derivative by the gear's angle.

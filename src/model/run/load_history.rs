@@ -24,16 +24,15 @@ pub fn count_fatigue(
         rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
         rolled
     };
-    let mut sample = |fraction: f64| {
+    let mut sample = |fraction: f64, sample: &mut Sample| {
         let at = way.at(fraction * part);
-        let (angle, rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
-        let mut sample = Sample { angle, rate, ..Sample::default() };
+        (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
+        sample.mesh[..groups].fill(Default::default());
         for g in 0..groups {
             for s in 0..2 {
                 equations.pair_loads(&model.pair, &at, g, s, |load| strength.add_load(&mut sample.mesh[g][s], load));
             }
         }
-        sample
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
     if from > 0.0 {
@@ -42,9 +41,10 @@ pub fn count_fatigue(
     if from < 1.0 {
         let members = &layout.members[..groups];
         let teeth = (groups, equations.fault);
-        let begins = last.as_ref().filter(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
+        let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
+        let last = last.get_or_insert_default();
         let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
-        let end = strength.count(fatigue, &mut rated, begins.map(|last| &last.loads));
-        *last = Some(LastLoads { at: way.at(*part), teeth, loads: end });
+        strength.count(fatigue, &mut rated, &mut last.loads, are_known);
+        (last.at, last.teeth) = (way.at(*part), teeth);
     }
 }

@@ -89,25 +89,36 @@ impl Simulation {
 
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
-        if self.forces.is_none() {
+        self.forces_with(true)
+    }
+
+    /// The same for whoever does not read the parts of normal forces in space, which cost as much as all others.
+    pub fn forces_without_parts(&mut self) -> &Forces {
+        self.forces_with(false)
+    }
+
+    fn forces_with(&mut self, parts: bool) -> &Forces {
+        if self.forces.as_ref().is_none_or(|forces| parts && !forces.has_parts) {
             let mut shown = self.present();
             if self.model.ideal.plan.ends && self.state.ahead.is_some() {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }
-            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state());
+            self.forces = Some(shown.as_ref().unwrap_or(self).forces_of_state(parts));
         }
         self.forces.get_or_insert_default()
     }
 
-    pub(super) fn forces_of_state(&self) -> Forces {
+    pub(super) fn forces_of_state(&self, parts: bool) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
             Gears::Rigid(rigid) if !rigid.bodies.act_in(state) => resultants::ideal_forces(model, inputs, state),
             Gears::Rigid(rigid) => {
                 resultants::rigid_forces(model, &RigidEquations::new(rigid, inputs, state), inputs, state)
             }
-            Gears::Teeth(teeth) => resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, state),
+            Gears::Teeth(teeth) => {
+                resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, parts))
+            }
         }
     }
 
@@ -156,12 +167,13 @@ impl Simulation {
         let s = &self.state.statistics;
         let (state, watched) = &self.completed();
         let mut readings = [0.0; STEP_READINGS];
-        let places = |effect: &str| places_of(effect, Changes::ByStep);
         if let Some(strength) = self.model.strength() {
-            strength.read_damage(&watched.fatigue, &mut readings[places("strength")]);
+            strength.read_damage(&watched.fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
         if self.model.watch.as_ref().is_some_and(|watch| watch.mesh_history) {
-            watched.mesh_history.read(&self.model.ideal.plan, &mut readings[places("mesh_history")]);
+            watched
+                .mesh_history
+                .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
         }
         let held = |range: std::ops::Range<usize>| {
             let friction = state.friction[range].iter();

@@ -171,7 +171,7 @@ impl Simulation {
 
     /// Forces along `direction`.
     pub fn forces_along(&self, direction: &Direction) -> Along<Forces> {
-        self.along(direction, Self::forces_of_state)
+        self.along(direction, |displaced| displaced.forces_of_state(true))
     }
 
     /// Loaded tooth pairs along `direction`.

@@ -162,7 +162,7 @@ impl Simulation {
         }
         let before = (*inputs, *state);
         // what nothing counts need not be kept
-        let kept = model.watch.as_ref().map(|_| *watched);
+        let kept = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
         let mut outcome = progress::integrate(model, (inputs, state, watched), until);
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may

@@ -1,7 +1,7 @@
 //! Which heat and which readings the effects have, and their places in the ledger.
 
 use crate::model::effect_kinds::effect::{Changes, Heat, Reading};
-use crate::model::effects::{Declared, EFFECTS};
+use crate::model::effects::EFFECTS;
 
 /// Heat of contact damping, which no effect brings.
 pub const CONTACT_HEAT: usize = 0;
@@ -23,12 +23,18 @@ pub const STEP_READINGS: usize = counted(true);
 const fn counted(by_step: bool) -> usize {
     let (mut count, mut i) = (0, 0);
     while i < EFFECTS.len() {
-        let mut j = 0;
-        while j < EFFECTS[i].readings.len() {
-            count += (matches!(EFFECTS[i].readings[j].changes, Changes::ByStep) == by_step) as usize;
-            j += 1;
-        }
+        count += counted_of(i, by_step);
         i += 1;
+    }
+    count
+}
+
+/// The same of effect `i`.
+const fn counted_of(i: usize, by_step: bool) -> usize {
+    let (mut count, mut j) = (0, 0);
+    while j < EFFECTS[i].readings.len() {
+        count += (matches!(EFFECTS[i].readings[j].changes, Changes::ByStep) == by_step) as usize;
+        j += 1;
     }
     count
 }
@@ -69,13 +75,19 @@ pub fn heat_index(heat: Option<Heat>) -> usize {
 }
 
 /// Whether the heat at each place of the ledger arises within the differential, not at the wheels.
-pub fn heats_within() -> [bool; HEATS] {
-    let mut within = [true; HEATS];
-    for (place, heat) in heats().enumerate() {
-        within[CONTACT_HEAT + 1 + place] = !heat.at_wheels;
+pub const HEATS_WITHIN: [bool; HEATS] = {
+    let (mut within, mut place, mut i) = ([true; HEATS], CONTACT_HEAT, 0);
+    while i < EFFECTS.len() {
+        if is_first(i)
+            && let Some(heat) = EFFECTS[i].heat
+        {
+            place += 1;
+            within[place] = !heat.at_wheels;
+        }
+        i += 1;
     }
     within
-}
+};
 
 /// The readings of all effects, in their order.
 pub fn readings() -> impl Iterator<Item = &'static Reading> {
@@ -83,8 +95,15 @@ pub fn readings() -> impl Iterator<Item = &'static Reading> {
 }
 
 /// Places of the readings of the effect `name` among all that change as they do.
-pub fn places_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
-    let count = |effect: &Declared| effect.readings.iter().filter(|reading| reading.changes == changes).count();
-    let before = EFFECTS.iter().take_while(|effect| effect.name != name).map(count).sum();
-    before..before + EFFECTS.iter().find(|effect| effect.name == name).map_or(0, count)
+pub const fn places_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
+    let (mut before, mut i) = (0, 0);
+    while i < EFFECTS.len() {
+        let count = counted_of(i, matches!(changes, Changes::ByStep));
+        if is_same(EFFECTS[i].name, name) {
+            return before..before + count;
+        }
+        before += count;
+        i += 1;
+    }
+    before..before
 }

@@ -1,6 +1,6 @@
 //! The effects of a scene: what they check, require and bring, gathered from all that are on.
 
-use super::effect_outputs::{heat_index, places_of};
+use super::effect_outputs::heat_index;
 use crate::model::effect_kinds::body_effect::BodyEffect;
 use crate::model::effect_kinds::effect::{BUILT, Changes, Effect, Instant, Setting};
 use crate::model::effect_kinds::friction_source::FrictionSource;
@@ -105,11 +105,14 @@ impl<'a> SceneEffects<'a> {
 }
 
 /// Sets the readings of all effects that change at any instant.
-pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, out: &mut [f64]) {
+pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, mut out: &mut [f64]) {
     for (declared, on, effect) in configured(effects, parameters) {
-        if !declared.readings.is_empty() {
-            effect.read(&Instant { on, ..*at }, &mut out[places_of(declared.name, Changes::Always)]);
+        let count = declared.readings.iter().filter(|reading| reading.changes == Changes::Always).count();
+        let (its, others) = out.split_at_mut(count);
+        if count > 0 {
+            effect.read(&Instant { on, ..*at }, its);
         }
+        out = others;
     }
 }
 

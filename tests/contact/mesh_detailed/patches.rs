@@ -20,7 +20,7 @@ const SLICES: usize = 4000;
 struct Alike(Opening);
 
 impl Gaps for Alike {
-    fn opening(&self, _: PairName, _: f64) -> Opening {
+    fn opening(&self, _: &PairName, _: f64) -> Opening {
         self.0
     }
     fn least(&self) -> f64 {

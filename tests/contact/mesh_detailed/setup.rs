@@ -99,7 +99,7 @@ pub struct Waves {
 }
 
 impl Gaps for Waves {
-    fn opening(&self, name: PairName, s: f64) -> Opening {
+    fn opening(&self, name: &PairName, s: f64) -> Opening {
         let flank = if name.flank == Flank::Drive { 0.0 } else { 0.7 };
         let phase = name.tooth as f64 * 1.3 + flank;
         let k = 9.0;
@@ -119,7 +119,7 @@ impl Gaps for Waves {
 pub struct Even(pub f64);
 
 impl Gaps for Even {
-    fn opening(&self, _: PairName, _: f64) -> Opening {
+    fn opening(&self, _: &PairName, _: f64) -> Opening {
         Opening { even: Jet { v: self.0, d: 0.0, dd: 0.0 }, ..Opening::NONE }
     }
     fn least(&self) -> f64 {

@@ -134,7 +134,7 @@ impl Gears {
     /// Calls `act` with the teeth of both meshes.
     pub fn shared<R>(&self, gaps: Option<&dyn Gaps>, act: impl FnOnce(&SharedTeeth) -> R) -> R {
         let teeth = [0, 1].map(|side| Teeth { engagement: &self.mesh.engagement, gaps, planet: 0, side });
-        act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(name)[0] })
+        act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(&name)[0] })
     }
 
     /// Loaded slices: teeth, kind of contact, place on the face, whether damping is full, and which ends of the face carry;
@@ -172,7 +172,7 @@ impl Gears {
 pub struct Waves(pub f64);
 
 impl Gaps for Waves {
-    fn opening(&self, name: PairName, s: f64) -> Opening {
+    fn opening(&self, name: &PairName, s: f64) -> Opening {
         let phase = name.tooth as f64 * 1.3 + name.side as f64 + if name.flank == Flank::Drive { 0.0 } else { 0.7 };
         let (k, size) = (9.0, self.0);
         let (sin, cos) = (k * s + phase).sin_cos();

@@ -49,8 +49,8 @@ pub struct RatedStep<'a> {
     pub from: f64,
     /// Planets of each group.
     pub members: &'a [f64],
-    /// What it is after a part of the step.
-    pub sample: &'a mut dyn FnMut(f64) -> Sample,
+    /// Writes what it is after a part of the step.
+    pub sample: &'a mut dyn FnMut(f64, &mut Sample),
 }
 
 /// Damage of a cycle to the root of the planet, to that of the side gear, and to the flanks.
@@ -59,8 +59,8 @@ const PLANET_ROOT: usize = 0;
 const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
-/// A sample, and what a cycle under its loads does, by group, side and flank.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A sample, and what a cycle under its loads does, by group, side and flank. It is large: it is written where it stays.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rated {
     part: f64,
     sample: Sample,
@@ -86,12 +86,17 @@ impl GearStrength {
         }
     }
 
-    /// Counts a step; returns what it ends with, with which the next one may begin.
-    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, begin: Option<&Rated>) -> Rated {
-        let mut begin = begin.copied().unwrap_or_else(|| self.rate(step, step.from));
-        begin.part = step.from;
-        let (middle, end) = (self.rate(step, 0.5 * (step.from + 1.0)), self.rate(step, 1.0));
-        let parts = [&begin, &middle, &end];
+    /// Counts a step that begins with `loads`, if these are known; leaves in their place what it ends with, with which the next
+    /// one may begin.
+    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, loads: &mut Rated, are_known: bool) {
+        if !are_known {
+            self.rate(step, step.from, loads);
+        }
+        let begin = Rated { part: step.from, ..*loads };
+        let mut middle = Rated::default();
+        self.rate(step, 0.5 * (step.from + 1.0), &mut middle);
+        self.rate(step, 1.0, loads);
+        let parts = [&begin, &middle, &*loads];
         let mut scale =
             Scale { damage: fatigue.worst_per_cycle(), bending: self.force_of(fatigue.utilisation.root.share) };
         for_each_flank(step.members.len(), |g, s, flank| {
@@ -101,22 +106,23 @@ impl GearStrength {
             scale.bending = bending.into_iter().fold(scale.bending, f64::max);
         });
         self.count_part(fatigue, step, parts, &scale, HALVINGS);
-        end
     }
 
-    fn rate(&self, step: &mut RatedStep, part: f64) -> Rated {
-        let sample = (step.sample)(part);
-        let mut damage = [[[[0.0; 3]; 2]; 2]; MAX_GROUPS];
+    /// Writes what a cycle would do after a part of the step.
+    fn rate(&self, step: &mut RatedStep, part: f64, rated: &mut Rated) {
+        rated.part = part;
+        (step.sample)(part, &mut rated.sample);
         let rating = &self.rating;
         for_each_flank(step.members.len(), |g, s, flank| {
-            let load = &sample.mesh[g][s].flanks()[flank];
+            let load = &rated.sample.mesh[g][s].flanks()[flank];
             let root = |i: usize| rating.bending[i].damage_per_cycle(rating.root[i].stress(load.bending));
-            if load.bending > 0.0 {
+            rated.damage[g][s][flank] = if load.bending > 0.0 {
                 let pitting = rating.pitting.damage_per_cycle(self.rated_pressure(load));
-                damage[g][s][flank] = [root(0), root(1), pitting];
-            }
+                [root(0), root(1), pitting]
+            } else {
+                [0.0; 3]
+            };
         });
-        Rated { part, sample, damage }
     }
 
     /// Counts an interval as a whole or by halves.
@@ -133,7 +139,8 @@ impl GearStrength {
             return self.add(fatigue, step, parts);
         }
         for [begin, end] in [[begin, middle], [middle, end]] {
-            let middle = self.rate(step, 0.5 * (begin.part + end.part));
+            let mut middle = Rated::default();
+            self.rate(step, 0.5 * (begin.part + end.part), &mut middle);
             self.count_part(fatigue, step, [begin, &middle, end], scale, halvings - 1);
         }
     }
