@@ -7,7 +7,7 @@
 #[macro_export]
 #[doc(hidden)]
 macro_rules! choice {
-    ($name:literal, $type:literal, $parameters:ty, $at:expr, $description:literal,
+    ($row:expr, $type:literal, $parameters:ty, $at:expr,
      $($value:path => $literal:literal $meaning:literal),+) => {{
         static TYPE: $crate::declaration::EnumType = $crate::declaration::EnumType {
             name: $type,
@@ -23,7 +23,7 @@ macro_rules! choice {
             let at: fn(&mut $parameters) -> &mut _ = $at;
             $(if value == $value as i32 { *at(p) = $value; })+
         }
-        $crate::declaration::enumeration($name, &TYPE, get, set, $description)
+        $row.enumeration(&TYPE, get, set)
     }};
 }
 
@@ -35,4 +35,4 @@ pub mod units;
 pub use access::{Field, GetChoice, Parameter, SetChoice};
 pub use choice;
 pub use row::{Causality, Choice, EnumType, Range, Row, Variability};
-pub use rows::{calculated, command, enumeration, input, integer, output, real, switch, tunable, when};
+pub use rows::row;

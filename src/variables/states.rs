@@ -4,7 +4,7 @@
 
 use super::access::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
-use crate::declaration::{Causality, output};
+use crate::declaration::{Causality, row};
 use crate::model::{BODIES, Body, STATES};
 
 /// A state and its derivative.
@@ -99,7 +99,7 @@ bodies! {
 }
 
 fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'static str) -> Variable {
-    let row = output(name, unit, None, Access::Output(source), description);
+    let row = row(name, description).output(unit, Access::Output(source));
     Variable { causality: Causality::Local, ..row }
 }
 

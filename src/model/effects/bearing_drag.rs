@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG_PER_S};
-use crate::declaration::{Parameter, Row, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::scene::Plan;
@@ -48,57 +48,34 @@ impl Declare for BearingDragSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "bearing_drag.carrier_torque",
+            row("bearing_drag.carrier_torque", "Load-independent bearing torque on the carrier").real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e4),
                 |p| &mut p.carrier_torque,
-                "Load-independent bearing torque on the carrier",
             ),
-            real(
-                "bearing_drag.carrier_viscous",
+            row("bearing_drag.carrier_viscous", "Viscous drag on the carrier").real(
                 units::NMS_PER_RAD,
-                None,
                 (0.0, 1e3),
                 |p| &mut p.carrier_viscous,
-                "Viscous drag on the carrier",
             ),
-            real(
-                "bearing_drag.carrier_churning",
+            row("bearing_drag.carrier_churning", "Churning of oil by the carrier, with the square of its speed").real(
                 units::NMS2_PER_RAD2,
-                None,
                 (0.0, 1e2),
                 |p| &mut p.carrier_churning,
-                "Churning of oil by the carrier, with the square of its speed",
             ),
-            real(
-                "bearing_drag.side_torque",
+            row("bearing_drag.side_torque", "Load-independent bearing torque on each side gear").real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e4),
                 |p| &mut p.side_torque,
-                "Load-independent bearing torque on each side gear",
             ),
-            real(
-                "bearing_drag.side_viscous",
+            row("bearing_drag.side_viscous", "Viscous drag on each side gear").real(
                 units::NMS_PER_RAD,
-                None,
                 (0.0, 1e3),
                 |p| &mut p.side_viscous,
-                "Viscous drag on each side gear",
             ),
-            when(
-                "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0",
-                real(
-                    "bearing_drag.breakaway_speed",
-                    units::RAD_PER_S,
-                    Some(DEG_PER_S),
-                    (1e-6, 1e3),
-                    |p| &mut p.breakaway_speed,
-                    "Speed at which the bearing torque has built up",
-                ),
-            ),
+            row("bearing_drag.breakaway_speed", "Speed at which the bearing torque has built up")
+                .when("bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0")
+                .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
         ]
     }
 }

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, integer, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
 use crate::model::scene::Plan;
@@ -31,17 +31,13 @@ impl Declare for FinalDriveSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            when(
-                "final_drive.amplitude > 0",
-                integer("final_drive.ring_teeth", (1, 1000), |p| &mut p.ring_teeth, "Teeth of the ring gear"),
-            ),
-            real(
-                "final_drive.amplitude",
+            row("final_drive.ring_teeth", "Teeth of the ring gear")
+                .when("final_drive.amplitude > 0")
+                .integer((1, 1000), |p| &mut p.ring_teeth),
+            row("final_drive.amplitude", "Amplitude of the excitation relative to the carrier's command").real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.amplitude,
-                "Amplitude of the excitation relative to the carrier's command",
             ),
         ]
     }

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG};
-use crate::declaration::{Parameter, Row, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
 use crate::model::scene::{Plan, Requests, SideDrive};
@@ -41,50 +41,18 @@ impl Declare for HalfShaftSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            when(
-                "effects.half_shaft = true or scene.left_drive = speed",
-                real(
-                    "half_shaft.left_stiffness",
-                    units::NM_PER_RAD,
-                    None,
-                    (0.0, 1e9),
-                    |p| &mut p.stiffness[0],
-                    "Torsional stiffness of the left half-shaft",
-                ),
-            ),
-            when(
-                "scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0",
-                real(
-                    "half_shaft.left_damping",
-                    units::NMS_PER_RAD,
-                    None,
-                    (0.0, 1e6),
-                    |p| &mut p.damping[0],
-                    "Torsional damping of the left half-shaft",
-                ),
-            ),
-            when(
-                "effects.half_shaft = true or scene.right_drive = speed",
-                real(
-                    "half_shaft.right_stiffness",
-                    units::NM_PER_RAD,
-                    None,
-                    (0.0, 1e9),
-                    |p| &mut p.stiffness[1],
-                    "Torsional stiffness of the right half-shaft",
-                ),
-            ),
-            when(
-                "scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0",
-                real(
-                    "half_shaft.right_damping",
-                    units::NMS_PER_RAD,
-                    None,
-                    (0.0, 1e6),
-                    |p| &mut p.damping[1],
-                    "Torsional damping of the right half-shaft",
-                ),
-            ),
+            row("half_shaft.left_stiffness", "Torsional stiffness of the left half-shaft")
+                .when("effects.half_shaft = true or scene.left_drive = speed")
+                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[0]),
+            row("half_shaft.left_damping", "Torsional damping of the left half-shaft")
+                .when("scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0")
+                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[0]),
+            row("half_shaft.right_stiffness", "Torsional stiffness of the right half-shaft")
+                .when("effects.half_shaft = true or scene.right_drive = speed")
+                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[1]),
+            row("half_shaft.right_damping", "Torsional damping of the right half-shaft")
+                .when("scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0")
+                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[1]),
         ]
     }
 }

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, real, tunable};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
 use crate::model::scene::GearContact;
@@ -46,38 +46,18 @@ impl Declare for LimitedSlipSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            tunable(real(
-                "limited_slip.preload",
+            row("limited_slip.preload", "Torque of each clutch without load").tunable().real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e6),
                 |p| &mut p.preload,
-                "Torque of each clutch without load",
-            )),
-            tunable(real(
-                "limited_slip.torque_coefficient",
-                units::ONE,
-                None,
-                (0.0, 10.0),
-                |p| &mut p.torque_coefficient,
-                "Torque of each clutch per torque of the meshes on its side gear",
-            )),
-            real(
-                "limited_slip.static_ratio",
-                units::ONE,
-                None,
-                (1.0, 10.0),
-                |p| &mut p.static_ratio,
-                "Torque at which a stuck clutch breaks loose over its sliding torque",
             ),
-            real(
-                "limited_slip.stiffness",
-                units::NM_PER_RAD,
-                None,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-                "Stiffness of a stuck clutch",
-            ),
+            row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
+                .tunable()
+                .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
+            row("limited_slip.static_ratio", "Torque at which a stuck clutch breaks loose over its sliding torque")
+                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("limited_slip.stiffness", "Stiffness of a stuck clutch")
+                .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]
     }
 }

@@ -7,7 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, N_PER_UM};
-use crate::declaration::{Parameter, Row, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
@@ -47,29 +47,20 @@ impl Declare for PinComplianceSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "pin_compliance.pin_stiffness",
-                units::N_PER_M,
-                Some(N_PER_UM),
+            row("pin_compliance.pin_stiffness", "Stiffness of a pin against the tangential force of its planet").real(
+                (units::N_PER_M, N_PER_UM),
                 (1e3, 1e13),
                 |p| &mut p.pin_stiffness,
-                "Stiffness of a pin against the tangential force of its planet",
             ),
-            real(
-                "pin_compliance.case_stiffness",
-                units::N_PER_M,
-                Some(N_PER_UM),
+            row("pin_compliance.case_stiffness", "Stiffness of the case against the thrust of a side gear").real(
+                (units::N_PER_M, N_PER_UM),
                 (1e3, 1e13),
                 |p| &mut p.case_stiffness,
-                "Stiffness of the case against the thrust of a side gear",
             ),
-            real(
-                "pin_compliance.damping_time",
+            row("pin_compliance.damping_time", "Damping over stiffness of pins and case").real(
                 units::SECOND,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.damping_time,
-                "Damping over stiffness of pins and case",
             ),
         ]
     }

@@ -14,7 +14,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, real, switch, tunable, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
@@ -79,69 +79,42 @@ impl Declare for ThrustFrictionSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            tunable(real(
-                "thrust_friction.coefficient",
+            row("thrust_friction.coefficient", "Coefficient of friction of the thrust washers").tunable().real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.coefficient,
-                "Coefficient of friction of the thrust washers",
-            )),
-            tunable(real(
-                "thrust_friction.pin_coefficient",
+            ),
+            row("thrust_friction.pin_coefficient", "Coefficient of friction of the pins").tunable().real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.pin_coefficient,
-                "Coefficient of friction of the pins",
-            )),
-            switch(
+            ),
+            row(
                 "thrust_friction.radii_from_geometry",
-                |p| &mut p.radii_from_geometry,
                 "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
                  heel; false: as given",
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.pin_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.pin_radius,
-                    "Radius of the pins, if not from geometry",
-                ),
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.planet_washer_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.planet_washer_radius,
-                    "Mean radius of the planets' thrust washers, if not from geometry",
-                ),
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.side_washer_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.side_washer_radius,
-                    "Mean radius of the side gears' thrust washers, if not from geometry",
-                ),
-            ),
-            real(
+            )
+            .switch(|p| &mut p.radii_from_geometry),
+            row("thrust_friction.pin_radius", "Radius of the pins, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
+            row(
+                "thrust_friction.planet_washer_radius",
+                "Mean radius of the planets' thrust washers, if not from geometry",
+            )
+            .when("thrust_friction.radii_from_geometry = false")
+            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
+            row(
+                "thrust_friction.side_washer_radius",
+                "Mean radius of the side gears' thrust washers, if not from geometry",
+            )
+            .when("thrust_friction.radii_from_geometry = false")
+            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
+            row(
                 "thrust_friction.stiffness",
-                units::NM_PER_RAD,
-                None,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
                 "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
-            ),
+            )
+            .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]
     }
 }

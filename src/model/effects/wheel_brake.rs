@@ -11,7 +11,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units;
-use crate::declaration::{Parameter, Range, Row, input, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, WheelFriction};
@@ -41,13 +41,10 @@ impl Declare for WheelBrakeSpec {
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![real(
-            "wheel_brake.stiffness",
+        vec![row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
             units::NM_PER_RAD,
-            None,
             (1.0, 1e9),
             |p| &mut p.stiffness,
-            "Stiffness of a brake that holds its wheel at standstill",
         )]
     }
 
@@ -55,19 +52,20 @@ impl Declare for WheelBrakeSpec {
         let torque = |name, at: InputField, description| {
             // a build without effects accepts no brake torque
             let max = if BUILT { MAX_TORQUE } else { 0.0 };
-            let row = input(name, units::NEWTON_METRE, None, MAX_TORQUE, at, description);
-            Row { range: Some(Range { min: 0.0, max }), ..row }
+            row(name, description).command(units::NEWTON_METRE, max, at)
         };
         vec![
             torque(
                 "left.brake_torque",
                 |i| &mut i.brake_torque[0],
-                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
+                 at standstill",
             ),
             torque(
                 "right.brake_torque",
                 |i| &mut i.brake_torque[1],
-                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
+                 at standstill",
             ),
         ]
     }
