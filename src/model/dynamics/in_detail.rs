@@ -1,5 +1,6 @@
 //! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
 
+use super::acting::Acted;
 use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
@@ -231,7 +232,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, loads));
         if let Some((sides, planets)) = &surfaces {
-            self.add_friction(at, || self.surface_loads_of(sides, planets), sum, power);
+            self.add_friction(at, [sides, planets], sum, power);
         }
         if let Some(j) = slopes {
             let block = |part: usize| {
@@ -243,11 +244,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 })
             };
             j.elastic_energy = self.sum(|g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
-            self.add_blocks(&block(0), j.by_position);
-            self.add_blocks(&block(3), &mut j.by_rate);
+            self.add_blocks::<false>(&block(0), j.by_position);
+            self.add_blocks::<false>(&block(3), &mut j.by_rate);
             if T::BY_OTHER {
-                let cross = self.cross_blocks(loads);
-                self.add_cross_blocks(&cross, j.by_position);
+                self.add_blocks::<true>(&self.cross_blocks(loads), j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
                 self.friction_slopes_by_loads(loads, planets, j);

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
+use super::acting::Acted;
 use super::equations::Equations;
 use super::power::Power;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
@@ -108,8 +108,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let [first, second] = self.later(time).input_derivatives.rates;
-        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        self.drift_at(at, time)
     }
 
     #[inline]

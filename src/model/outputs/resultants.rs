@@ -8,6 +8,7 @@ use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::sizes::{LARGEST, Largest};
@@ -143,9 +144,9 @@ impl Largest<'_> {
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque + power.drive
+            self.acting.inputs.carrier_torque + power.drive
         };
-        let inertial = self.teeth.inertia[self.planet(0)] * self.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * self.acting.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);

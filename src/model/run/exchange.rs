@@ -14,9 +14,10 @@ use super::timeline::{breaks_tooth, next_change};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::accepted::Accepted;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::sizes::{Largest, with_equations};
 use crate::model::dynamics::state::State;
-use crate::model::scene::layout::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
 use crate::model::scene::{InputDerivatives, Inputs, Plan};
 
 /// A body with a position and a velocity among the states.
@@ -206,11 +207,11 @@ impl Simulation {
                         &mut Records { begin: from.time, work, heat, bias, watched },
                     );
                 }
-                let mut anchors = equations.friction_state().map(|state| state.anchor);
-                equations.drag(&end, &last, &mut anchors);
-                equations.anchor(&anchors);
-                is_due = equations.is_due(&end, 0.0);
-                state.friction = *equations.friction_state();
+                let mut anchors = equations.acting().anchors();
+                equations.drag_anchors(&end, &last, &mut anchors);
+                equations.acting_mut().anchor(&anchors);
+                is_due = equations.is_friction_due(&end, 0.0);
+                state.friction = equations.acting().friction_state;
                 outcome
             });
             outcome.map_err(|tooth| StepFailure { time: state.time(), message: tooth.message(model) })?;
@@ -243,9 +244,9 @@ impl Simulation {
         state.work += energy(model, inputs, state) - energy(model, inputs, &before);
         update_friction(model, inputs, state);
         with_equations!(model, state, inputs, |equations| {
-            if equations.is_due(&state.point(), 0.0) {
-                equations.settle(&state.point(), 0.0, &mut state.heat);
-                state.friction = *equations.friction_state();
+            if equations.is_friction_due(&state.point(), 0.0) {
+                equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
+                state.friction = equations.acting().friction_state;
             }
         });
         break_tooth(model, inputs, state);
