@@ -3,6 +3,7 @@
 //! Source: MSC Adams function reference, IMPACT and STEP; STEP is the cubic u²(3 − 2u). The elastic part derives from
 //! U(d) = K d^(e+1) / (e+1).
 
+use super::damping::Damping;
 use crate::numeric::{pow, sqrt};
 
 /// Force of one tooth pair with its derivatives.
@@ -49,20 +50,8 @@ impl Impact {
     #[inline(always)]
     pub fn force(&self, d: f64, rate: f64) -> Force {
         let power = self.stiffness * self.power(d);
-        let elastic = power * d;
-        let u = d * self.per_full_depth;
-        let (step, slope) =
-            if u < 1.0 { (u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) * self.per_full_depth) } else { (1.0, 0.0) };
-        let total = elastic + self.damping * step * rate;
-        if total <= 0.0 {
-            return Force { elastic, ..Force::default() };
-        }
-        Force {
-            total,
-            elastic,
-            by_depth: self.exponent * power + self.damping * slope * rate,
-            by_rate: self.damping * step,
-        }
+        let damping = Damping::Step { coefficient: self.damping, per_full_depth: self.per_full_depth };
+        damping.apply(power * d, self.exponent * power, d, rate)
     }
 
     /// Elastic energy U [J] at penetration `d` > 0 [m].
