@@ -5,7 +5,7 @@
 use super::access::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
 use crate::declaration::{Causality, row};
-use crate::model::{BODIES, Body, STATES};
+use crate::model::{ATTACHED, BODIES, Body, STATES};
 
 /// A state and its derivative.
 struct State {
@@ -42,30 +42,27 @@ const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
 const AXIAL_SPEED: f64 = 1e-2;
 
+fn states(kind: &Kind, what: &str, names: [&'static str; 2], nominal: [f64; 2]) -> [State; 2] {
+    [(0, "position"), (1, "velocity")].map(|(i, part)| State {
+        name: names[i],
+        derivative: format!("der({})", names[i]).leak(),
+        description: format!("{what}: {part}").leak(),
+        nominal: nominal[i],
+        unit: kind.units[i],
+        display: kind.display[i],
+        rate_unit: kind.units[i + 1],
+    })
+}
+
 macro_rules! bodies {
     ($($body:expr, $kind:expr, $what:literal, $position:literal $size:expr, $velocity:literal $speed:expr;)+) => {
         /// Position and velocity of each body.
         fn bodies() -> Vec<(Body, [State; 2])> {
-            vec![$(($body, [
-                State {
-                    name: $position,
-                    derivative: concat!("der(", $position, ")"),
-                    description: concat!($what, ": position"),
-                    nominal: $size,
-                    unit: $kind.units[0],
-                    display: $kind.display[0],
-                    rate_unit: $kind.units[1],
-                },
-                State {
-                    name: $velocity,
-                    derivative: concat!("der(", $velocity, ")"),
-                    description: concat!($what, ": velocity"),
-                    nominal: $speed,
-                    unit: $kind.units[1],
-                    display: $kind.display[1],
-                    rate_unit: $kind.units[2],
-                },
-            ])),+]
+            let mut all = vec![$(($body, states(&$kind, $what, [$position, $velocity], [$size, $speed]))),+];
+            all.extend(ATTACHED.iter().enumerate().map(|(k, body)| {
+                (Body::Attached(k), states(&TURNS, body.what, body.states, [TWIST, SPEED]))
+            }));
+            all
         }
     };
 }
@@ -92,10 +89,6 @@ bodies! {
         "planet[3].pin_angle" DEFLECTION, "planet[3].pin_speed" SPEED;
     Body::Pin(3), TURNS, "Pin, its angle counted from the carrier",
         "planet[4].pin_angle" DEFLECTION, "planet[4].pin_speed" SPEED;
-    Body::End(0), TURNS, "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. Its position is the twist, side gear ahead",
-        "left.shaft_twist" TWIST, "left.end_speed" SPEED;
-    Body::End(1), TURNS, "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. Its position is the twist, side gear ahead",
-        "right.shaft_twist" TWIST, "right.end_speed" SPEED;
 }
 
 fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'static str) -> Variable {

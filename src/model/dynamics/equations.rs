@@ -20,6 +20,7 @@ use crate::contact::mesh::{Law, MeshForce, MeshJacobian, MeshState};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::scene::attached::{self, ENDS};
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{Inputs, Layout, Plan};
 
@@ -108,6 +109,13 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
     #[inline]
     pub(in crate::model) fn end(&self, s: usize) -> usize {
         self.teeth.layout.end(s)
+    }
+
+    /// Indices of attached bodies and of those that they turn against: of ends of half-shafts alone in a size that is exact.
+    #[inline]
+    pub(in crate::model) fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
+        let [ends, all] = if Self::EXACT { [if self.ends() { ENDS } else { 0 }, 0] } else { [0, attached::COUNT] };
+        (0..ends).map(|s| (PLANET + G + s, s)).chain(self.teeth.layout.attached().take(all))
     }
 
     /// Degrees of freedom.
@@ -339,7 +347,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
 
     #[inline]
     fn ends(&self) -> bool {
-        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends }
+        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends() }
     }
 
     #[inline]

@@ -46,10 +46,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 rates[self.pin(g)] -= v[CARRIER];
             }
         }
-        if self.ends() {
-            for s in 0..2 {
-                rates[self.end(s)] = v[s] - v[self.end(s)];
-            }
+        for (i, to) in self.attached() {
+            rates[i] = v[to] - v[i];
         }
         rates
     }
@@ -61,11 +59,11 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
             if self.pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
-            if self.ends() {
-                for s in 0..2 {
-                    row[s] += row[self.end(s)];
-                    row[self.end(s)] = -row[self.end(s)];
-                }
+        }
+        for (i, to) in self.attached() {
+            for row in &mut m[..self.count()] {
+                row[to] += row[i];
+                row[i] = -row[i];
             }
         }
     }
@@ -136,11 +134,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        if self.ends() {
-            for s in 0..2 {
-                q[self.end(s)] = 1.0 / (TWIST_FLOOR + at.q[self.end(s)].abs());
-                v[self.end(s)] = v[s];
-            }
+        for (i, to) in self.attached() {
+            (q[i], v[i]) = (1.0 / (TWIST_FLOOR + at.q[i].abs()), v[to]);
         }
         Point { q, v }
     }

@@ -143,7 +143,7 @@ impl Acted<MOST> for RigidEquations<'_> {
     }
 
     fn ends(&self) -> bool {
-        self.rigid.layout.ends
+        self.rigid.layout.ends()
     }
 
     /// None: planets stick with the side gears.
@@ -181,9 +181,9 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
-            if self.ends() {
-                rates[self.end(s)] = v[s] - v[self.end(s)];
-            }
+        }
+        for (i, to) in self.rigid.layout.attached() {
+            rates[i] = v[to] - v[i];
         }
         rates
     }
@@ -191,11 +191,9 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
     fn times_rates(&self, m: &mut Matrix<MOST>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            if self.ends() {
-                for s in 0..2 {
-                    row[s] += row[self.end(s)];
-                    row[self.end(s)] = -row[self.end(s)];
-                }
+            for (i, to) in self.rigid.layout.attached() {
+                row[to] += row[i];
+                row[i] = -row[i];
             }
         }
     }
@@ -275,10 +273,8 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
-        if self.ends() {
-            for s in 0..2 {
-                weights.q[self.end(s)] = 1.0 / (1e-3 + at.q[self.end(s)].abs());
-            }
+        for (i, _) in self.rigid.layout.attached() {
+            weights.q[i] = 1.0 / (1e-3 + at.q[i].abs());
         }
         weights
     }

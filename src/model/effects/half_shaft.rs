@@ -79,7 +79,7 @@ impl Effect for HalfShaftSpec {
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let shafts = HalfShafts::new(self, plan);
-        plan.ends.then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
+        plan.layout().ends().then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
     }
 
     fn read(&self, at: &Instant, out: &mut [f64]) {

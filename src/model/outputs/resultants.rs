@@ -55,7 +55,7 @@ fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat
     out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
     out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
     out.power_loss = heat;
-    let torque = state.bias.mean().filter(|_| plan.ends).unwrap_or(out.shaft_torque);
+    let torque = state.bias.mean().filter(|_| plan.layout().ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
 }
 

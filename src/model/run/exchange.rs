@@ -33,30 +33,31 @@ pub enum Body {
     Planet(usize),
     /// Pin; its angle is counted from the carrier, its speed is not.
     Pin(usize),
-    /// Wheel-side end of a half-shaft; its position is the twist, its speed its own.
-    End(usize),
+    /// Attached body, such as the wheel-side end of a half-shaft; its position is the twist, its speed its own.
+    Attached(usize),
 }
 
 /// The bodies, in the order of the states.
 pub const BODIES: [Body; MAX_DOF] = {
     use Body::*;
-    [
-        Side(0),
-        Side(1),
-        Carrier,
-        Seat(0),
-        Seat(1),
-        Planet(0),
-        Planet(1),
-        Planet(2),
-        Planet(3),
-        Pin(0),
-        Pin(1),
-        Pin(2),
-        Pin(3),
-        End(0),
-        End(1),
-    ]
+    let mut all = [Carrier; MAX_DOF];
+    let pairs = [(0, Side(0)), (1, Side(1)), (3, Seat(0)), (4, Seat(1))];
+    let mut i = 0;
+    while i < pairs.len() {
+        all[pairs[i].0] = pairs[i].1;
+        i += 1;
+    }
+    i = 0;
+    while i < MAX_PLANETS {
+        (all[5 + i], all[5 + MAX_PLANETS + i]) = (Planet(i), Pin(i));
+        i += 1;
+    }
+    i = 5 + 2 * MAX_PLANETS;
+    while i < MAX_DOF {
+        all[i] = Attached(i - 5 - 2 * MAX_PLANETS);
+        i += 1;
+    }
+    all
 };
 
 /// States: positions of all bodies, then their velocities.
@@ -76,7 +77,7 @@ impl Body {
             Self::Seat(s) => plan.pins.then(|| layout.seat(s)),
             Self::Planet(i) => (i < plan.planets).then(|| layout.planet(plan.group_of[i])),
             Self::Pin(i) => (plan.pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
-            Self::End(s) => plan.shafts[s].then(|| layout.end(s)),
+            Self::Attached(k) => plan.attached(k),
         }
     }
 }

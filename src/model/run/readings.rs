@@ -91,7 +91,7 @@ impl Simulation {
     pub fn forces(&mut self) -> &Forces {
         if self.forces.is_none() {
             let mut shown = self.present();
-            if self.model.ideal.plan.ends && self.state.ahead.is_some() {
+            if self.model.layout.ends() && self.state.ahead.is_some() {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }

@@ -106,13 +106,13 @@ pub fn integrate_teeth(
         };
     }
     let is_default = method == Method::Adaptive;
-    match teeth.layout.count() {
-        0..=LEAST if is_default || method == Method::FixedStep => {
+    match (teeth.layout.groups, teeth.layout.plain()) {
+        (1, Some(false)) if is_default || method == Method::FixedStep => {
             whole::<LEAST, 1, true>(teeth, model, state, stretch, budget)
         }
-        DIFFERENT if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
-        EXACT if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
-        0..=MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
+        (2, Some(false)) if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
+        (1, Some(true)) if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
+        _ if teeth.layout.count() <= MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
         _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
     }
 }
