@@ -2,8 +2,9 @@
 //! value.
 
 use super::access::{Parameter, keep};
-use super::row::{Causality, EnumType, Range, Row, Variability};
+use super::row::{Causality, Range, Row, Variability};
 use super::units::Shown;
+use crate::spec::Choices;
 
 /// The beginning of a row: a name and what it is.
 #[inline(always)]
@@ -63,14 +64,15 @@ impl Row<()> {
         self.map(|()| Parameter::Boolean(keep(at)))
     }
 
-    /// A parameter that is one of several choices; see the macro `choice`.
-    pub fn enumeration<P>(
-        self,
-        kind: &'static EnumType,
-        get: fn(&P) -> i32,
-        set: fn(&mut P, i32),
-    ) -> Row<Parameter<P>> {
-        self.map(|()| Parameter::Enumeration(kind, keep(get), keep(set)))
+    /// A parameter that is one of several choices.
+    pub fn choice<P: Copy + 'static, E: Choices>(self, at: fn(&mut P) -> &mut E) -> Row<Parameter<P>> {
+        let get = move |p: &P| at(&mut { *p }).value();
+        let set = move |p: &mut P, value| {
+            if let Some(choice) = E::of(value) {
+                *at(p) = choice;
+            }
+        };
+        self.map(|()| Parameter::Enumeration(E::TYPE, keep(get), keep(set)))
     }
 
     /// An input between −`limit` and `limit`.

@@ -20,7 +20,7 @@ use crate::contact::mesh::{Law, MeshForce, MeshJacobian, MeshState};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
-use crate::model::scene::attached::{self, ENDS};
+use crate::model::scene::attached::ENDS;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
 use crate::model::scene::{Inputs, Layout, Plan};
 
@@ -42,7 +42,7 @@ pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: boo
 impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a, N, G, WITH_EFFECTS> {
     /// Whether there are `N` degrees of freedom and `G` groups of planets exactly: without moving pins and seats, and with ends of
     /// half-shafts in the largest of these sizes alone.
-    const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
+    pub(super) const EXACT: bool = !WITH_EFFECTS || N <= EXACT;
 
     /// Equations at `state`'s wrapping under `inputs`.
     pub fn new(teeth: &'a Teeth, inputs: &Inputs, state: &State) -> Self {
@@ -111,11 +111,16 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         self.teeth.layout.end(s)
     }
 
-    /// Indices of attached bodies and of those that they turn against: of ends of half-shafts alone in a size that is exact.
+    /// Ends of half-shafts with the side gears they turn against, in a size that is exact: the only bodies attached there.
     #[inline]
-    pub(in crate::model) fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
-        let [ends, all] = if Self::EXACT { [if self.ends() { ENDS } else { 0 }, 0] } else { [0, attached::COUNT] };
-        (0..ends).map(|s| (PLANET + G + s, s)).chain(self.teeth.layout.attached().take(all))
+    pub(in crate::model) fn exact_ends(&self) -> impl Iterator<Item = (usize, usize)> + use<N, G, WITH_EFFECTS> {
+        (0..if Self::EXACT && self.ends() { ENDS } else { 0 }).map(|s| (PLANET + G + s, s))
+    }
+
+    /// Whether anything is attached.
+    #[inline]
+    pub(in crate::model) fn is_attached(&self) -> bool {
+        if Self::EXACT { self.ends() } else { self.teeth.layout.is_attached() }
     }
 
     /// Degrees of freedom.

@@ -22,5 +22,6 @@ pub mod power;
 pub mod rigid_equations;
 pub mod sizes;
 pub mod state;
+mod twists;
 pub mod watched;
 mod with_effects;

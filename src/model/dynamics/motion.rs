@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::acting::Acted;
 use super::equations::Equations;
 use super::power::Power;
+use super::twists;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
@@ -46,8 +47,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 rates[self.pin(g)] -= v[CARRIER];
             }
         }
-        for (i, to) in self.attached() {
-            rates[i] = v[to] - v[i];
+        twists::set(self.exact_ends(), v, &mut rates);
+        if !Self::EXACT && self.is_attached() {
+            self.teeth.layout.set_twist_rates(v, &mut rates);
         }
         rates
     }
@@ -59,11 +61,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
             if self.pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
-        }
-        for (i, to) in self.attached() {
-            for row in &mut m[..self.count()] {
-                row[to] += row[i];
-                row[i] = -row[i];
+            twists::turn(self.exact_ends(), row);
+            if !Self::EXACT && self.is_attached() {
+                self.teeth.layout.turn_twist_rates(row);
             }
         }
     }
@@ -134,7 +134,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        for (i, to) in self.attached() {
+        for (i, to) in self.teeth.layout.attached().take(if self.is_attached() { N } else { 0 }) {
             (q[i], v[i]) = (1.0 / (TWIST_FLOOR + at.q[i].abs()), v[to]);
         }
         Point { q, v }

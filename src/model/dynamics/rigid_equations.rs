@@ -182,19 +182,14 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        for (i, to) in self.rigid.layout.attached() {
-            rates[i] = v[to] - v[i];
-        }
+        self.rigid.layout.set_twist_rates(v, &mut rates);
         rates
     }
 
     fn times_rates(&self, m: &mut Matrix<MOST>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            for (i, to) in self.rigid.layout.attached() {
-                row[to] += row[i];
-                row[i] = -row[i];
-            }
+            self.rigid.layout.turn_twist_rates(row);
         }
     }
 

@@ -3,41 +3,27 @@
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
 //! with the square of the speed (ISO/TR 14179-1).
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::scene::Plan;
 
-/// Drag of bearings and oil.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BearingDragSpec {
-    /// Load-independent bearing torque on the carrier [N·m].
-    pub carrier_torque: f64,
-    /// Viscous drag on the carrier [N·m·s/rad].
-    pub carrier_viscous: f64,
-    /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
-    pub carrier_churning: f64,
-    /// Load-independent bearing torque on each side gear [N·m].
-    pub side_torque: f64,
-    /// Viscous drag on each side gear [N·m·s/rad].
-    pub side_viscous: f64,
-    /// Speed at which bearing torque has built up [rad/s].
-    pub breakaway_speed: f64,
-}
-
-impl Default for BearingDragSpec {
-    fn default() -> Self {
-        Self {
-            carrier_torque: 0.5,
-            carrier_viscous: 5e-3,
-            carrier_churning: 1e-4,
-            side_torque: 0.2,
-            side_viscous: 1e-3,
-            breakaway_speed: 0.1,
-        }
+spec! {
+    /// Drag of bearings and oil.
+    pub struct BearingDragSpec {
+        /// Load-independent bearing torque on the carrier [N·m].
+        pub carrier_torque: f64 = 0.5,
+        /// Viscous drag on the carrier [N·m·s/rad].
+        pub carrier_viscous: f64 = 5e-3,
+        /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
+        pub carrier_churning: f64 = 1e-4,
+        /// Load-independent bearing torque on each side gear [N·m].
+        pub side_torque: f64 = 0.2,
+        /// Viscous drag on each side gear [N·m·s/rad].
+        pub side_viscous: f64 = 1e-3,
+        /// Speed at which bearing torque has built up [rad/s].
+        pub breakaway_speed: f64 = 0.1,
     }
 }
 

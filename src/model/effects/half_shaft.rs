@@ -2,8 +2,6 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_p / L.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
@@ -11,18 +9,13 @@ use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
 
-/// Torsion of the half-shafts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct HalfShaftSpec {
-    /// Stiffness, left and right [N·m/rad].
-    pub stiffness: [f64; 2],
-    /// Damping, left and right [N·m·s/rad].
-    pub damping: [f64; 2],
-}
-
-impl Default for HalfShaftSpec {
-    fn default() -> Self {
-        Self { stiffness: [1e4; 2], damping: [5.0; 2] }
+spec! {
+    /// Torsion of the half-shafts.
+    pub struct HalfShaftSpec {
+        /// Stiffness, left and right [N·m/rad].
+        pub stiffness: [f64; 2] = [1e4; 2],
+        /// Damping, left and right [N·m·s/rad].
+        pub damping: [f64; 2] = [5.0; 2],
     }
 }
 

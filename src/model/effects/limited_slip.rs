@@ -4,8 +4,6 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units;
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
@@ -13,22 +11,17 @@ use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
-/// Clutch packs between side gears and carrier.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LimitedSlipSpec {
-    /// Torque of each clutch without load [N·m].
-    pub preload: f64,
-    /// Torque of each clutch per torque of the meshes on its side gear.
-    pub torque_coefficient: f64,
-    /// Torque at which a stuck clutch breaks loose over its sliding torque.
-    pub static_ratio: f64,
-    /// Stiffness of a stuck clutch [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for LimitedSlipSpec {
-    fn default() -> Self {
-        Self { preload: 50.0, torque_coefficient: 0.1, static_ratio: 1.0, stiffness: 1e5 }
+spec! {
+    /// Clutch packs between side gears and carrier.
+    pub struct LimitedSlipSpec {
+        /// Torque of each clutch without load [N·m].
+        pub preload: f64 = 50.0,
+        /// Torque of each clutch per torque of the meshes on its side gear.
+        pub torque_coefficient: f64 = 0.1,
+        /// Torque at which a stuck clutch breaks loose over its sliding torque.
+        pub static_ratio: f64 = 1.0,
+        /// Stiffness of a stuck clutch [N·m/rad].
+        pub stiffness: f64 = 1e5,
     }
 }
 

@@ -1,25 +1,18 @@
 //! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
 
-use serde::{Deserialize, Serialize};
-
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units;
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
 
-/// A lock between side gears and carrier, by command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LockSpec {
-    /// Torque that each side holds at full command [N·m].
-    pub torque: f64,
-    /// Stiffness of each side at full command [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for LockSpec {
-    fn default() -> Self {
-        Self { torque: 5e3, stiffness: 1e6 }
+spec! {
+    /// A lock between side gears and carrier, by command.
+    pub struct LockSpec {
+        /// Torque that each side holds at full command [N·m].
+        pub torque: f64 = 5e3,
+        /// Stiffness of each side at full command [N·m/rad].
+        pub stiffness: f64 = 1e6,
     }
 }
 

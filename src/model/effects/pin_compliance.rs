@@ -4,8 +4,6 @@
 //! its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w + τ ẇ). Linear springs
 //! with damping proportional to stiffness.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
@@ -16,20 +14,15 @@ use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;
 use crate::problem::Problem;
 
-/// What gives way in series with the teeth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PinComplianceSpec {
-    /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
-    pub pin_stiffness: f64,
-    /// Stiffness of the case against the thrust of a side gear [N/m].
-    pub case_stiffness: f64,
-    /// Damping over stiffness [s].
-    pub damping_time: f64,
-}
-
-impl Default for PinComplianceSpec {
-    fn default() -> Self {
-        Self { pin_stiffness: 5e8, case_stiffness: 1e9, damping_time: 1e-6 }
+spec! {
+    /// What gives way in series with the teeth.
+    pub struct PinComplianceSpec {
+        /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
+        pub pin_stiffness: f64 = 5e8,
+        /// Stiffness of the case against the thrust of a side gear [N/m].
+        pub case_stiffness: f64 = 1e9,
+        /// Damping over stiffness [s].
+        pub damping_time: f64 = 1e-6,
     }
 }
 

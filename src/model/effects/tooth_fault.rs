@@ -6,7 +6,7 @@ use crate::contact::ContactLaw;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
 use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, choice, row};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
@@ -24,11 +24,7 @@ impl Declare for ToothFaultSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            choice!(row("tooth_fault.gear", "Kind of gear with the broken tooth"),
-            "FaultyGear", ToothFaultSpec, |p| &mut p.gear,
-            FaultyGear::None => "none" "no tooth is broken",
-            FaultyGear::Planet => "planet" "a tooth of a planet",
-            FaultyGear::Side => "side" "a tooth of a side gear"),
+            row("tooth_fault.gear", "Kind of gear with the broken tooth").choice(|p| &mut p.gear),
             row("tooth_fault.index", "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)")
                 .when("tooth_fault.gear != none")
                 .integer((0, 3), |p| &mut p.index),

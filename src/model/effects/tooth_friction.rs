@@ -2,8 +2,8 @@
 
 use crate::contact::tooth_friction;
 use crate::declaration::units::{self, MPA_S, UM};
-use crate::declaration::{Parameter, Row, choice, row};
-use crate::friction::{FrictionLaw, ToothFrictionSpec};
+use crate::declaration::{Parameter, Row, row};
+use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::FlankFriction;
 use crate::model::scene::GearContact;
@@ -20,12 +20,7 @@ impl Declare for ToothFrictionSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            choice!(row("tooth_friction.law", "Law of the coefficient of friction between flanks"),
-            "FrictionLaw", ToothFrictionSpec, |p| &mut p.law,
-            FrictionLaw::CoulombStribeck => "coulomb_stribeck" "given coefficient with a Stribeck peak if wanted",
-            FrictionLaw::BenedictKelley => "benedict_kelley" "local coefficient of Benedict and Kelley (1961)",
-            FrictionLaw::Iso14179 => "iso_14179" "mean coefficient of ISO/TR 14179-2",
-            FrictionLaw::XuKahraman => "xu_kahraman" "Xu and Kahraman (2007)"),
+            row("tooth_friction.law", "Law of the coefficient of friction between flanks").choice(|p| &mut p.law),
             row("tooth_friction.coefficient", "Kinetic coefficient of friction of the flanks")
                 .tunable()
                 .when("tooth_friction.law = coulomb_stribeck")

@@ -8,8 +8,6 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
 //! of a locked mode, so that both wheels may be braked while speeds are imposed.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units;
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
@@ -17,16 +15,11 @@ use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputFiel
 use crate::model::effect_kinds::friction_source::{FrictionSource, WheelFriction};
 use crate::numeric::sqrt;
 
-/// Brakes at the wheels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WheelBrakeSpec {
-    /// Stiffness of a brake at standstill [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for WheelBrakeSpec {
-    fn default() -> Self {
-        Self { stiffness: 1e5 }
+spec! {
+    /// Brakes at the wheels.
+    pub struct WheelBrakeSpec {
+        /// Stiffness of a brake at standstill [N·m/rad].
+        pub stiffness: f64 = 1e5,
     }
 }
 

@@ -70,9 +70,13 @@ impl Layout {
         self.planet(self.groups * if self.pins { 2 } else { 1 } + before)
     }
     /// Indices of the attached bodies and of those that they turn against.
-    #[inline]
     pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
         (0..attached::COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
+    }
+    /// Whether any is attached.
+    #[inline]
+    pub fn is_attached(&self) -> bool {
+        self.attached.contains(&true)
     }
     /// Whether half-shafts have ends, which both have then.
     #[inline]

@@ -1,18 +1,13 @@
 //! Rows of tooth contact.
 
-use crate::contact::{ContactLaw, DampingModel};
 use crate::declaration::units::{self, MM, N_PER_MM, N_PER_MM_UM, N_PER_MM15, NS_PER_MM};
-use crate::declaration::{Parameter, Row, choice, row};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 
 /// Rows of `contact.…`.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     vec![
-        choice!(row("contact.law", "Law of tooth contact").when("scene.gear_contact = tooth"),
-            "ContactLaw", Parameters, |p| &mut p.contact.law,
-            ContactLaw::Impact => "impact" "Adams IMPACT at the mean cone distance",
-            ContactLaw::Line => "line" "tooth stiffness from geometry over the face width, linear",
-            ContactLaw::LineWeber => "line_weber" "the same with the Hertz part as the load has it"),
+        row("contact.law", "Law of tooth contact").when("scene.gear_contact = tooth").choice(|p| &mut p.contact.law),
         row(
             "contact.stiffness_from_hertz",
             "Stiffness by the study's Hertz formula 4/3 sqrt(Re) E* instead of contact.stiffness",
@@ -35,10 +30,9 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         row("contact.penetration_depth", "Penetration at which damping is full")
             .when("scene.gear_contact != ideal and contact.damping_model = step")
             .real((units::METRE, MM), (1e-9, 0.01), |p| &mut p.contact.penetration_depth),
-        choice!(row("contact.damping_model", "Damping of a tooth pair").when("scene.gear_contact != ideal"),
-            "DampingModel", Parameters, |p| &mut p.contact.damping_model,
-            DampingModel::Step => "step" "contact.damping, built up over contact.penetration_depth as in Adams IMPACT",
-            DampingModel::Restitution => "restitution" "Hunt-Crossley, from contact.restitution at contact.impact_speed"),
+        row("contact.damping_model", "Damping of a tooth pair")
+            .when("scene.gear_contact != ideal")
+            .choice(|p| &mut p.contact.damping_model),
         row("contact.restitution", "Coefficient of restitution, with contact.damping_model restitution")
             .when("scene.gear_contact != ideal and contact.damping_model = restitution")
             .real(units::ONE, (0.05, 1.0), |p| &mut p.contact.restitution),

@@ -1,8 +1,7 @@
 //! Rows of the gears' geometry.
 
 use crate::declaration::units::{self, DEG, MM};
-use crate::declaration::{Parameter, Row, choice, row};
-use crate::geometry::AddendumSystem;
+use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 
 /// Rows of `geometry.…`.
@@ -25,12 +24,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             |p| &mut p.geometry.shaft_angle,
         ),
         row("geometry.face_width", "Face width").real((units::METRE, MM), (1e-4, 1.0), |p| &mut p.geometry.face_width),
-        choice!(row("geometry.addendum_system", "Rule for addenda and dedenda"),
-            "AddendumSystem", Parameters, |p| &mut p.geometry.addendum_system,
-            AddendumSystem::Standard => "standard" "addendum 1.0 m, dedendum 1.25 m on both gears",
-            AddendumSystem::Gleason => "gleason" "Gleason long-and-short addenda",
-            AddendumSystem::Iso23509 => "iso23509" "ISO 23509 mean addendum factor, clearance 0.25 m",
-            AddendumSystem::Explicit => "explicit" "the four coefficients geometry.planet_addendum ... side_dedendum"),
+        row("geometry.addendum_system", "Rule for addenda and dedenda").choice(|p| &mut p.geometry.addendum_system),
         row("geometry.planet_addendum", "Planet addendum per module, with addendum_system explicit")
             .when("geometry.addendum_system = explicit")
             .real(units::ONE, (0.05, 3.0), |p| &mut p.geometry.planet_addendum),

@@ -1,19 +1,13 @@
 //! Rows of integration and solid teeth.
 
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, choice, row};
-use crate::model::{Method, Parameters};
+use crate::declaration::{Parameter, Row, row};
+use crate::model::Parameters;
 
 /// Rows of `solver.…` and `solid.…`.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     vec![
-        choice!(row("solver.method", "Integration method").when("co-simulation"),
-            "SolverMethod", Parameters, |p| &mut p.solver.method,
-            Method::Adaptive => "adaptive" "adaptive L-stable Rosenbrock method of order 5",
-            Method::FixedStep => "fixed_step" "implicit steps of fixed size and bounded work, for real time",
-            Method::Radau => "radau" "Radau IIA of order 5, adaptive, for comparison",
-            Method::Rodas4 => "rodas4" "RODAS of order 4(3), adaptive, for comparison",
-            Method::DormandPrince => "dormand_prince" "explicit method of order 5(4), adaptive, for comparison"),
+        row("solver.method", "Integration method").when("co-simulation").choice(|p| &mut p.solver.method),
         row("solver.relative_tolerance", "Relative tolerance of the local error per step")
             .when("co-simulation and solver.method != fixed_step")
             .real(units::ONE, (1e-11, 1e-1), |p| &mut p.solver.relative_tolerance),

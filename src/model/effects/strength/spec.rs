@@ -1,52 +1,34 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, MPA};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 use crate::strength::{Material, SnCurve};
 
-/// Strength of the gears.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StrengthSpec {
-    /// Tip radius of the tool that cuts the roots, in modules.
-    pub tool_radius: f64,
-    /// Application factor K_A: load on the teeth over the simulated load.
-    pub application_factor: f64,
-    /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
-    pub bending_strength: f64,
-    /// Cycles at the knee of bending.
-    pub bending_cycles: f64,
-    /// Life factor of bending at 10³ cycles Y_NT.
-    pub bending_life_factor: f64,
-    /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
-    pub idler_factor: f64,
-    /// Contact strength of the flanks at the knee σ_Hlim [Pa].
-    pub contact_strength: f64,
-    /// Cycles at the knee of pitting.
-    pub contact_cycles: f64,
-    /// Life factor of pitting at 10⁵ cycles Z_NT.
-    pub contact_life_factor: f64,
-    /// Time after the start of the run from which safety and damage count [s].
-    pub rate_from: f64,
-}
-
-impl Default for StrengthSpec {
-    fn default() -> Self {
-        Self {
-            tool_radius: 0.25,
-            application_factor: 1.0,
-            bending_strength: 1e9,
-            bending_cycles: 3e6,
-            bending_life_factor: 2.5,
-            idler_factor: 0.7,
-            contact_strength: 1.5e9,
-            contact_cycles: 5e7,
-            contact_life_factor: 1.6,
-            rate_from: 0.0,
-        }
+spec! {
+    /// Strength of the gears.
+    pub struct StrengthSpec {
+        /// Tip radius of the tool that cuts the roots, in modules.
+        pub tool_radius: f64 = 0.25,
+        /// Application factor K_A: load on the teeth over the simulated load.
+        pub application_factor: f64 = 1.0,
+        /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
+        pub bending_strength: f64 = 1e9,
+        /// Cycles at the knee of bending.
+        pub bending_cycles: f64 = 3e6,
+        /// Life factor of bending at 10³ cycles Y_NT.
+        pub bending_life_factor: f64 = 2.5,
+        /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
+        pub idler_factor: f64 = 0.7,
+        /// Contact strength of the flanks at the knee σ_Hlim [Pa].
+        pub contact_strength: f64 = 1.5e9,
+        /// Cycles at the knee of pitting.
+        pub contact_cycles: f64 = 5e7,
+        /// Life factor of pitting at 10⁵ cycles Z_NT.
+        pub contact_life_factor: f64 = 1.6,
+        /// Time after the start of the run from which safety and damage count [s].
+        pub rate_from: f64 = 0.0,
     }
 }
 
