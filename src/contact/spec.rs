@@ -20,7 +20,7 @@ choices! {
 spec! {
     /// Contact law and its constants.
     ///
-    /// The study's Adams settings.
+    /// The start values are the study's Adams settings.
     pub struct ContactSpec {
         /// The law.
         pub law: ContactLaw = ContactLaw::Impact,

@@ -18,7 +18,7 @@ choices! {
 spec! {
     /// Law, lubricant and surface.
     ///
-    /// μ = 0.05 without a peak; for the published laws a 75W-90 axle oil at about 80 °C on run-in flanks.
+    /// The start values: μ = 0.05 without a peak; for the published laws a 75W-90 axle oil at about 80 °C on run-in flanks.
     pub struct ToothFrictionSpec {
         /// The law.
         pub law: FrictionLaw = FrictionLaw::CoulombStribeck,

@@ -5,7 +5,7 @@
 use super::access::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
 use crate::declaration::{Causality, row};
-use crate::model::{ATTACHED, BODIES, Body, STATES};
+use crate::model::{ATTACHED, Attached, BODIES, Body, STATES};
 
 /// A state and its derivative.
 struct State {
@@ -54,41 +54,99 @@ fn states(kind: &Kind, what: &str, names: [&'static str; 2], nominal: [f64; 2]) 
     })
 }
 
-macro_rules! bodies {
-    ($($body:expr, $kind:expr, $what:literal, $position:literal $size:expr, $velocity:literal $speed:expr;)+) => {
-        /// Position and velocity of each body.
-        fn bodies() -> Vec<(Body, [State; 2])> {
-            let mut all = vec![$(($body, states(&$kind, $what, [$position, $velocity], [$size, $speed]))),+];
-            all.extend(ATTACHED.iter().enumerate().map(|(k, body)| {
-                (Body::Attached(k), states(&TURNS, body.what, body.states, [TWIST, SPEED]))
-            }));
-            all
-        }
-    };
-}
-
-bodies! {
-    Body::Side(0), TURNS, "Left side gear, its angle counted from the carrier",
-        "left.relative_angle" DEFLECTION, "left.speed" SPEED;
-    Body::Side(1), TURNS, "Right side gear, its angle counted from the carrier",
-        "right.relative_angle" DEFLECTION, "right.speed" SPEED;
-    Body::Carrier, TURNS, "Carrier", "carrier.angle" TURN, "carrier.speed" SPEED;
-    Body::Seat(0), SHIFTS, "Left side gear along its axis, away from the apex",
-        "left.seat_position" PLAY, "left.seat_speed" AXIAL_SPEED;
-    Body::Seat(1), SHIFTS, "Right side gear along its axis, away from the apex",
-        "right.seat_position" PLAY, "right.seat_speed" AXIAL_SPEED;
-    Body::Planet(0), TURNS, "Planet on its pin", "planet[1].spin_angle" DEFLECTION, "planet[1].spin_speed" SPEED;
-    Body::Planet(1), TURNS, "Planet on its pin", "planet[2].spin_angle" DEFLECTION, "planet[2].spin_speed" SPEED;
-    Body::Planet(2), TURNS, "Planet on its pin", "planet[3].spin_angle" DEFLECTION, "planet[3].spin_speed" SPEED;
-    Body::Planet(3), TURNS, "Planet on its pin", "planet[4].spin_angle" DEFLECTION, "planet[4].spin_speed" SPEED;
-    Body::Pin(0), TURNS, "Pin, its angle counted from the carrier",
-        "planet[1].pin_angle" DEFLECTION, "planet[1].pin_speed" SPEED;
-    Body::Pin(1), TURNS, "Pin, its angle counted from the carrier",
-        "planet[2].pin_angle" DEFLECTION, "planet[2].pin_speed" SPEED;
-    Body::Pin(2), TURNS, "Pin, its angle counted from the carrier",
-        "planet[3].pin_angle" DEFLECTION, "planet[3].pin_speed" SPEED;
-    Body::Pin(3), TURNS, "Pin, its angle counted from the carrier",
-        "planet[4].pin_angle" DEFLECTION, "planet[4].pin_speed" SPEED;
+/// Position and velocity of each body.
+fn bodies() -> Vec<(Body, [State; 2])> {
+    type Named = (Body, &'static Kind, &'static str, [&'static str; 2], [f64; 2]);
+    let gears: [Named; 13] = [
+        (
+            Body::Side(0),
+            &TURNS,
+            "Left side gear, its angle counted from the carrier",
+            ["left.relative_angle", "left.speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Side(1),
+            &TURNS,
+            "Right side gear, its angle counted from the carrier",
+            ["right.relative_angle", "right.speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (Body::Carrier, &TURNS, "Carrier", ["carrier.angle", "carrier.speed"], [TURN, SPEED]),
+        (
+            Body::Seat(0),
+            &SHIFTS,
+            "Left side gear along its axis, away from the apex",
+            ["left.seat_position", "left.seat_speed"],
+            [PLAY, AXIAL_SPEED],
+        ),
+        (
+            Body::Seat(1),
+            &SHIFTS,
+            "Right side gear along its axis, away from the apex",
+            ["right.seat_position", "right.seat_speed"],
+            [PLAY, AXIAL_SPEED],
+        ),
+        (
+            Body::Planet(0),
+            &TURNS,
+            "Planet on its pin",
+            ["planet[1].spin_angle", "planet[1].spin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Planet(1),
+            &TURNS,
+            "Planet on its pin",
+            ["planet[2].spin_angle", "planet[2].spin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Planet(2),
+            &TURNS,
+            "Planet on its pin",
+            ["planet[3].spin_angle", "planet[3].spin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Planet(3),
+            &TURNS,
+            "Planet on its pin",
+            ["planet[4].spin_angle", "planet[4].spin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Pin(0),
+            &TURNS,
+            "Pin, its angle counted from the carrier",
+            ["planet[1].pin_angle", "planet[1].pin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Pin(1),
+            &TURNS,
+            "Pin, its angle counted from the carrier",
+            ["planet[2].pin_angle", "planet[2].pin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Pin(2),
+            &TURNS,
+            "Pin, its angle counted from the carrier",
+            ["planet[3].pin_angle", "planet[3].pin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        (
+            Body::Pin(3),
+            &TURNS,
+            "Pin, its angle counted from the carrier",
+            ["planet[4].pin_angle", "planet[4].pin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+    ];
+    let attached = |(k, body): (usize, &Attached)| (Body::Attached(k), &TURNS, body.what, body.states, [TWIST, SPEED]);
+    let all = gears.into_iter().chain(ATTACHED.iter().enumerate().map(attached));
+    all.map(|(body, kind, what, names, nominal)| (body, states(kind, what, names, nominal))).collect()
 }
 
 fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'static str) -> Variable {
