@@ -9,7 +9,9 @@ pub struct Attached {
     pub to: usize,
     /// What it is, in the interface.
     pub what: &'static str,
-    /// Names of its position and its velocity.
+    /// What its states belong to, by name.
+    pub of: &'static str,
+    /// Names of its position and its velocity there.
     pub states: [&'static str; 2],
 }
 
@@ -22,13 +24,15 @@ pub const ATTACHED: [Attached; ENDS] = [
         to: LEFT,
         what: "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. \
                Its position is the twist, side gear ahead",
-        states: ["left.shaft_twist", "left.end_speed"],
+        of: "left",
+        states: ["shaft_twist", "end_speed"],
     },
     Attached {
         to: LEFT + 1,
         what: "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. \
                Its position is the twist, side gear ahead",
-        states: ["right.shaft_twist", "right.end_speed"],
+        of: "right",
+        states: ["shaft_twist", "end_speed"],
     },
 ];
 
