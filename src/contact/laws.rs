@@ -40,7 +40,17 @@ macro_rules! with_law {
 }
 pub(crate) use with_law;
 
+/// Whether a law depends on the place of a pair.
+pub(super) const fn is_placed<L: PairLaw>(_: &L) -> bool {
+    L::PLACED
+}
+
 impl Law {
+    /// Whether loads are spread over the face, growing with the cone distance.
+    pub fn is_over_face(&self) -> bool {
+        with_law!(self, law => is_placed(law), _solid => false)
+    }
+
     /// Replaces the damping by one of the same kind.
     pub fn set_damping(&mut self, new: Damping) {
         with_law!(self, law => law.set_damping(new), solid => solid.damping = new);

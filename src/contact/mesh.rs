@@ -6,15 +6,10 @@
 use super::impact::Force;
 use super::law::{PairLaw, Response};
 pub use super::laws::Law;
-use super::laws::with_law;
+use super::laws::{is_placed, with_law};
 use super::pairs::{Engagement, Flank, Spot, ToothPair};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use crate::geometry::Pair;
-
-/// Whether a law depends on the place of a pair.
-const fn is_placed<L: PairLaw>(_: &L) -> bool {
-    L::PLACED
-}
 
 /// A planet meshing with a side gear.
 #[derive(Clone, Debug)]

@@ -26,7 +26,7 @@ macro_rules! with_teeth {
         match $of {
             AnySpring::Line($law) => $body,
             AnySpring::LineWeber($law) => $body,
-            AnySpring::Power(_) | AnySpring::Linear(_) => $none,
+            _ => $none,
         }
     };
 }
