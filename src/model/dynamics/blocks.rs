@@ -105,7 +105,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Adds the forces of all plain meshes and their derivatives by positions and rates; sets their heat. Returns their elastic
     /// energy [J].
-    #[inline]
+    #[inline(always)]
     pub(super) fn add_linearised(
         &self,
         at: &Point<N>,

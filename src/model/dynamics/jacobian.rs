@@ -1,7 +1,6 @@
 //! Derivatives of the forces of a scene with effects.
 
 use crate::integrate::Matrix;
-use crate::model::effect_kinds::body_effect::Slopes;
 
 /// Derivatives of forces and of the carrier's imposed acceleration.
 pub struct Jacobian<'a, const N: usize> {
@@ -22,15 +21,5 @@ impl<'a, const N: usize> Jacobian<'a, N> {
     #[inline]
     pub fn new([by_position, by_velocity]: [&'a mut Matrix<N>; 2]) -> Self {
         Self { by_position, by_rate: [[0.0; N]; N], by_velocity, of_imposed: [[0.0; N]; 2], elastic_energy: 0.0 }
-    }
-
-    /// As effects on bodies add to it.
-    pub fn slopes(&mut self) -> Slopes<'_> {
-        Slopes {
-            n: N,
-            by_position: self.by_position.as_flattened_mut(),
-            by_velocity: self.by_velocity.as_flattened_mut(),
-            imposed: self.of_imposed.each_mut().map(|row| row.as_mut_slice()),
-        }
     }
 }

@@ -9,7 +9,7 @@ use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::rigid::{IMPOSED, MOST, Rigid};
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::Action;
+use crate::model::effect_kinds::body_effect::{Action, Slopes};
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, PLANET};
 use crate::model::scene::{Inputs, Layout, Plan};
@@ -209,12 +209,13 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         let (acceleration, power) = self.evaluate(at);
         let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
         let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
-        let mut out = j.slopes();
+        let mut imposed = [[0.0; MOST]; 2];
+        let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed);
         for effect in self.rigid.bodies.forces.iter() {
             effect.slopes(&self.bodies(at), &mut out);
         }
         self.friction_slopes(&mut j);
-        let Jacobian { mut by_rate, of_imposed: imposed, .. } = j;
+        let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
         let rigid = self.rigid;
         let follow = rigid.follow[0];

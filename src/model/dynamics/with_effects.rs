@@ -6,7 +6,7 @@ use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::integrate::{Matrix, Point};
-use crate::model::effect_kinds::body_effect::Action;
+use crate::model::effect_kinds::body_effect::{Action, Slopes};
 use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::Dual;
@@ -42,10 +42,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 }
                 self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, power);
-                let mut out = j.slopes();
+                let mut imposed_by = [[0.0; N]; 2];
+                let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed_by);
                 for effect in self.teeth.additions.bodies.forces.iter() {
                     effect.slopes(&self.bodies(at), &mut out);
                 }
+                j.of_imposed = imposed_by;
             }
         }
     }
@@ -97,7 +99,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Sums of the forces of meshes, pins and seats at rest, and their derivatives, for the static equilibrium.
     pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
-        let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
+        let j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut power = Power::default();
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
@@ -117,7 +119,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         let bodies = self.bodies(&still);
         let mut action =
             Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
-        let mut slopes = j.slopes();
+        let mut unused = [[0.0; N]; 2];
+        let mut slopes = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut unused);
         for effect in self.teeth.additions.bodies.forces.iter().filter(|e| e.is_structure()) {
             effect.act(&bodies, &mut action);
             effect.slopes(&bodies, &mut slopes);
