@@ -21,20 +21,25 @@ pub(super) fn by_body(sides: &[SurfaceLoad], planets: &[SurfaceLoad]) -> [Surfac
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// Adds the torques and the heat of dry friction under given loads on the surfaces of side gears and planets.
-    #[inline]
+    /// Adds the torques and the heat of dry friction, where there is any, under given loads on the surfaces of side gears and
+    /// planets.
+    #[inline(always)]
     pub(in crate::model) fn add_friction(
         &self,
         at: &Point<N>,
-        [sides, planets]: [&[SurfaceLoad]; 2],
+        loads: [&[SurfaceLoad]; 2],
         sum: &mut [f64; N],
         power: &mut Power,
     ) {
         if self.rubs() {
-            let mut all = by_body(sides, planets);
-            all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
-            self.rub(at, &all, sum, power);
+            self.rub_under(at, loads, sum, power);
         }
+    }
+
+    fn rub_under(&self, at: &Point<N>, [sides, planets]: [&[SurfaceLoad]; 2], sum: &mut [f64; N], power: &mut Power) {
+        let mut all = by_body(sides, planets);
+        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
+        self.rub(at, &all, sum, power);
     }
 
     /// Adds the torques of brakes that slide, which follow from the inputs alone.
