@@ -361,11 +361,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     }
 
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES] {
-        if !self.acting.friction().depends_on_load() {
-            return by_body(&[], &[]);
-        }
-        let (sides, planets) = self.mesh_surface_loads(at, &self.all_loads::<f64>(at));
-        by_body(&sides, &planets)
+        let pressed = self.acting.friction().depends_on_load();
+        by_body(pressed.then(|| self.mesh_surface_loads(at, &self.all_loads::<f64>(at))).as_ref())
     }
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {

@@ -12,11 +12,17 @@ use crate::model::assembly::teeth::SIGMA;
 use crate::model::effect_kinds::surface_load::SurfaceLoad;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 
-/// Loads on surfaces of side gears and planets, by body.
-pub(super) fn by_body(sides: &[SurfaceLoad], planets: &[SurfaceLoad]) -> [SurfaceLoad; FRICTION_BODIES] {
+/// Loads on the surfaces of side gears and planets.
+pub(super) type MeshLoads<const G: usize> = ([SurfaceLoad; 2], [SurfaceLoad; G]);
+
+/// The same by body; none where meshes press nothing.
+#[inline(always)]
+pub(super) fn by_body<const G: usize>(loads: Option<&MeshLoads<G>>) -> [SurfaceLoad; FRICTION_BODIES] {
     let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-    all[..sides.len()].copy_from_slice(sides);
-    all[FRICTION_PLANETS..FRICTION_PLANETS + planets.len()].copy_from_slice(planets);
+    if let Some((sides, planets)) = loads {
+        all[..FRICTION_PLANETS].copy_from_slice(sides);
+        all[FRICTION_PLANETS..FRICTION_PLANETS + G].copy_from_slice(planets);
+    }
     all
 }
 
@@ -27,7 +33,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(in crate::model) fn add_friction(
         &self,
         at: &Point<N>,
-        loads: [&[SurfaceLoad]; 2],
+        loads: Option<&MeshLoads<G>>,
         sum: &mut [f64; N],
         power: &mut Power,
     ) {
@@ -36,8 +42,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
     }
 
-    fn rub_under(&self, at: &Point<N>, [sides, planets]: [&[SurfaceLoad]; 2], sum: &mut [f64; N], power: &mut Power) {
-        let mut all = by_body(sides, planets);
+    fn rub_under(&self, at: &Point<N>, loads: Option<&MeshLoads<G>>, sum: &mut [f64; N], power: &mut Power) {
+        let mut all = by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
         self.rub(at, &all, sum, power);
     }

@@ -2,6 +2,7 @@
 
 use super::acting::Acted;
 use super::equations::Equations;
+use super::friction::MeshLoads;
 use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{
@@ -184,7 +185,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         &self,
         at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
-    ) -> ([SurfaceLoad; 2], [SurfaceLoad; G]) {
+    ) -> MeshLoads<G> {
         let side = self.teeth.sin_base[1];
         let sides = [0, 1].map(|s| SurfaceLoad {
             thrust: self.sum(|g| self.members(g) * loads[g][s].side_axial.value()),
@@ -231,9 +232,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             }
         }
         let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, loads));
-        if let Some((sides, planets)) = &surfaces {
-            self.add_friction(at, [sides, planets], sum, power);
-        }
+        self.add_friction(at, surfaces.as_ref(), sum, power);
         if let Some(j) = slopes {
             let block = |part: usize| {
                 self.by_group(|g| {

@@ -35,10 +35,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 } else if let Some(bodies) = self.bodies_of_gears() {
                     j.elastic_energy =
                         self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], power);
-                    self.add_friction(at, [&[], &[]], sum, power);
+                    self.add_friction(at, None, sum, power);
                 } else {
                     j.elastic_energy = self.add_linearised(at, sum, [&mut *j.by_position, &mut j.by_rate], power);
-                    self.add_friction(at, [&[], &[]], sum, power);
+                    self.add_friction(at, None, sum, power);
                 }
                 self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, power);
@@ -63,7 +63,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         (*sum, power.heat[CONTACT_HEAT]) = self.tooth_torques(at);
         let gears = [sum[0], sum[1]];
-        self.add_friction(at, [&[], &[]], sum, power);
+        self.add_friction(at, None, sum, power);
         gears
     }
 
