@@ -62,9 +62,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
             twists::turn(self.exact_ends(), row);
-            if !Self::EXACT && self.is_attached() {
-                self.teeth.layout.turn_twist_rates(row);
-            }
+        }
+        if !Self::EXACT && self.is_attached() {
+            m[..self.count()].iter_mut().for_each(|row| self.teeth.layout.turn_twist_rates(row));
         }
     }
 

@@ -66,7 +66,7 @@ impl Layout {
     /// Index of attached body `k`.
     #[inline]
     pub fn body(&self, k: usize) -> usize {
-        let before = self.attached[..k].iter().filter(|&&is| is).count();
+        let before = self.attached[..k].iter().map(|&is| usize::from(is)).sum::<usize>();
         self.planet(self.groups * if self.pins { 2 } else { 1 } + before)
     }
     /// Indices of the attached bodies and of those that they turn against.
