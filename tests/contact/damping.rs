@@ -8,7 +8,7 @@ fn golden() -> serde_json::Value {
 }
 
 #[test]
-fn step_damping_equals_that_of_impact_bit_for_bit() {
+fn impact_and_step_damping_are_the_formula_of_adams() {
     for exponent in [1.0, 1.3, 1.5, 2.0, 2.5] {
         let law = Impact { stiffness: 3e9, exponent, damping: 4e4, per_full_depth: 1e4 };
         let damping = Damping::Step { coefficient: law.damping, per_full_depth: law.per_full_depth };
@@ -18,6 +18,10 @@ fn step_damping_equals_that_of_impact_bit_for_bit() {
                 // at rest the derivative by depth is the elastic one
                 let stiffness = law.force(d, 0.0).by_depth;
                 assert_eq!(damping.apply(f.elastic, stiffness, d, rate), f);
+                let u = (d * 1e4).min(1.0);
+                let formula = 3e9 * d.powf(exponent) + 4e4 * (3.0 * u.powi(2) - 2.0 * u.powi(3)) * rate;
+                let size = 3e9 * d.powf(exponent) + 4e4 * rate.abs();
+                assert!((f.total - formula.max(0.0)).abs() < 1e-14 * size, "{exponent} {d} {rate}: {f:?}");
             }
         }
     }
