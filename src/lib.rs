@@ -13,6 +13,9 @@
 #[cfg(test)] // so that unit tests can share helpers with the test programs
 extern crate self as bevel_differential;
 
+#[macro_use]
+mod spec;
+
 pub mod contact;
 pub mod declaration;
 mod differential;

@@ -13,14 +13,3 @@ pub fn stiffness(r_p: f64, r_s: f64, young_modulus: f64, poisson_ratio: f64) -> 
     let modulus = young_modulus / (2.0 * (1.0 - poisson_ratio * poisson_ratio));
     4.0 / 3.0 * sqrt(radius) * modulus
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn stiffness_equals_that_of_the_study_without_its_arithmetic_error() {
-        let k = super::stiffness(22.5e-3, 36e-3, 2.07e11, 0.25);
-        assert!((k / 1.7321e10 - 1.0).abs() < 1e-5, "{k}");
-        // in N/mm^1.5, as the study prints it
-        assert!((k / 1e3f64.powf(1.5) / 5.4774e5 - 1.0).abs() < 1e-4);
-    }
-}

@@ -30,8 +30,10 @@ pub trait PairLaw {
     const PLACED: bool;
     /// Force and its derivatives, and the energy if `STORED`.
     fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response;
-    /// U(d, s) [J].
-    fn energy(&self, d: f64, s: f64) -> f64;
+    /// Whether one such law is a whole mesh.
+    const SINGLE: bool = false;
+    /// Replaces the damping by one of the same kind.
+    fn set_damping(&mut self, new: Damping);
 }
 
 impl PairLaw for Impact {
@@ -41,9 +43,10 @@ impl PairLaw for Impact {
         let energy = if STORED { Impact::energy(self, d) } else { 0.0 };
         Response { force: self.force(d, rate), energy, ..Response::default() }
     }
-    #[inline(always)]
-    fn energy(&self, d: f64, _s: f64) -> f64 {
-        Impact::energy(self, d)
+    fn set_damping(&mut self, new: Damping) {
+        if let Damping::Step { coefficient, .. } = new {
+            self.damping = coefficient;
+        }
     }
 }
 
@@ -66,9 +69,8 @@ impl PairLaw for Power {
         let energy = if STORED { self.elastic.energy(d) } else { 0.0 };
         Response { force, energy, ..Response::default() }
     }
-    #[inline(always)]
-    fn energy(&self, d: f64, _s: f64) -> f64 {
-        self.elastic.energy(d)
+    fn set_damping(&mut self, new: Damping) {
+        self.damping = new;
     }
 }
 
@@ -83,14 +85,14 @@ pub struct Lumped {
 
 impl PairLaw for Lumped {
     const PLACED: bool = false;
+    const SINGLE: bool = true;
     #[inline(always)]
     fn respond<const STORED: bool>(&self, d: f64, rate: f64, _s: f64) -> Response {
         let force = self.damping.apply(self.stiffness * d, self.stiffness, d, rate);
         Response { force, energy: 0.5 * self.stiffness * d * d, ..Response::default() }
     }
-    #[inline(always)]
-    fn energy(&self, d: f64, _s: f64) -> f64 {
-        0.5 * self.stiffness * d * d
+    fn set_damping(&mut self, new: Damping) {
+        self.damping = new;
     }
 }
 
@@ -139,8 +141,7 @@ impl<S: Spring> PairLaw for Face<S> {
     fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response {
         self.respond_at(&self.specific.place(s), d, rate)
     }
-    #[inline(always)]
-    fn energy(&self, d: f64, s: f64) -> f64 {
-        self.moment * self.specific.at(d * self.per_cone, s).energy
+    fn set_damping(&mut self, new: Damping) {
+        self.damping = new;
     }
 }

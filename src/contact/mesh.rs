@@ -3,81 +3,13 @@
 //! V(q, x) = Σ U(d, s) over the tooth pairs. Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
-use super::damping::Damping;
-use super::impact::{Force, Impact};
-use super::law::{Face, Lumped, PairLaw, Power, Response};
+use super::impact::Force;
+use super::law::{PairLaw, Response};
+pub use super::laws::Law;
+use super::laws::{is_placed, with_law};
 use super::pairs::{Engagement, Flank, Spot, ToothPair};
-use super::solid::mesh::SolidMesh;
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
-use super::stiffness::{Line, LineWeber};
 use crate::geometry::Pair;
-
-/// Law of a mesh.
-#[derive(Clone, Debug)]
-pub enum Law {
-    /// Adams IMPACT.
-    Impact(Impact),
-    /// Its elastic part with another damping.
-    Power(Power),
-    /// Stiffness of the teeth, linear.
-    Line(Face<Line>),
-    /// Stiffness of the teeth with the Hertz part by load.
-    LineWeber(Face<LineWeber>),
-    /// One spring per mesh.
-    Lumped(Lumped),
-    /// Solid teeth.
-    Solid(Box<SolidMesh>),
-}
-
-/// Evaluates an expression with `law` bound to the law in use and `single` true for one spring per mesh, or another
-/// expression with `solid` bound to a mesh of solid teeth.
-macro_rules! with_law {
-    ($of:expr, $law:ident, $single:ident => $body:expr, $solid:ident => $other:expr) => {
-        match $of {
-            Law::Impact($law) => {
-                const $single: bool = false;
-                $body
-            }
-            Law::Power($law) => {
-                const $single: bool = false;
-                $body
-            }
-            Law::Line($law) => {
-                const $single: bool = false;
-                $body
-            }
-            Law::LineWeber($law) => {
-                const $single: bool = false;
-                $body
-            }
-            Law::Lumped($law) => {
-                const $single: bool = true;
-                $body
-            }
-            Law::Solid($solid) => $other,
-        }
-    };
-}
-
-impl Law {
-    /// Replaces the damping by one of the same kind.
-    pub fn set_damping(&mut self, new: Damping) {
-        match (self, new) {
-            (Law::Impact(law), Damping::Step { coefficient, .. }) => law.damping = coefficient,
-            (Law::Impact(_), _) => {}
-            (Law::Power(law), _) => law.damping = new,
-            (Law::Line(law), _) => law.damping = new,
-            (Law::LineWeber(law), _) => law.damping = new,
-            (Law::Lumped(law), _) => law.damping = new,
-            (Law::Solid(law), _) => law.damping = new,
-        }
-    }
-}
-
-/// Whether a law depends on the place of a pair.
-const fn is_placed<L: PairLaw>(_: &L) -> bool {
-    L::PLACED
-}
 
 /// A planet meshing with a side gear.
 #[derive(Clone, Debug)]
@@ -137,8 +69,8 @@ impl Mesh {
 
     /// Calls `visit` with each loaded tooth pair at position (q, x); a mesh of one spring has one, at s = 0.
     #[inline(always)]
-    fn visit<const SINGLE: bool>(&self, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
-        if !SINGLE {
+    fn visit<L: PairLaw>(&self, _: &L, position: [f64; 2], mut visit: impl FnMut(&ToothPair)) {
+        if !L::SINGLE {
             return self.engagement.pairs(position, visit);
         }
         let depth = self.approach(position[0]);
@@ -156,8 +88,8 @@ impl Mesh {
 
     /// Calls `visit` with each loaded pair on the path of contact and its force; solid teeth have no such pairs.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
-        with_law!(&self.law, law, SINGLE => {
-            self.visit::<SINGLE>(state.position, |pair| visit(pair, &self.respond::<false>(law, pair, state).1.force));
+        with_law!(&self.law, law => {
+            self.visit(law, state.position, |pair| visit(pair, &self.respond::<false>(law, pair, state).1.force));
         }, _solid => {});
     }
 
@@ -185,9 +117,9 @@ impl Mesh {
     /// several waits for all.
     #[inline(always)]
     pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
-        with_law!(&self.law, law, SINGLE => {
+        with_law!(&self.law, law => {
             let mut sum = MeshForce::default();
-            self.visit::<SINGLE>(state.position, |pair| {
+            self.visit(law, state.position, |pair| {
                 let (rate, response) = self.respond::<false>(law, pair, state);
                 self.add(law, &mut sum, pair, rate, &response);
             });
@@ -198,10 +130,10 @@ impl Mesh {
     /// Forces, heat and the forces' exact derivatives.
     #[inline(always)]
     pub fn linearise(&self, state: &MeshState) -> (MeshForce, MeshJacobian) {
-        with_law!(&self.law, law, SINGLE => {
+        with_law!(&self.law, law => {
             let (mut sum, mut jacobian) = (MeshForce::default(), MeshJacobian::default());
             let r = self.cone;
-            self.visit::<SINGLE>(state.position, |pair| {
+            self.visit(law, state.position, |pair| {
                 let (rate, response) = self.respond::<true>(law, pair, state);
                 self.add(law, &mut sum, pair, rate, &response);
                 jacobian.energy += response.energy;
@@ -253,9 +185,9 @@ impl Mesh {
 
     /// Elastic energy V [J] at the position of `state`.
     pub fn energy(&self, state: &MeshState) -> f64 {
-        with_law!(&self.law, law, SINGLE => {
+        with_law!(&self.law, law => {
             let mut energy = 0.0;
-            self.visit::<SINGLE>(state.position, |pair| energy += PairLaw::energy(law, self.cone * pair.depth, pair.s));
+            self.visit(law, state.position, |pair| energy += self.respond::<true>(law, pair, state).1.energy);
             energy
         }, solid => solid.energy(state.which, state.position))
     }

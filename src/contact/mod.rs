@@ -3,7 +3,6 @@
 //!
 //! Everything here is a function of a mesh's position and rates. Degrees of freedom, time and steps belong to `model`.
 
-pub mod any_spring;
 pub mod bodies;
 pub mod damping;
 pub mod detailed;
@@ -13,6 +12,7 @@ pub mod hertz;
 pub mod impact;
 mod kinks;
 pub mod law;
+pub mod laws;
 pub mod mesh;
 pub mod pair_load;
 pub mod pairs;

@@ -1,4 +1,6 @@
-//! Elasticity of one tooth pair: the interface that all laws share.
+//! Elasticity of one tooth pair: the interface that all laws share, and the laws that are the same everywhere on the path.
+
+use super::impact::Impact;
 
 /// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
 /// place on the path of contact [rad]. s continues beyond the path's ends for corners in contact.
@@ -35,5 +37,68 @@ pub trait Spring {
     /// Response at penetration arc `p` > 0 and place `s`.
     fn at(&self, p: f64, s: f64) -> Elastic {
         self.respond(&self.place(s), p)
+    }
+}
+
+/// The place of a law that is the same everywhere.
+#[derive(Clone, Copy, Debug)]
+pub struct Anywhere;
+
+/// K dᵉ of the penetration at a cone distance, whatever the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Power {
+    /// The law; its damping is not used.
+    pub law: Impact,
+    /// Cone distance at which it acts [m].
+    pub cone: f64,
+}
+
+impl Spring for Power {
+    type Place = Anywhere;
+
+    #[inline(always)]
+    fn place(&self, _: f64) -> Anywhere {
+        Anywhere
+    }
+
+    #[inline(always)]
+    fn respond(&self, _: &Anywhere, p: f64) -> Elastic {
+        let d = p * self.cone;
+        let force = self.law.force(d, 0.0);
+        Elastic {
+            energy: self.law.energy(d),
+            torque: self.cone * force.elastic,
+            stiffness: self.cone * self.cone * force.by_depth,
+            ..Elastic::default()
+        }
+    }
+}
+
+/// A linear spring at a cone distance, whatever the place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Stiffness about the pole of the plane of action [N·m/rad].
+    pub stiffness: f64,
+}
+
+impl Linear {
+    /// A spring of stiffness `k` [N/m] at the cone distance `cone` [m].
+    pub fn new(k: f64, cone: f64) -> Self {
+        Self { stiffness: k * cone * cone }
+    }
+}
+
+impl Spring for Linear {
+    type Place = Anywhere;
+
+    #[inline(always)]
+    fn place(&self, _: f64) -> Anywhere {
+        Anywhere
+    }
+
+    #[inline(always)]
+    fn respond(&self, _: &Anywhere, p: f64) -> Elastic {
+        let torque = self.stiffness * p;
+        Elastic { energy: 0.5 * torque * p, torque, stiffness: self.stiffness, ..Elastic::default() }
     }
 }

@@ -1,6 +1,6 @@
 //! The way from a group of values to one of them, and from a group within another.
 
-use super::row::EnumType;
+use crate::spec::EnumType;
 
 /// Access to a value of type `T` in a group `P`. Rows are made once and live as long as the program.
 pub type Field<P, T> = &'static (dyn for<'a> Fn(&'a mut P) -> &'a mut T + Send + Sync);

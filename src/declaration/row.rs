@@ -31,26 +31,6 @@ pub struct Range {
     pub max: f64,
 }
 
-/// One literal of an enumeration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Choice {
-    /// Value at the FMI boundary.
-    pub value: i32,
-    /// Literal.
-    pub name: &'static str,
-    /// What it means.
-    pub description: &'static str,
-}
-
-/// An enumeration type.
-#[derive(Debug, PartialEq, Eq)]
-pub struct EnumType {
-    /// Name of the type.
-    pub name: &'static str,
-    /// Its literals.
-    pub choices: &'static [Choice],
-}
-
 /// A row of the table.
 #[derive(Clone, Copy, Debug)]
 pub struct Row<A> {

@@ -1,16 +1,19 @@
-//! Short ways to write rows.
+//! How rows are written: first the name and what it is, then conditions, at last what kind of variable it is and the way to its
+//! value.
 
 use super::access::{Parameter, keep};
-use super::row::{Causality, EnumType, Range, Row, Variability};
-use super::units::{self, DisplayUnit, Unit};
+use super::row::{Causality, Range, Row, Variability};
+use super::units::Shown;
+use crate::spec::Choices;
 
-fn row<A>(name: &'static str, causality: Causality, access: A, description: &'static str) -> Row<A> {
-    let variability = if causality == Causality::Parameter { Variability::Fixed } else { Variability::Continuous };
+/// The beginning of a row: a name and what it is.
+#[inline(always)]
+pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
     Row {
         name,
         description,
-        causality,
-        variability,
+        causality: Causality::Parameter,
+        variability: Variability::Fixed,
         unit: None,
         display: None,
         range: None,
@@ -18,105 +21,81 @@ fn row<A>(name: &'static str, causality: Causality, access: A, description: &'st
         derivative_of: None,
         switch: None,
         when: None,
-        access,
+        access: (),
     }
 }
 
-/// A real parameter.
-pub fn real<P: 'static>(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    (min, max): (f64, f64),
-    at: fn(&mut P) -> &mut f64,
-    description: &'static str,
-) -> Row<Parameter<P>> {
-    let row = row(name, Causality::Parameter, Parameter::Real(keep(at)), description);
-    Row { unit: Some(unit), display, range: Some(Range { min, max }), ..row }
-}
-
-/// An integer parameter.
-pub fn integer<P: 'static>(
-    name: &'static str,
-    (min, max): (i32, i32),
-    at: fn(&mut P) -> &mut i32,
-    description: &'static str,
-) -> Row<Parameter<P>> {
-    let range = Some(Range { min: f64::from(min), max: f64::from(max) });
-    Row { range, ..row(name, Causality::Parameter, Parameter::Integer(keep(at)), description) }
-}
-
-/// A Boolean parameter.
-pub fn switch<P: 'static>(
-    name: &'static str,
-    at: fn(&mut P) -> &mut bool,
-    description: &'static str,
-) -> Row<Parameter<P>> {
-    row(name, Causality::Parameter, Parameter::Boolean(keep(at)), description)
-}
-
-/// A parameter that is one of several choices; see the macro `choice`.
-pub fn enumeration<P: 'static>(
-    name: &'static str,
-    kind: &'static EnumType,
-    get: fn(&P) -> i32,
-    set: fn(&mut P, i32),
-    description: &'static str,
-) -> Row<Parameter<P>> {
-    let access = Parameter::Enumeration(kind, keep(get), keep(set));
-    row(name, Causality::Parameter, access, description)
-}
-
-/// The same parameter, to be changed while a simulation runs as well.
-pub fn tunable<P>(row: Row<Parameter<P>>) -> Row<Parameter<P>> {
-    Row { variability: Variability::Tunable, ..row }
-}
-
-/// The same variable, whose value a scene feels under `condition` alone (`variables::felt`).
-pub fn when<A>(condition: &'static str, row: Row<A>) -> Row<A> {
-    Row { when: Some(condition), ..row }
-}
-
-/// An input between −`limit` and `limit`.
-pub fn input<A>(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    limit: f64,
-    at: A,
-    description: &'static str,
-) -> Row<A> {
-    let range = Some(Range { min: -limit, max: limit });
-    Row { unit: Some(unit), display, range, ..row(name, Causality::Input, at, description) }
-}
-
-/// A command between 0 and 1.
-pub fn command<A>(name: &'static str, at: A, description: &'static str) -> Row<A> {
-    Row { range: Some(Range { min: 0.0, max: 1.0 }), ..input(name, units::ONE, None, 1.0, at, description) }
-}
-
-/// A parameter that follows from others.
-pub fn calculated<A>(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    of: A,
-    description: &'static str,
-) -> Row<A> {
-    Row {
-        causality: Causality::CalculatedParameter,
-        variability: Variability::Fixed,
-        ..output(name, unit, display, of, description)
+impl Row<()> {
+    /// A scene feels the value under `condition` alone (`variables::felt`).
+    #[inline(always)]
+    pub const fn when(self, condition: &'static str) -> Self {
+        Row { when: Some(condition), ..self }
     }
-}
 
-/// An output.
-pub fn output<A>(
-    name: &'static str,
-    unit: Unit,
-    display: Option<DisplayUnit>,
-    of: A,
-    description: &'static str,
-) -> Row<A> {
-    Row { unit: Some(unit), display, ..row(name, Causality::Output, of, description) }
+    /// The parameter may be changed while a simulation runs as well.
+    #[inline(always)]
+    pub const fn tunable(self) -> Self {
+        Row { variability: Variability::Tunable, ..self }
+    }
+
+    #[inline(always)]
+    const fn number(self, Shown(unit, display): Shown, range: Option<Range>) -> Self {
+        Row { unit: Some(unit), display, range, ..self }
+    }
+
+    /// A real parameter.
+    pub fn real<P: 'static>(
+        self,
+        unit: impl Into<Shown>,
+        (min, max): (f64, f64),
+        at: fn(&mut P) -> &mut f64,
+    ) -> Row<Parameter<P>> {
+        self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(keep(at)))
+    }
+
+    /// An integer parameter.
+    pub fn integer<P: 'static>(self, (min, max): (i32, i32), at: fn(&mut P) -> &mut i32) -> Row<Parameter<P>> {
+        let range = Some(Range { min: f64::from(min), max: f64::from(max) });
+        Row { range, ..self }.map(|()| Parameter::Integer(keep(at)))
+    }
+
+    /// A Boolean parameter.
+    pub fn switch<P: 'static>(self, at: fn(&mut P) -> &mut bool) -> Row<Parameter<P>> {
+        self.map(|()| Parameter::Boolean(keep(at)))
+    }
+
+    /// A parameter that is one of several choices.
+    pub fn choice<P: Copy + 'static, E: Choices>(self, at: fn(&mut P) -> &mut E) -> Row<Parameter<P>> {
+        let get = move |p: &P| at(&mut { *p }).value();
+        let set = move |p: &mut P, value| {
+            if let Some(choice) = E::of(value) {
+                *at(p) = choice;
+            }
+        };
+        self.map(|()| Parameter::Enumeration(E::TYPE, keep(get), keep(set)))
+    }
+
+    /// An input between −`limit` and `limit`.
+    pub fn input<A>(self, unit: impl Into<Shown>, limit: f64, at: A) -> Row<A> {
+        self.of(Causality::Input).number(unit.into(), Some(Range { min: -limit, max: limit })).map(|()| at)
+    }
+
+    /// An input between 0 and `max`.
+    pub fn command<A>(self, unit: impl Into<Shown>, max: f64, at: A) -> Row<A> {
+        self.of(Causality::Input).number(unit.into(), Some(Range { min: 0.0, max })).map(|()| at)
+    }
+
+    /// An output.
+    pub fn output<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
+        self.of(Causality::Output).number(unit.into(), None).map(|()| of)
+    }
+
+    /// A parameter that follows from others.
+    pub fn calculated<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
+        Row { causality: Causality::CalculatedParameter, ..self.number(unit.into(), None).map(|()| of) }
+    }
+
+    const fn of(self, causality: Causality) -> Self {
+        Row { causality, variability: Variability::Continuous, ..self }
+    }
 }

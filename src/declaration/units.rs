@@ -35,6 +35,22 @@ pub struct Unit {
     pub display: &'static [DisplayUnit],
 }
 
+/// A unit with one to show its values in, where people think in another.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown(pub Unit, pub Option<DisplayUnit>);
+
+impl From<Unit> for Shown {
+    fn from(unit: Unit) -> Self {
+        Self(unit, None)
+    }
+}
+
+impl From<(Unit, DisplayUnit)> for Shown {
+    fn from((unit, display): (Unit, DisplayUnit)) -> Self {
+        Self(unit, Some(display))
+    }
+}
+
 const fn base(kg: i32, m: i32, s: i32, rad: i32) -> Option<Base> {
     Some(Base { kg, m, s, rad })
 }

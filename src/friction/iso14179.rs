@@ -37,35 +37,3 @@ pub fn outside(at: &Conditions<f64>) -> Option<Outside> {
     Outside::test(("line load w", "N/mm"), at.line_load * 1e-3, [LEAST_LOAD * 1e-3, f64::INFINITY], SOURCE)
         .or_else(|| Outside::test(("sum speed v_Σ", "m/s"), at.rolling, [0.0, FASTEST], SOURCE))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const AT: Conditions<f64> =
-        Conditions { sliding: 1.0, rolling: 4.0, line_load: 320e3, radius: 0.010, modulus: 1.15e11 };
-
-    #[test]
-    fn value_equals_the_formula_by_hand() {
-        // 320/(4·10) = 8, 8^0.2 = 2^0.6 = 1.515716567; 16^−0.05 = 2^−0.2 = 0.870550563; 0.0625^0.25 = 0.5; X_L = 0.8
-        let spec = ToothFrictionSpec {
-            oil_viscosity: 0.016,
-            roughness: 0.0625e-6,
-            lubricant_factor: 0.8,
-            ..ToothFrictionSpec::default()
-        };
-        let by_hand = 0.048 * 1.515716566510398 * 0.870550563296124 * 0.5 * 0.8;
-        assert!((coefficient(&spec, &AT) / by_hand - 1.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn small_loads_count_as_150_newton_per_millimetre_and_are_reported() {
-        let spec = ToothFrictionSpec::default();
-        let at = |line_load| Conditions { line_load, ..AT };
-        assert_eq!(coefficient(&spec, &at(1e4)), coefficient(&spec, &at(1.2e5)));
-        assert_eq!((outside(&AT), outside(&at(1e4)).unwrap().quantity), (None, "line load w"));
-        let fast = Conditions { rolling: 40.0, ..AT };
-        assert_eq!(outside(&fast).unwrap().quantity, "sum speed v_Σ");
-        assert_eq!(coefficient(&spec, &fast), coefficient(&spec, &Conditions { rolling: 90.0, ..AT }));
-    }
-}

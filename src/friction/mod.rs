@@ -30,6 +30,3 @@ pub use conditions::Conditions;
 pub use range::Outside;
 pub use signed::{outside, signed_coefficient};
 pub use spec::{FrictionLaw, LARGEST, ToothFrictionSpec};
-
-#[cfg(test)]
-mod tests;

@@ -1,62 +1,43 @@
 //! User parameters of tooth friction.
 
-use serde::{Deserialize, Serialize};
-
 use crate::problem::Problem;
 
 /// Largest coefficient any law may return: that of unlubricated steel starts beyond it.
 pub const LARGEST: f64 = 0.3;
 
-/// Law of the coefficient of friction between tooth flanks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(i32)]
-pub enum FrictionLaw {
-    /// Given coefficient, with an optional Stribeck peak at low speed.
-    CoulombStribeck = 1,
-    /// Benedict and Kelley's local coefficient from disc tests.
-    BenedictKelley = 2,
-    /// Mean coefficient of ISO/TR 14179-2, evaluated at local speed, load and curvature.
-    Iso14179 = 3,
-    /// Xu and Kahraman's fit to elastohydrodynamic solutions.
-    XuKahraman = 4,
+choices! {
+    /// Law of the coefficient of friction between tooth flanks.
+    pub enum FrictionLaw: "FrictionLaw" {
+        CoulombStribeck = 1, "coulomb_stribeck": "given coefficient with a Stribeck peak if wanted";
+        BenedictKelley = 2, "benedict_kelley": "local coefficient of Benedict and Kelley (1961)";
+        Iso14179 = 3, "iso_14179": "mean coefficient of ISO/TR 14179-2";
+        XuKahraman = 4, "xu_kahraman": "Xu and Kahraman (2007)";
+    }
 }
 
-/// Law, lubricant and surface.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ToothFrictionSpec {
-    /// The law.
-    pub law: FrictionLaw,
-    /// Kinetic coefficient μ_k of [`FrictionLaw::CoulombStribeck`], 0 to 0.3.
-    pub coefficient: f64,
-    /// Static over kinetic coefficient μ_s/μ_k, from 1: no peak.
-    pub static_ratio: f64,
-    /// Stribeck speed v_S, at which the peak has fallen to 1/e [m/s].
-    pub stribeck_speed: f64,
-    /// Speed v_ε over which friction changes its sign [m/s].
-    pub regularisation_speed: f64,
-    /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]:
-    /// the quantity that all three published laws use, so that no temperature is needed.
-    pub oil_viscosity: f64,
-    /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
-    /// phosphate esters, 1.5 traction fluids.
-    pub lubricant_factor: f64,
-    /// Roughness R_a, the mean of both flanks [m].
-    pub roughness: f64,
-}
-
-impl Default for ToothFrictionSpec {
-    /// μ = 0.05 without a peak; for the published laws a 75W-90 axle oil at about 80 °C on run-in flanks.
-    fn default() -> Self {
-        Self {
-            law: FrictionLaw::CoulombStribeck,
-            coefficient: 0.05,
-            static_ratio: 1.0,
-            stribeck_speed: 0.01,
-            regularisation_speed: 1e-3,
-            oil_viscosity: 0.02,
-            lubricant_factor: 1.0,
-            roughness: 0.4e-6,
-        }
+spec! {
+    /// Law, lubricant and surface.
+    ///
+    /// The start values: μ = 0.05 without a peak; for the published laws a 75W-90 axle oil at about 80 °C on run-in flanks.
+    pub struct ToothFrictionSpec {
+        /// The law.
+        pub law: FrictionLaw = FrictionLaw::CoulombStribeck,
+        /// Kinetic coefficient μ_k of [`FrictionLaw::CoulombStribeck`], 0 to 0.3.
+        pub coefficient: f64 = 0.05,
+        /// Static over kinetic coefficient μ_s/μ_k, from 1: no peak.
+        pub static_ratio: f64 = 1.0,
+        /// Stribeck speed v_S, at which the peak has fallen to 1/e [m/s].
+        pub stribeck_speed: f64 = 0.01,
+        /// Speed v_ε over which friction changes its sign [m/s].
+        pub regularisation_speed: f64 = 1e-3,
+        /// Dynamic viscosity of the oil at ambient pressure and the temperature at which it enters the mesh [Pa·s]:
+        /// the quantity that all three published laws use, so that no temperature is needed.
+        pub oil_viscosity: f64 = 0.02,
+        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols, 1.3
+        /// phosphate esters, 1.5 traction fluids.
+        pub lubricant_factor: f64 = 1.0,
+        /// Roughness R_a, the mean of both flanks [m].
+        pub roughness: f64 = 0.4e-6,
     }
 }
 
@@ -100,26 +81,5 @@ impl ToothFrictionSpec {
     /// R_a [µm].
     pub(super) fn micrometres(&self) -> f64 {
         self.roughness.clamp(1e-9, 1e-3) * 1e6
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn values_that_no_law_could_use_are_named() {
-        let good = ToothFrictionSpec::default();
-        assert_eq!(good.problem(), None);
-        for (bad, name) in [
-            (ToothFrictionSpec { coefficient: 0.5, ..good }, "tooth_friction.coefficient"),
-            (ToothFrictionSpec { coefficient: f64::NAN, ..good }, "tooth_friction.coefficient"),
-            (ToothFrictionSpec { static_ratio: 0.9, ..good }, "tooth_friction.static_ratio"),
-            (ToothFrictionSpec { static_ratio: 7.0, ..good }, "tooth_friction.static_ratio"),
-            (ToothFrictionSpec { regularisation_speed: 0.0, ..good }, "tooth_friction.regularisation_speed"),
-            (ToothFrictionSpec { roughness: f64::INFINITY, ..good }, "tooth_friction.roughness"),
-        ] {
-            assert_eq!(bad.problem().map(|p| p.variable), Some(name));
-        }
     }
 }

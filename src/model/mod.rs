@@ -36,6 +36,7 @@ pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{
     Along, BODIES, Body, CostClass, Direction, INDICATORS, Reported, STATES, STENCIL, Simulation, StepFailure, Update,
 };
+pub use scene::attached::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,

@@ -58,13 +58,16 @@ const ADDED: &[&str] = &[
     "right.wheel_speed",
 ];
 
-/// Takes the later additions out of `rows`, and returns them in their order.
-pub fn taken_out(rows: &mut Vec<Variable>) -> Vec<Variable> {
-    let place = |row: &Variable| ADDED.iter().position(|&name| name == row.name);
-    let mut added: Vec<(usize, Variable)> = rows.iter().filter_map(|row| Some((place(row)?, *row))).collect();
-    rows.retain(|row| place(row).is_none());
-    added.sort_by_key(|&(place, _)| place);
-    added.into_iter().map(|(_, row)| row).collect()
+/// Puts the later additions behind all other rows, in their order. Returns where each row went.
+pub fn put_last(rows: &mut Vec<Variable>) -> Vec<usize> {
+    let place = |i: usize| ADDED.iter().position(|&name| name == rows[i].name);
+    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| place(i).is_none()).collect();
+    order.extend(ADDED.iter().filter_map(|&name| rows.iter().position(|row| row.name == name)));
+    let mut places = vec![0; rows.len()];
+    order.iter().enumerate().for_each(|(to, &from)| places[from] = to);
+    let moved = |&from: &usize| Variable { derivative_of: rows[from].derivative_of.map(|of| places[of]), ..rows[from] };
+    *rows = order.iter().map(moved).collect();
+    places
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Rows of the inputs.
 
 use crate::declaration::units::{self, DEG_PER_S};
-use crate::declaration::{Row, input, when};
+use crate::declaration::{Row, row};
 use crate::model::{InputField, effects};
 
 /// Far beyond any differential, near enough that no intermediate result overflows.
@@ -11,85 +11,39 @@ const MAX_TORQUE: f64 = 1e8;
 /// Rows of all inputs.
 pub fn rows() -> Vec<Row<InputField>> {
     let mut rows: Vec<Row<InputField>> = vec![
-        when(
-            "scene.carrier_drive = speed or initialisation and (scene.start != rest or scene.gear_contact = ideal) and (scene.left_drive = torque and scene.right_drive = torque or scene.planet_spin = free and (scene.left_drive = torque or scene.right_drive = torque))",
-            input(
-                "carrier.speed_command",
-                units::RAD_PER_S,
-                Some(DEG_PER_S),
-                MAX_SPEED,
-                |i| &mut i.carrier_speed,
-                "Imposed carrier speed; initial speed when the carrier is torque-driven",
-            ),
-        ),
-        when(
-            "scene.carrier_drive = torque",
-            input(
-                "carrier.torque_command",
-                units::NEWTON_METRE,
-                None,
-                MAX_TORQUE,
-                |i| &mut i.carrier_torque,
-                "Carrier torque when the carrier is torque-driven",
-            ),
-        ),
-        when(
-            "scene.left_drive = torque",
-            input(
-                "left.load_torque",
-                units::NEWTON_METRE,
-                None,
-                MAX_TORQUE,
-                |i| &mut i.load_torque[0],
-                "Load on the left half-shaft, with its sign: positive resists positive rotation and drives a wheel at standstill \
-             backwards; a load that only resists is left.brake_torque",
-            ),
-        ),
-        when(
-            "scene.right_drive = torque",
-            input(
-                "right.load_torque",
-                units::NEWTON_METRE,
-                None,
-                MAX_TORQUE,
-                |i| &mut i.load_torque[1],
-                "Load on the right half-shaft, with its sign: positive resists positive rotation and drives a wheel at standstill \
-             backwards; a load that only resists is right.brake_torque",
-            ),
-        ),
-        when(
-            "scene.planet_spin = imposed",
-            input(
-                "planet.spin_command",
-                units::RAD_PER_S,
-                Some(DEG_PER_S),
-                MAX_SPEED,
-                |i| &mut i.planet_spin,
-                "Imposed planet spin relative to the carrier; positive speeds the left side up",
-            ),
-        ),
-        when(
-            "scene.left_drive = speed",
-            input(
-                "left.speed_command",
-                units::RAD_PER_S,
-                Some(DEG_PER_S),
-                MAX_SPEED,
-                |i| &mut i.side_speed[0],
-                "Imposed speed of the wheel side of the left half-shaft when it is speed-driven",
-            ),
-        ),
-        when(
-            "scene.right_drive = speed",
-            input(
-                "right.speed_command",
-                units::RAD_PER_S,
-                Some(DEG_PER_S),
-                MAX_SPEED,
-                |i| &mut i.side_speed[1],
-                "Imposed speed of the wheel side of the right half-shaft when it is speed-driven",
-            ),
-        ),
+        row("carrier.speed_command", "Imposed carrier speed; initial speed when the carrier is torque-driven")
+            .when(
+                "scene.carrier_drive = speed or initialisation and (scene.start != rest or scene.gear_contact = \
+                 ideal) and (scene.left_drive = torque and scene.right_drive = torque or scene.planet_spin = free \
+                 and (scene.left_drive = torque or scene.right_drive = torque))",
+            )
+            .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.carrier_speed),
+        row("carrier.torque_command", "Carrier torque when the carrier is torque-driven")
+            .when("scene.carrier_drive = torque")
+            .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.carrier_torque),
+        row(
+            "left.load_torque",
+            "Load on the left half-shaft, with its sign: positive resists positive rotation and drives a \
+             wheel at standstill backwards; a load that only resists is left.brake_torque",
+        )
+        .when("scene.left_drive = torque")
+        .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.load_torque[0]),
+        row(
+            "right.load_torque",
+            "Load on the right half-shaft, with its sign: positive resists positive rotation and drives a \
+             wheel at standstill backwards; a load that only resists is right.brake_torque",
+        )
+        .when("scene.right_drive = torque")
+        .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.load_torque[1]),
+        row("planet.spin_command", "Imposed planet spin relative to the carrier; positive speeds the left side up")
+            .when("scene.planet_spin = imposed")
+            .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.planet_spin),
+        row("left.speed_command", "Imposed speed of the wheel side of the left half-shaft when it is speed-driven")
+            .when("scene.left_drive = speed")
+            .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.side_speed[0]),
+        row("right.speed_command", "Imposed speed of the wheel side of the right half-shaft when it is speed-driven")
+            .when("scene.right_drive = speed")
+            .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.side_speed[1]),
     ];
     rows.extend(effects::inputs());
     rows

@@ -4,8 +4,8 @@
 
 use super::access::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
-use crate::declaration::{Causality, output};
-use crate::model::{BODIES, Body, STATES};
+use crate::declaration::{Causality, row};
+use crate::model::{ATTACHED, BODIES, Body, STATES};
 
 /// A state and its derivative.
 struct State {
@@ -41,65 +41,43 @@ const PLAY: f64 = 1e-5;
 const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
 const AXIAL_SPEED: f64 = 1e-2;
+/// Names of position and velocity of side gears, turning and along their axes.
+const SIDE: [&str; 2] = ["relative_angle", "speed"];
+const SEAT: [&str; 2] = ["seat_position", "seat_speed"];
 
-macro_rules! bodies {
-    ($($body:expr, $kind:expr, $what:literal, $position:literal $size:expr, $velocity:literal $speed:expr;)+) => {
-        /// Position and velocity of each body.
-        fn bodies() -> Vec<(Body, [State; 2])> {
-            vec![$(($body, [
-                State {
-                    name: $position,
-                    derivative: concat!("der(", $position, ")"),
-                    description: concat!($what, ": position"),
-                    nominal: $size,
-                    unit: $kind.units[0],
-                    display: $kind.display[0],
-                    rate_unit: $kind.units[1],
-                },
-                State {
-                    name: $velocity,
-                    derivative: concat!("der(", $velocity, ")"),
-                    description: concat!($what, ": velocity"),
-                    nominal: $speed,
-                    unit: $kind.units[1],
-                    display: $kind.display[1],
-                    rate_unit: $kind.units[2],
-                },
-            ])),+]
-        }
+/// Position and velocity of a body.
+fn states(body: Body) -> [State; 2] {
+    let of = match body {
+        Body::Side(s) | Body::Seat(s) => ["left", "right"][s].into(),
+        Body::Carrier => "carrier".into(),
+        Body::Planet(i) | Body::Pin(i) => format!("planet[{}]", i + 1),
+        Body::Attached(k) => ATTACHED[k].of.into(),
     };
-}
-
-bodies! {
-    Body::Side(0), TURNS, "Left side gear, its angle counted from the carrier",
-        "left.relative_angle" DEFLECTION, "left.speed" SPEED;
-    Body::Side(1), TURNS, "Right side gear, its angle counted from the carrier",
-        "right.relative_angle" DEFLECTION, "right.speed" SPEED;
-    Body::Carrier, TURNS, "Carrier", "carrier.angle" TURN, "carrier.speed" SPEED;
-    Body::Seat(0), SHIFTS, "Left side gear along its axis, away from the apex",
-        "left.seat_position" PLAY, "left.seat_speed" AXIAL_SPEED;
-    Body::Seat(1), SHIFTS, "Right side gear along its axis, away from the apex",
-        "right.seat_position" PLAY, "right.seat_speed" AXIAL_SPEED;
-    Body::Planet(0), TURNS, "Planet on its pin", "planet[1].spin_angle" DEFLECTION, "planet[1].spin_speed" SPEED;
-    Body::Planet(1), TURNS, "Planet on its pin", "planet[2].spin_angle" DEFLECTION, "planet[2].spin_speed" SPEED;
-    Body::Planet(2), TURNS, "Planet on its pin", "planet[3].spin_angle" DEFLECTION, "planet[3].spin_speed" SPEED;
-    Body::Planet(3), TURNS, "Planet on its pin", "planet[4].spin_angle" DEFLECTION, "planet[4].spin_speed" SPEED;
-    Body::Pin(0), TURNS, "Pin, its angle counted from the carrier",
-        "planet[1].pin_angle" DEFLECTION, "planet[1].pin_speed" SPEED;
-    Body::Pin(1), TURNS, "Pin, its angle counted from the carrier",
-        "planet[2].pin_angle" DEFLECTION, "planet[2].pin_speed" SPEED;
-    Body::Pin(2), TURNS, "Pin, its angle counted from the carrier",
-        "planet[3].pin_angle" DEFLECTION, "planet[3].pin_speed" SPEED;
-    Body::Pin(3), TURNS, "Pin, its angle counted from the carrier",
-        "planet[4].pin_angle" DEFLECTION, "planet[4].pin_speed" SPEED;
-    Body::End(0), TURNS, "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. Its position is the twist, side gear ahead",
-        "left.shaft_twist" TWIST, "left.end_speed" SPEED;
-    Body::End(1), TURNS, "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. Its position is the twist, side gear ahead",
-        "right.shaft_twist" TWIST, "right.end_speed" SPEED;
+    let (kind, what, names, nominal) = match body {
+        Body::Side(0) => (&TURNS, "Left side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
+        Body::Side(_) => (&TURNS, "Right side gear, its angle counted from the carrier", SIDE, [DEFLECTION, SPEED]),
+        Body::Carrier => (&TURNS, "Carrier", ["angle", "speed"], [TURN, SPEED]),
+        Body::Seat(0) => (&SHIFTS, "Left side gear along its axis, away from the apex", SEAT, [PLAY, AXIAL_SPEED]),
+        Body::Seat(_) => (&SHIFTS, "Right side gear along its axis, away from the apex", SEAT, [PLAY, AXIAL_SPEED]),
+        Body::Planet(_) => (&TURNS, "Planet on its pin", ["spin_angle", "spin_speed"], [DEFLECTION, SPEED]),
+        Body::Pin(_) => {
+            (&TURNS, "Pin, its angle counted from the carrier", ["pin_angle", "pin_speed"], [DEFLECTION, SPEED])
+        }
+        Body::Attached(k) => (&TURNS, ATTACHED[k].what, ATTACHED[k].states, [TWIST, SPEED]),
+    };
+    [(0, "position"), (1, "velocity")].map(|(i, part)| State {
+        name: format!("{of}.{}", names[i]).leak(),
+        derivative: format!("der({of}.{})", names[i]).leak(),
+        description: format!("{what}: {part}").leak(),
+        nominal: nominal[i],
+        unit: kind.units[i],
+        display: kind.display[i],
+        rate_unit: kind.units[i + 1],
+    })
 }
 
 fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'static str) -> Variable {
-    let row = output(name, unit, None, Access::Output(source), description);
+    let row = row(name, description).output(unit, Access::Output(source));
     Variable { causality: Causality::Local, ..row }
 }
 
@@ -108,10 +86,9 @@ fn local(name: &'static str, unit: Unit, source: OutputSource, description: &'st
 pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) {
     let (mut indices, mut derivatives) = ([0; STATES], [0; STATES]);
     let mut numbered = Vec::new();
-    for (body, [position, velocity]) in bodies() {
-        let number = BODIES.iter().position(|&b| b == body).unwrap_or(0);
-        numbered.push((number, position));
-        numbered.push((number + BODIES.len(), velocity));
+    for (number, body) in BODIES.into_iter().enumerate() {
+        let [position, velocity] = states(body);
+        numbered.extend([(number, position), (number + BODIES.len(), velocity)]);
     }
     for &(k, ref state) in &numbered {
         let found = rows.iter().position(|row| row.name == state.name);
@@ -128,15 +105,4 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
         rows.push(Variable { derivative_of: Some(indices[k]), ..row });
     }
     (indices, derivatives)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_body_has_its_states_and_no_other() {
-        let named: Vec<Body> = bodies().into_iter().map(|(body, _)| body).collect();
-        assert_eq!(named, BODIES);
-    }
 }

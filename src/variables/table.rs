@@ -31,9 +31,9 @@ pub fn table() -> &'static Table {
         rows.extend(super::inputs::rows().into_iter().map(|row| row.map(Access::Input)));
         rows.extend(super::outputs::rows().into_iter().map(|row| row.map(Access::Output)));
         rows.extend(super::calculated::rows().into_iter().map(|row| row.map(Access::Output)));
-        let added = super::added::taken_out(&mut rows);
         let (states, derivatives) = super::states::complete(&mut rows);
-        rows.extend(added);
+        let places = super::added::put_last(&mut rows);
+        let [states, derivatives] = [states, derivatives].map(|all| all.map(|i| places[i]));
         let of = |c: Causality| (0..rows.len()).filter(|&i| rows[i].causality == c).collect();
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
         Table { rows, outputs, inputs, states, derivatives }

@@ -3,12 +3,13 @@
 #![allow(dead_code)] // each test binary uses its own part
 
 use bevel_differential::contact::ContactSpec;
-use bevel_differential::contact::any_spring::{self, AnySpring, Linear};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::law::{Face, Lumped, Power};
+use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::mesh::{Law, Mesh};
+use bevel_differential::contact::spring::{self, Linear};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
 use bevel_differential::geometry::{GearSpec, Pair};
 
@@ -72,11 +73,11 @@ impl Built {
             Kind::Impact => {
                 let Damping::Step { coefficient, .. } = damping else { panic!("IMPACT has its own damping") };
                 let law = Law::Impact(impact(exponent, coefficient));
-                (law, AnySpring::Power(any_spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
+                (law, AnySpring::Power(spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
             }
             Kind::Power => {
                 let law = Law::Power(Power { elastic, damping });
-                (law, AnySpring::Power(any_spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
+                (law, AnySpring::Power(spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
             }
             Kind::Line => {
                 let specific = stiffness.line();

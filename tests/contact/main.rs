@@ -1,9 +1,14 @@
 //! Teeth in contact: laws, stiffness, meshes of every kind against explicit flanks, finite elements and closed forms.
 
 mod bench;
+mod damping;
+mod errors;
 mod errors_explicit;
+mod friction;
 mod golden_pairs;
+mod hertz;
 mod hunt_crossley;
+mod impact;
 mod mesh_conjugacy;
 mod mesh_detailed;
 mod mesh_explicit;
@@ -12,6 +17,8 @@ mod mesh_laws;
 mod mesh_potential;
 mod mesh_rotated_flanks;
 mod mesh_shared;
+mod profiles;
+mod root_loads;
 mod solid_contact;
 mod stiffness_pairs;
 mod tooth_bodies;

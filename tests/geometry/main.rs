@@ -1,4 +1,8 @@
 //! Geometry of a pair of gears against golden numbers, and its checks.
 
+mod action;
 mod checks;
 mod golden;
+mod interference;
+mod mass;
+mod solid;

@@ -3,11 +3,13 @@
 mod accuracy;
 mod alike;
 mod continuation;
+mod curve;
 mod driven;
 mod going_on;
 mod impact;
 mod kahraman_singh;
 mod methods;
+mod numeric;
 mod order;
 mod problems;
 mod stability;

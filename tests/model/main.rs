@@ -6,8 +6,10 @@ mod body_compliance;
 #[path = "../common/mod.rs"]
 mod common;
 mod communication;
+mod differential;
 mod felt;
 mod gear_parameters;
+mod input_derivatives;
 mod kept;
 mod mesh_history;
 mod messages;
@@ -15,5 +17,6 @@ mod mirror;
 mod momentum;
 mod motion;
 mod pair_lines;
+mod problem;
 mod solid_loads;
 mod statics;

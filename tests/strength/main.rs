@@ -6,7 +6,9 @@ mod carried_loads;
 mod common;
 mod face;
 mod fatigue;
+mod hertz;
 mod loads;
+mod mean_stress;
 #[path = "../common/mesh_laws.rs"]
 mod mesh_laws;
 mod rainflow;

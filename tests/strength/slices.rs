@@ -4,8 +4,8 @@
 use crate::loads::{TORQUE, close, loads, middles, pairs_of, reading, standing};
 use crate::mesh_laws::{Built, Kind, UNDAMPED};
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::errors::ToothErrorSpec;
+use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::pairs::Flank;
 use bevel_differential::contact::spring::Spring;
 use bevel_differential::geometry::{GearSpec, Pair};

@@ -1,7 +1,7 @@
 //! The mesh itself: constants, and the sum of loads over tooth pairs.
 
-use super::super::any_spring::{AnySpring, with_spring};
 use super::super::damping::Damping;
+use super::super::laws::{AnySpring, with_spring};
 use super::super::pairs::{Engagement, Flank, Spot, ToothPair};
 use super::super::spring::Spring;
 use super::super::tooth_friction::ToothFriction;

@@ -3,9 +3,9 @@
 //! The own arc of a pair takes the place of its arc in every slice: bodies move a tooth as a whole. Loads of others follow from
 //! the elastic torque over the face, ω = M/J.
 
-use super::super::any_spring::AnySpring;
 use super::super::bodies::{SharedBodies, Standing};
 use super::super::damping::Damping;
+use super::super::laws::AnySpring;
 use super::super::pairs::{Flank, ToothPair};
 use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place_for};
 use super::super::spring::Spring;
@@ -26,7 +26,7 @@ macro_rules! with_teeth {
         match $of {
             AnySpring::Line($law) => $body,
             AnySpring::LineWeber($law) => $body,
-            AnySpring::Power(_) | AnySpring::Linear(_) => $none,
+            _ => $none,
         }
     };
 }

@@ -48,6 +48,3 @@ pub struct PairId {
     /// Flanks in contact.
     pub flank: Flank,
 }
-
-#[cfg(test)]
-mod tests;

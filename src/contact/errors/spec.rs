@@ -1,7 +1,5 @@
 //! User parameters of tooth errors: deviations, modifications, misalignment, and a broken tooth.
 
-use serde::{Deserialize, Serialize};
-
 use crate::problem::Problem;
 
 /// Largest deviation or modification of a flank [m]: first-order formulas do not hold beyond.
@@ -9,91 +7,64 @@ const MOST: f64 = 1e-3;
 /// Largest error of the shaft angle [rad], for the same reason.
 const MOST_ANGLE: f64 = 0.02;
 
-/// Deviations and modifications of all teeth; the default is error-free teeth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ToothErrorSpec {
-    /// Accuracy grade B of ISO 17485:2006 for the pitch of every gear: 2 to 11, 0 = no pitch deviations.
-    pub accuracy_grade: i32,
-    /// Seed of the individual pitch deviations and of the phases of runout.
-    pub seed: i32,
-    /// Radial runout F_r of each planet [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
-    pub planet_runout: f64,
-    /// Radial runout F_r of each side gear [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
-    pub side_runout: f64,
-    /// Runout of all gears is the tolerance F_rT of the accuracy grade instead of the two values above.
-    pub runout_by_grade: bool,
-    /// Tip relief of the planet: material missing at its tip, along the line of action [m].
-    pub planet_tip_relief: f64,
-    /// Tip relief of the side gear: material missing at its tip, along the line of action [m].
-    pub side_tip_relief: f64,
-    /// Length of both reliefs along the line of action, in base pitches.
-    pub relief_length: f64,
-    /// Lengthwise crowning of a tooth pair: gap at both face ends relative to the middle of the face [m].
-    pub crowning: f64,
-    /// Error of the shaft angle [rad]: each planet's axis leans away from the left side gear, toward the right one.
-    pub shaft_angle_error: f64,
-    /// Displacement of each planet along its own axis, outward [m].
-    pub planet_axial_offset: f64,
-    /// Displacement of each side gear along its own axis, away from the planets' axes [m].
-    pub side_axial_offset: f64,
-    /// Displacement of the planets' pins as one body against the side gears' axis [m], in the direction in which
-    /// planet 0 is carried when the carrier turns forward: for planet 0 the hypoid offset, for a planet opposite to it
-    /// the negative of that, for planets between a part of it and a displacement along their own axes.
-    pub axis_offset: f64,
-}
-
-impl Default for ToothErrorSpec {
-    fn default() -> Self {
-        Self {
-            accuracy_grade: 0,
-            seed: 0,
-            planet_runout: 0.0,
-            side_runout: 0.0,
-            runout_by_grade: false,
-            planet_tip_relief: 0.0,
-            side_tip_relief: 0.0,
-            relief_length: 0.3,
-            crowning: 0.0,
-            shaft_angle_error: 0.0,
-            planet_axial_offset: 0.0,
-            side_axial_offset: 0.0,
-            axis_offset: 0.0,
-        }
+spec! {
+    /// Deviations and modifications of all teeth; the default is error-free teeth.
+    pub struct ToothErrorSpec {
+        /// Accuracy grade B of ISO 17485:2006 for the pitch of every gear: 2 to 11, 0 = no pitch deviations.
+        pub accuracy_grade: i32 = 0,
+        /// Seed of the individual pitch deviations and of the phases of runout.
+        pub seed: i32 = 0,
+        /// Radial runout F_r of each planet [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
+        pub planet_runout: f64 = 0.0,
+        /// Radial runout F_r of each side gear [m], peak to peak over a revolution: its teeth stand F_r/2 off its axis.
+        pub side_runout: f64 = 0.0,
+        /// Runout of all gears is the tolerance F_rT of the accuracy grade instead of the two values above.
+        pub runout_by_grade: bool = false,
+        /// Tip relief of the planet: material missing at its tip, along the line of action [m].
+        pub planet_tip_relief: f64 = 0.0,
+        /// Tip relief of the side gear: material missing at its tip, along the line of action [m].
+        pub side_tip_relief: f64 = 0.0,
+        /// Length of both reliefs along the line of action, in base pitches.
+        pub relief_length: f64 = 0.3,
+        /// Lengthwise crowning of a tooth pair: gap at both face ends relative to the middle of the face [m].
+        pub crowning: f64 = 0.0,
+        /// Error of the shaft angle [rad]: each planet's axis leans away from the left side gear, toward the right one.
+        pub shaft_angle_error: f64 = 0.0,
+        /// Displacement of each planet along its own axis, outward [m].
+        pub planet_axial_offset: f64 = 0.0,
+        /// Displacement of each side gear along its own axis, away from the planets' axes [m].
+        pub side_axial_offset: f64 = 0.0,
+        /// Displacement of the planets' pins as one body against the side gears' axis [m], in the direction in which
+        /// planet 0 is carried when the carrier turns forward: for planet 0 the hypoid offset, for a planet opposite to it
+        /// the negative of that, for planets between a part of it and a displacement along their own axes.
+        pub axis_offset: f64 = 0.0,
     }
 }
 
-/// Gear that has the broken tooth.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[repr(i32)]
-pub enum FaultyGear {
-    /// No tooth is broken.
-    None = 1,
-    /// A tooth of a planet.
-    Planet = 2,
-    /// A tooth of a side gear.
-    Side = 3,
+choices! {
+    /// Gear that has the broken tooth.
+    pub enum FaultyGear: "FaultyGear" {
+        None = 1, "none": "no tooth is broken";
+        Planet = 2, "planet": "a tooth of a planet";
+        Side = 3, "side": "a tooth of a side gear";
+    }
 }
 
-/// A tooth that loses a piece at its heel while running; the default is sound teeth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ToothFaultSpec {
-    /// Kind of gear with the broken tooth.
-    pub gear: FaultyGear,
-    /// Which planet (0 to N − 1), or which side gear (0 left, 1 right).
-    pub index: i32,
-    /// Number of the tooth, from 0, counted as in [`super::PairId`].
-    pub tooth: i32,
-    /// Missing part of the face width, from the heel inward: 0 to 1.
-    pub missing_fraction: f64,
-    /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
-    pub depth: f64,
-    /// Time at which the piece breaks off [s]; 0 = only by the trigger.
-    pub onset: f64,
-}
-
-impl Default for ToothFaultSpec {
-    fn default() -> Self {
-        Self { gear: FaultyGear::None, index: 0, tooth: 0, missing_fraction: 0.5, depth: 1e-3, onset: 0.0 }
+spec! {
+    /// A tooth that loses a piece at its heel while running; the default is sound teeth.
+    pub struct ToothFaultSpec {
+        /// Kind of gear with the broken tooth.
+        pub gear: FaultyGear = FaultyGear::None,
+        /// Which planet (0 to N − 1), or which side gear (0 left, 1 right).
+        pub index: i32 = 0,
+        /// Number of the tooth, from 0, counted as in [`super::PairId`].
+        pub tooth: i32 = 0,
+        /// Missing part of the face width, from the heel inward: 0 to 1.
+        pub missing_fraction: f64 = 0.5,
+        /// Depth removed along the line of action [m]: beyond the approach of loaded teeth nothing touches there.
+        pub depth: f64 = 1e-3,
+        /// Time at which the piece breaks off [s]; 0 = only by the trigger.
+        pub onset: f64 = 0.0,
     }
 }
 
@@ -164,42 +135,5 @@ fn within(variable: &'static str, value: f64, [least, most]: [f64; 2], unit: &st
         Ok(())
     } else {
         Err(Problem::new(variable, format!("{value} {unit} is outside the range from {least} to {most} {unit}")))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn defaults_are_error_free_teeth_and_pass() {
-        assert_eq!(ToothErrorSpec::default().check(), Ok(()));
-        assert_eq!(ToothFaultSpec::default().check([10, 16], 2), Ok(()));
-    }
-
-    #[test]
-    fn values_out_of_range_are_named() {
-        let perfect = ToothErrorSpec::default();
-        for (spec, name) in [
-            (ToothErrorSpec { accuracy_grade: 1, ..perfect }, "tooth_errors.accuracy_grade"),
-            (ToothErrorSpec { accuracy_grade: 12, ..perfect }, "tooth_errors.accuracy_grade"),
-            (ToothErrorSpec { runout_by_grade: true, ..perfect }, "tooth_errors.runout_by_grade"),
-            (ToothErrorSpec { side_runout: -1e-6, ..perfect }, "tooth_errors.side_runout"),
-            (ToothErrorSpec { crowning: f64::NAN, ..perfect }, "tooth_errors.crowning"),
-            (ToothErrorSpec { relief_length: 0.0, ..perfect }, "tooth_errors.relief_length"),
-            (ToothErrorSpec { shaft_angle_error: 1.0, ..perfect }, "tooth_errors.shaft_angle_error"),
-        ] {
-            assert_eq!(spec.check().unwrap_err().variable, name);
-        }
-        let chip = ToothFaultSpec { gear: FaultyGear::Planet, ..ToothFaultSpec::default() };
-        for (fault, name) in [
-            (ToothFaultSpec { index: 2, ..chip }, "tooth_fault.index"),
-            (ToothFaultSpec { index: -1, ..chip }, "tooth_fault.index"),
-            (ToothFaultSpec { tooth: 10, ..chip }, "tooth_fault.tooth"),
-            (ToothFaultSpec { missing_fraction: 1.5, ..chip }, "tooth_fault.missing_fraction"),
-            (ToothFaultSpec { onset: f64::INFINITY, ..chip }, "tooth_fault.onset"),
-        ] {
-            assert_eq!(fault.check([10, 16], 2).unwrap_err().variable, name);
-        }
     }
 }

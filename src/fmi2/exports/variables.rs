@@ -10,20 +10,20 @@ use super::super::instance::Instance;
 use super::super::types::{Boolean, ComponentPointer, Status, Text, ValueReference};
 use super::super::values::string_error;
 
-macro_rules! getters {
-    ($($function:ident $call:ident $method:ident $type:ty;)+) => {$(
+macro_rules! accesses {
+    ($($function:ident $call:ident $method:ident *$way:tt $type:ty, $pass:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(
             c: ComponentPointer,
             references: *const ValueReference,
             count: usize,
-            values: *mut $type,
+            values: *$way $type,
         ) -> Status {
             let body = |instance: &mut Instance, host: &HostMemory| {
                 // SAFETY: the host's promise, see the module
                 let (references, values) =
-                    unsafe { (host.input("vr", references, count)?, host.output("value", values, count)?) };
+                    unsafe { (host.input("vr", references, count)?, host.$pass("value", values, count)?) };
                 instance.$method(references, values)
             };
             // SAFETY: the host's promise, see the module
@@ -32,38 +32,13 @@ macro_rules! getters {
     )+};
 }
 
-macro_rules! setters {
-    ($($function:ident $call:ident $method:ident $type:ty;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(
-            c: ComponentPointer,
-            references: *const ValueReference,
-            count: usize,
-            values: *const $type,
-        ) -> Status {
-            let body = |instance: &mut Instance, host: &HostMemory| {
-                // SAFETY: the host's promise, see the module
-                let (references, values) =
-                    unsafe { (host.input("vr", references, count)?, host.input("value", values, count)?) };
-                instance.$method(references, values)
-            };
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, body) }
-        }
-    )+};
-}
-
-getters! {
-    fmi2GetReal GetReal get_real f64;
-    fmi2GetInteger GetInteger get_integer c_int;
-    fmi2GetBoolean GetBoolean get_boolean Boolean;
-}
-
-setters! {
-    fmi2SetReal SetReal set_real f64;
-    fmi2SetInteger SetInteger set_integer c_int;
-    fmi2SetBoolean SetBoolean set_boolean Boolean;
+accesses! {
+    fmi2GetReal GetReal get_real *mut f64, output;
+    fmi2GetInteger GetInteger get_integer *mut c_int, output;
+    fmi2GetBoolean GetBoolean get_boolean *mut Boolean, output;
+    fmi2SetReal SetReal set_real *const f64, input;
+    fmi2SetInteger SetInteger set_integer *const c_int, input;
+    fmi2SetBoolean SetBoolean set_boolean *const Boolean, input;
 }
 
 /// String variables may be read and set, but there are none.

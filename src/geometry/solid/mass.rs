@@ -14,7 +14,7 @@ use crate::geometry::{GearSpec, Pair};
 const MM: f64 = 1e3;
 const LEAST: f64 = 10.0;
 /// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
-pub(super) const FACETS: usize = 96;
+const FACETS: usize = 96;
 
 /// Mass properties about the gear's axis and apex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,11 +31,7 @@ pub struct GearMass {
 
 /// Mass properties of gear `gear` (0 planet, 1 side gear) of `pair`, made from `spec`, at the density `density` [kg/m³].
 pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> GearMass {
-    of_sectors(pair, spec, gear, density, FACETS)
-}
-
-pub(super) fn of_sectors(pair: &Pair, spec: &GearSpec, gear: usize, density: f64, facets: usize) -> GearMass {
-    let one = GearSolid::sector(pair, spec, gear, facets).mass(density);
+    let one = GearSolid::sector(pair, spec, gear, FACETS).mass(density);
     let z = f64::from(pair.gears[gear].teeth);
     GearMass {
         mass: z * one.mass,

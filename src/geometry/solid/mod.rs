@@ -12,10 +12,3 @@ pub use fillet::Foot;
 pub use interference::Interference;
 pub use manifold::{GearSolid, Shape};
 pub use outline::{Node, Outline, Part};
-
-#[cfg(test)]
-mod interference_tests;
-#[cfg(test)]
-mod mass_tests;
-#[cfg(test)]
-mod tests;

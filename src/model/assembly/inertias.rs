@@ -2,6 +2,7 @@
 
 use crate::geometry::solid::mass::GearMass;
 use crate::model::scene::Plan;
+use crate::model::scene::attached::{self, ENDS};
 use crate::model::scene::layout::{CARRIER, MAX_DOF};
 use crate::model::setup::Parameters;
 
@@ -59,9 +60,12 @@ impl Inertias {
             if plan.pins {
                 inertia[layout.seat(s)] = self.side_mass;
             }
-            if plan.ends {
+            if layout.ends() {
                 inertia[layout.end(s)] = self.end[s] - rigid_end[s];
             }
+        }
+        for k in (ENDS..attached::COUNT).filter(|&k| plan.attached[k]) {
+            inertia[layout.body(k)] = plan.attached_inertia[k];
         }
         inertia[CARRIER] = self.carrier;
         for g in 0..layout.groups {

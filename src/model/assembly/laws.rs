@@ -2,13 +2,14 @@
 
 use std::sync::Arc;
 
-use crate::contact::any_spring::{self, AnySpring, Linear};
 use crate::contact::bodies::SharedBodies;
 use crate::contact::damping::{self, Damping};
 use crate::contact::detailed::{Face as CutFace, Slice};
 use crate::contact::impact::Impact;
 use crate::contact::law::{Face, Lumped, Power};
+use crate::contact::laws::AnySpring;
 use crate::contact::mesh::Law;
+use crate::contact::spring::{self, Linear};
 use crate::contact::stiffness::PairStiffness;
 use crate::contact::{ContactLaw, DampingModel, hertz};
 use crate::geometry::Pair;
@@ -66,7 +67,7 @@ impl Laws {
             let solids = kept.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
             return Ok(Self {
                 law: Law::Solid(Box::new(solids)),
-                spring: AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone }),
+                spring: AnySpring::Power(spring::Power { law: impact, cone: pair.mean_cone }),
                 face: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,
                 bodies: None,
@@ -79,7 +80,7 @@ impl Laws {
                     Damping::Step { .. } => Law::Impact(impact),
                     Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
                 };
-                let spring = AnySpring::Power(any_spring::Power { law: impact, cone: pair.mean_cone });
+                let spring = AnySpring::Power(spring::Power { law: impact, cone: pair.mean_cone });
                 Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone, bodies: None }
             }
             ContactLaw::Line => {

@@ -6,6 +6,7 @@
 
 use super::body_effects::BodyEffects;
 use super::ideal::Ideal;
+use crate::model::scene::attached;
 use crate::model::scene::layout::PLANET;
 use crate::model::scene::{Layout, Plan};
 
@@ -48,11 +49,12 @@ impl Rigid {
         let r = ideal.ratio;
         // columns of P
         let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        let end = |s: usize| std::array::from_fn(|i| f64::from(plan.shafts[s] && i == layout.end(s)));
-        let columns = [carrier, [r, -r, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0], end(0), end(1)];
+        let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0]];
+        columns.extend((0..attached::COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
-        let moves = [true, true, plan.shafts[0], plan.shafts[1]];
-        let free: Vec<[f64; MOST]> = (0..IMPOSED).filter(|&k| moves[k] && !imposed[k]).map(|k| columns[k]).collect();
+        let is_free = |k: usize, column: &[f64; MOST]| !(k < IMPOSED && imposed[k]) && *column != [0.0; MOST];
+        let free: Vec<[f64; MOST]> =
+            columns.iter().enumerate().filter(|&(k, column)| is_free(k, column)).map(|(_, column)| *column).collect();
         let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
         let m = nalgebra::DMatrix::from_fn(n, n, |i, j| if i == j { inertia[i] } else { 0.0 });
         // inertias are positive, so that the reduced matrix has an inverse

@@ -45,7 +45,8 @@ impl Teeth {
     /// and are plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
-        let is_plain = !self.additions.bodies.always && !plan.pins && !plan.ends && plan.contact != GearContact::Solid;
+        let is_plain =
+            !self.additions.bodies.always && self.layout.plain() == Some(false) && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
     }
 
@@ -70,7 +71,7 @@ impl Teeth {
         for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
             inverse_inertia[layout.planet(g)] = 0.0;
         }
-        for s in (0..2).filter(|_| plan.ends) {
+        for s in (0..2).filter(|_| layout.ends()) {
             // a side with a rigid half-shaft has no end to move
             if plan.side_imposed[s] || !plan.shafts[s] {
                 inverse_inertia[layout.end(s)] = 0.0;

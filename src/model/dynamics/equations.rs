@@ -11,16 +11,18 @@
 //! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
+use super::acting::{Acted, Acting};
+use super::friction::by_body;
 use super::power::Power;
 use super::sizes::{EXACT, Largest};
 use super::state::State;
 use crate::contact::mesh::{Law, MeshForce, MeshJacobian, MeshState};
-use crate::integrate::{Matrix, Point, SecondOrder};
+use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::teeth::{SIGMA, Teeth};
-use crate::model::effect_kinds::friction::Friction;
-use crate::model::effect_kinds::friction_state::FrictionState;
+use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::scene::attached::ENDS;
 use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
-use crate::model::scene::{InputDerivatives, Inputs};
+use crate::model::scene::{Inputs, Layout, Plan};
 use crate::numeric::lanes;
 
 /// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`
@@ -30,12 +32,7 @@ use crate::numeric::lanes;
 pub struct Equations<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> {
     /// Constants.
     pub teeth: &'a Teeth,
-    pub(in crate::model) inputs: Inputs,
-    pub(in crate::model) input_derivatives: InputDerivatives,
-    driven: bool,
-    pub(in crate::model) friction_state: [FrictionState; FRICTION_BODIES],
-    friction: Option<Friction>,
-    rubs: bool,
+    pub(in crate::model) acting: Acting,
     pub(in crate::model) fault: bool,
     /// Relative position taken out by wrapping, by group and side [rad].
     offset: [[f64; 2]; MAX_GROUPS],
@@ -59,13 +56,8 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
             }
         }
-        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        let (input_derivatives, driven) =
-            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
-        let friction = WITH_EFFECTS.then(|| teeth.additions.bodies.friction(state.lock, &inputs, &input_derivatives));
-        let rubs = friction.as_ref().is_some_and(Friction::is_any);
-        let (friction_state, fault) = (state.friction, state.fault);
-        Self { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped }
+        let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.additions.bodies), inputs, state);
+        Self { teeth, acting, fault: state.fault, offset, wrapped }
     }
 
     /// Groups of planets.
@@ -96,12 +88,6 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         !Self::EXACT && self.teeth.layout.pins
     }
 
-    /// Whether half-shafts have ends.
-    #[inline]
-    pub(in crate::model) fn ends(&self) -> bool {
-        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends }
-    }
-
     /// Index of the planets of group `g`.
     #[inline]
     pub(in crate::model) fn planet(&self, g: usize) -> usize {
@@ -126,46 +112,34 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         if Self::EXACT { PLANET + G + s } else { self.teeth.layout.end(s) }
     }
 
+    /// Ends of half-shafts with the side gears they turn against, in a size that is exact: the only bodies attached there.
+    #[inline]
+    pub(in crate::model) fn exact_ends(&self) -> impl Iterator<Item = (usize, usize)> + use<N, G, WITH_EFFECTS> {
+        (0..if Self::EXACT && self.ends() { ENDS } else { 0 }).map(|s| (PLANET + G + s, s))
+    }
+
+    /// Whether anything is attached.
+    #[inline]
+    pub(in crate::model) fn is_attached(&self) -> bool {
+        if Self::EXACT { self.ends() } else { self.teeth.layout.is_attached() }
+    }
+
     /// Degrees of freedom.
     #[inline]
     pub(in crate::model) fn count(&self) -> usize {
         if Self::EXACT { N } else { self.teeth.layout.count().min(N) }
     }
 
-    /// Dry friction on all bodies.
-    #[inline]
-    pub(in crate::model) fn friction(&self) -> &Friction {
-        self.friction.as_ref().unwrap_or(&Friction::NONE)
-    }
-
-    /// Whether there is any.
-    #[inline]
-    pub(in crate::model) fn rubs(&self) -> bool {
-        WITH_EFFECTS && self.rubs
-    }
-
     /// Whether inputs change while they act.
     #[inline]
     pub(in crate::model) fn is_driven_by_inputs(&self) -> bool {
-        WITH_EFFECTS && self.driven
-    }
-
-    /// The equations with the inputs of `time` [s] later.
-    pub(in crate::model) fn later(&self, time: f64) -> Self {
-        let (inputs, input_derivatives) = self.input_derivatives.after(time, &self.inputs);
-        self.under(&inputs, &input_derivatives)
-    }
-
-    /// The same equations under other inputs.
-    pub(in crate::model) fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
-        Self { inputs: *inputs, input_derivatives: *input_derivatives, ..*self }
+        WITH_EFFECTS && self.acting.driven
     }
 
     /// The same equations in the size that every scene fits in.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
-        let Self { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped } =
-            *self;
-        Largest { teeth, inputs, input_derivatives, driven, friction_state, friction, rubs, fault, offset, wrapped }
+        let Self { teeth, acting, fault, offset, wrapped } = *self;
+        Largest { teeth, acting, fault, offset, wrapped }
     }
 
     /// State of the mesh of group `g` with side `s`.
@@ -247,94 +221,25 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
         }
     }
 
-    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) of a mesh of side `s` from ∂(F_q, F_x, F_w)/∂(q, x, w).
-    #[inline]
-    pub(in crate::model) fn local_block(&self, s: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        self.block_between(s, s, by)
-    }
-
-    /// The same of the mesh of side `s` by the coordinates of that of side `other`.
-    #[inline]
-    pub(in crate::model) fn block_between(&self, s: usize, other: usize, by: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        let [planet, side] = self.teeth.sin_base;
-        let [turn, turned] = [s, other].map(|s| SIGMA[s] * planet);
-        let columns = by.map(|[q, x, w]| [side * q, turned * (x - q), w]);
-        std::array::from_fn(|row| {
-            std::array::from_fn(|c| match row {
-                0 => side * columns[0][c],
-                1 => turn * (columns[1][c] - columns[0][c]),
-                _ => columns[2][c],
-            })
-        })
-    }
-
-    /// The same of a mesh whose side gear cannot move along its axis.
-    #[inline]
-    pub(in crate::model) fn block(&self, s: usize, by: &[[f64; 2]; 2]) -> [[f64; 3]; 3] {
-        let [[qq, qx], [xq, xx]] = *by;
-        self.local_block(s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
-    }
-
-    /// Adds the blocks of all meshes to ∂(sums)/∂(positions) or ∂(sums)/∂(rates).
-    #[inline]
-    pub(in crate::model) fn add_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
-        for g in 0..self.groups() {
-            let (i, members) = (self.planet(g), self.members(g));
-            for s in 0..2 {
-                let l = &blocks[g][s];
-                m[s][i] += members * l[0][1];
-                m[i][s] += l[1][0];
-                m[i][i] += l[1][1];
-                if !self.pins() {
-                    m[CARRIER][i] -= members * l[0][1];
-                } else {
-                    let (pin, seat) = (self.pin(g), CARRIER + 1 + s);
-                    m[s][pin] -= members * l[0][0];
-                    m[seat][pin] -= members * l[2][0];
-                    m[seat][i] += members * l[2][1];
-                    m[pin][s] -= l[0][0];
-                    m[pin][pin] += l[0][0];
-                    m[pin][i] -= l[0][1];
-                    m[pin][seat] -= l[0][2];
-                    m[i][pin] -= l[1][0];
-                    m[i][seat] += l[1][2];
-                }
-            }
-        }
-        let total = |s: usize, row: usize, c: usize| self.sum(|g| self.members(g) * blocks[g][s][row][c]);
-        for s in 0..2 {
-            let diagonal = total(s, 0, 0);
-            m[s][s] += diagonal;
-            if !self.pins() {
-                m[CARRIER][s] -= diagonal;
-            } else {
-                let seat = CARRIER + 1 + s;
-                m[s][seat] += total(s, 0, 2);
-                m[seat][s] += total(s, 2, 0);
-                m[seat][seat] += total(s, 2, 2);
-            }
-        }
-    }
-
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
     #[inline(always)]
     pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        let rates = &self.input_derivatives.rates[0];
+        let rates = &self.acting.input_derivatives.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
-            let wheel = if WITH_EFFECTS && self.ends() && plan.shafts[s] { self.end(s) } else { s };
+            let wheel = if WITH_EFFECTS { self.wheel(s) } else { s };
             if WITH_EFFECTS && plan.side_imposed[s] {
                 input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
-                sum[wheel] -= self.inputs.load_torque[s];
-                input -= self.inputs.load_torque[s] * at.v[wheel];
+                sum[wheel] -= self.acting.inputs.load_torque[s];
+                input -= self.acting.inputs.load_torque[s] * at.v[wheel];
             }
         }
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque + if WITH_EFFECTS { power.drive } else { 0.0 }
+            self.acting.inputs.carrier_torque + if WITH_EFFECTS { power.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
@@ -419,5 +324,55 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
             }
         }
         deepest
+    }
+}
+
+impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equations<'_, N, G, WITH_EFFECTS> {
+    #[inline]
+    fn acting(&self) -> &Acting {
+        &self.acting
+    }
+
+    #[inline]
+    fn acting_mut(&mut self) -> &mut Acting {
+        &mut self.acting
+    }
+
+    #[inline]
+    fn plan(&self) -> &Plan {
+        &self.teeth.plan
+    }
+
+    #[inline]
+    fn layout(&self) -> &Layout {
+        &self.teeth.layout
+    }
+
+    #[inline]
+    fn rubs(&self) -> bool {
+        WITH_EFFECTS && self.acting.rubs
+    }
+
+    #[inline]
+    fn ends(&self) -> bool {
+        if Self::EXACT { WITH_EFFECTS && N == EXACT } else { self.teeth.layout.ends() }
+    }
+
+    #[inline]
+    fn sticking(&self) -> &[f64] {
+        &self.teeth.layout.members[..self.groups()]
+    }
+
+    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES] {
+        let pressed = self.acting.friction().depends_on_load();
+        by_body(pressed.then(|| self.mesh_surface_loads(at, &self.all_loads::<f64>(at))).as_ref())
+    }
+
+    fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+        self.add_brakes(&mut sum);
+        self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
+        self.finish(at, &mut sum, &imposed, &mut power);
+        sum
     }
 }

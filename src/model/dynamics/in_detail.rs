@@ -1,6 +1,8 @@
 //! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
 
+use super::acting::Acted;
 use super::equations::Equations;
+use super::friction::MeshLoads;
 use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{
@@ -183,7 +185,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         &self,
         at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
-    ) -> ([SurfaceLoad; 2], [SurfaceLoad; G]) {
+    ) -> MeshLoads<G> {
         let side = self.teeth.sin_base[1];
         let sides = [0, 1].map(|s| SurfaceLoad {
             thrust: self.sum(|g| self.members(g) * loads[g][s].side_axial.value()),
@@ -230,9 +232,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             }
         }
         let surfaces = self.rubs().then(|| self.mesh_surface_loads(at, loads));
-        if let Some((sides, planets)) = &surfaces {
-            self.add_friction(at, || self.surface_loads_of(sides, planets), sum, power);
-        }
+        self.add_friction(at, surfaces.as_ref(), sum, power);
         if let Some(j) = slopes {
             let block = |part: usize| {
                 self.by_group(|g| {
@@ -243,11 +243,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 })
             };
             j.elastic_energy = self.sum(|g| self.members(g) * (loads[g][0].energy + loads[g][1].energy));
-            self.add_blocks(&block(0), j.by_position);
-            self.add_blocks(&block(3), &mut j.by_rate);
+            self.add_blocks::<false>(&block(0), j.by_position);
+            self.add_blocks::<false>(&block(3), &mut j.by_rate);
             if T::BY_OTHER {
-                let cross = self.cross_blocks(loads);
-                self.add_cross_blocks(&cross, j.by_position);
+                self.add_blocks::<true>(&self.cross_blocks(loads), j.by_position);
             }
             if let Some((_, planets)) = &surfaces {
                 self.friction_slopes_by_loads(loads, planets, j);

@@ -3,10 +3,8 @@
 use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
-use crate::contact::mesh::MeshForce;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     fn divide_by_inertia(&self, m: &mut Matrix<N>) {
@@ -32,7 +30,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 by[g][s] = self.block(s, &self.teeth.mesh.linearise_apart(&state).1.by_position);
             }
         }
-        self.add_blocks(&by, &mut m);
+        self.add_blocks::<false>(&by, &mut m);
         m
     }
 
@@ -51,32 +49,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     #[inline]
     fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, power } = lin;
-        let mut load = [[MeshForce::default(); 2]; G];
-        let mut energy = [0.0; G];
-        let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
-        for g in 0..self.groups() {
-            if let Some(twin) = self.twin(at, g) {
-                (load[g], position[g], rate[g], energy[g]) = (load[twin], position[twin], rate[twin], energy[twin]);
-                continue;
-            }
-            for s in 0..2 {
-                let (force, jacobian) = self.teeth.mesh.linearise(&self.mesh_state(at, g, s));
-                load[g][s] = force;
-                position[g][s] = self.block(s, &jacobian.by_position);
-                rate[g][s] = self.block(s, &jacobian.by_rate);
-                energy[g] += jacobian.energy;
-            }
-        }
-        self.add_forces(|g, s| load[g][s].force, acceleration);
-        self.add_blocks(&position, by_position);
-        self.add_blocks(&rate, by_velocity);
-        power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
+        let energy = self.add_linearised(at, acceleration, [&mut *by_position, &mut *by_velocity], power);
         // α̇ = ω_s − ω_c
         self.times_rates(by_velocity);
         self.divide_by_inertia(by_position);
         self.divide_by_inertia(by_velocity);
         self.finish(at, acceleration, &[0.0; N], power);
-        self.sum(|g| self.members(g) * energy[g])
+        energy
     }
 
     /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].

@@ -2,8 +2,10 @@
 //! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
 
 pub mod accepted;
+pub mod acting;
 pub mod ahead;
 pub mod bias;
+mod blocks;
 pub mod clock;
 pub mod cycle;
 pub mod equations;
@@ -18,8 +20,8 @@ mod on_bodies;
 mod pair_loads;
 pub mod power;
 pub mod rigid_equations;
-mod rigid_friction;
 pub mod sizes;
 pub mod state;
+mod twists;
 pub mod watched;
 mod with_effects;

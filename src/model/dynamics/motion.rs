@@ -2,11 +2,12 @@
 
 use std::ops::Range;
 
+use super::acting::Acted;
 use super::equations::Equations;
 use super::power::Power;
+use super::twists;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
@@ -63,10 +64,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 rates[self.pin(g)] -= v[CARRIER];
             }
         }
-        if self.ends() {
-            for s in 0..2 {
-                rates[self.end(s)] = v[s] - v[self.end(s)];
-            }
+        twists::set(self.exact_ends(), v, &mut rates);
+        if !Self::EXACT && self.is_attached() {
+            self.teeth.layout.set_twist_rates(v, &mut rates);
         }
         rates
     }
@@ -78,12 +78,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
             if self.pins() {
                 row[CARRIER] -= self.sum(|g| row[self.pin(g)]);
             }
-            if self.ends() {
-                for s in 0..2 {
-                    row[s] += row[self.end(s)];
-                    row[self.end(s)] = -row[self.end(s)];
-                }
-            }
+            twists::turn(self.exact_ends(), row);
+        }
+        if !Self::EXACT && self.is_attached() {
+            m[..self.count()].iter_mut().for_each(|row| self.teeth.layout.turn_twist_rates(row));
         }
     }
 
@@ -121,8 +119,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let [first, second] = self.later(time).input_derivatives.rates;
-        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        self.drift_at(at, time)
     }
 
     #[inline]
@@ -150,11 +147,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
                 (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        if self.ends() {
-            for s in 0..2 {
-                q[self.end(s)] = 1.0 / (TWIST_FLOOR + at.q[self.end(s)].abs());
-                v[self.end(s)] = v[s];
-            }
+        for (i, to) in self.teeth.layout.attached().take(if self.is_attached() { N } else { 0 }) {
+            (q[i], v[i]) = (1.0 / (TWIST_FLOOR + at.q[i].abs()), v[to]);
         }
         Point { q, v }
     }

@@ -5,13 +5,12 @@ use super::in_detail::Local;
 use super::power::Power;
 use crate::contact::bodies::SharedBodies;
 use crate::contact::detailed::PairName;
-use crate::contact::detailed::{DetailedLoad, LOCAL, SharedTeeth};
+use crate::contact::detailed::{DetailedLoad, SharedTeeth};
 use crate::contact::impact::Force;
 use crate::contact::mesh::{Law, MeshForce, MeshState};
 use crate::contact::pairs::{Flank, ToothPair};
 use crate::contact::shared::{Moved, SharedForce, SharedMeshes};
 use crate::integrate::{Matrix, Point};
-use crate::model::scene::layout::CARRIER;
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 
 /// Evaluates an expression with `law` bound to the law of teeth in use; bodies are elastic under no other.
@@ -173,56 +172,6 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         force.map(|force| side * force.force[0])
     }
 
-    /// Adds ∂(F_α, F_ψ, F_w of side s)/∂(α, ψ, w of the other side) of all planets.
-    #[inline]
-    pub(super) fn add_cross_blocks(&self, blocks: &[[[[f64; 3]; 3]; 2]; G], m: &mut Matrix<N>) {
-        for s in 0..2 {
-            let (other, [seat, other_seat]) = (1 - s, [s, 1 - s].map(|s| CARRIER + 1 + s));
-            for g in 0..self.groups() {
-                let (i, pin, members, by) = (self.planet(g), self.pin(g), self.members(g), &blocks[g][s]);
-                m[s][i] += members * by[0][1];
-                m[i][other] += by[1][0];
-                m[i][i] += by[1][1];
-                if !self.pins() {
-                    m[CARRIER][i] -= members * by[0][1];
-                } else {
-                    m[s][pin] -= members * by[0][0];
-                    m[seat][pin] -= members * by[2][0];
-                    m[seat][i] += members * by[2][1];
-                    m[pin][other] -= by[0][0];
-                    m[pin][pin] += by[0][0];
-                    m[pin][i] -= by[0][1];
-                    m[pin][other_seat] -= by[0][2];
-                    m[i][pin] -= by[1][0];
-                    m[i][other_seat] += by[1][2];
-                }
-            }
-            let total = |row: usize, c: usize| self.sum(|g| self.members(g) * blocks[g][s][row][c]);
-            let across = total(0, 0);
-            m[s][other] += across;
-            if !self.pins() {
-                m[CARRIER][other] -= across;
-            } else {
-                m[s][other_seat] += total(0, 2);
-                m[seat][other] += total(2, 0);
-                m[seat][other_seat] += total(2, 2);
-            }
-        }
-    }
-
-    /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w of the planet's other mesh) of all meshes in detail.
-    pub(super) fn cross_blocks<T: Local>(&self, loads: &[[DetailedLoad<T>; 2]; G]) -> [[[[f64; 3]; 3]; 2]; G] {
-        self.by_group(|g| {
-            [0, 1].map(|s| {
-                let by = loads[g][s].force.map(|force| {
-                    let slopes = force.slopes();
-                    [slopes[LOCAL], slopes[LOCAL + 1], slopes[LOCAL + 2]]
-                });
-                self.block_between(s, 1 - s, &by)
-            })
-        })
-    }
-
     /// Adds the forces of all plain meshes on `bodies`, and their derivatives by positions and rates; sets their heat. Returns
     /// their elastic energy [J].
     #[inline]
@@ -244,21 +193,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         self.add_forces(|g, s| shared[g].force[s].force, sum);
         self.add_shared_blocks(&shared, by_position);
         let rates = self.by_group(|g| [0, 1].map(|s| self.block(s, &shared[g].by_rate[s])));
-        self.add_blocks(&rates, by_rate);
+        self.add_blocks::<false>(&rates, by_rate);
         power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (shared[g].force[0].heat + shared[g].force[1].heat));
         self.sum(|g| self.members(g) * shared[g].energy)
-    }
-
-    /// Adds the derivatives of the forces of both plain meshes of all groups by position.
-    pub(super) fn add_shared_blocks(&self, shared: &[SharedForce; G], m: &mut Matrix<N>) {
-        let own = self.by_group(|g| [0, 1].map(|s| self.block(s, &shared[g].by_position[s][s])));
-        self.add_blocks(&own, m);
-        let cross = self.by_group(|g| {
-            [0, 1].map(|s| {
-                let [[qq, qx], [xq, xx]] = shared[g].by_position[s][1 - s];
-                self.block_between(s, 1 - s, &[[qq, qx, 0.0], [xq, xx, 0.0], [0.0; 3]])
-            })
-        });
-        self.add_cross_blocks(&cross, m);
     }
 }

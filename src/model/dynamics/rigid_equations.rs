@@ -3,15 +3,16 @@
 //! Accelerations are v̇ = W Q + f u̇_c (`assembly::rigid`). The torque of the meshes on a side gear is the force of the
 //! constraint, λ_s = J_s ω̇_s − Q_s.
 
+use super::acting::{Acted, Acting};
+use super::jacobian::Jacobian;
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::rigid::{IMPOSED, MOST, Rigid};
 use crate::model::dynamics::power::Power;
 use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
-use crate::model::effect_kinds::friction::Friction;
-use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS, PLANET};
-use crate::model::scene::{InputDerivatives, Inputs};
+use crate::model::effect_kinds::body_effect::{Action, Slopes};
+use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, PLANET};
+use crate::model::scene::{Inputs, Layout, Plan};
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
@@ -29,20 +30,10 @@ pub struct RigidTorques {
 pub struct RigidEquations<'a> {
     /// Constants.
     pub rigid: &'a Rigid,
-    pub(super) inputs: Inputs,
-    pub(super) input_derivatives: InputDerivatives,
-    pub(super) driven: bool,
-    /// State of the dry friction.
-    pub friction_state: [FrictionState; FRICTION_BODIES],
-    pub(super) friction: Friction,
+    pub(in crate::model) acting: Acting,
 }
 
 impl<'a> RigidEquations<'a> {
-    /// Whether half-shafts have ends.
-    fn ends(&self) -> bool {
-        self.rigid.layout.ends
-    }
-
     /// Index of the end of the half-shaft of side `s`.
     fn end(&self, s: usize) -> usize {
         self.rigid.layout.end(s)
@@ -55,54 +46,23 @@ impl<'a> RigidEquations<'a> {
 
     /// Equations under `inputs` at `state`.
     pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
-        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
-        let (input_derivatives, driven) =
-            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
-        let friction = rigid.bodies.friction(state.lock, &inputs, &input_derivatives);
-        Self { rigid, inputs, input_derivatives, driven, friction_state: state.friction, friction }
-    }
-
-    fn bodies<'b>(&'b self, at: &'b Point<MOST>) -> Bodies<'b> {
-        let Self { inputs, input_derivatives, .. } = self;
-        Bodies { q: &at.q, v: &at.v, layout: &self.rigid.layout, inputs, input_rates: &input_derivatives.rates[0] }
-    }
-
-    pub(super) fn wheel(&self, s: usize) -> usize {
-        if self.ends() && self.rigid.plan.shafts[s] { self.end(s) } else { s }
-    }
-
-    /// The equations `time` [s] later, as far as inputs go.
-    fn later(&self, time: f64) -> Self {
-        let (inputs, input_derivatives) = self.input_derivatives.after(time, &self.inputs);
-        self.under(&inputs, &input_derivatives)
-    }
-
-    /// The same equations under other inputs.
-    pub(in crate::model) fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self {
-        Self { inputs: *inputs, input_derivatives: *input_derivatives, ..*self }
+        Self { rigid, acting: Acting::new(Some(&rigid.bodies), inputs, state) }
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
     fn forces(&self, at: &Point<MOST>, power: &mut Power) -> ([f64; MOST], [f64; IMPOSED]) {
-        let rates = &self.input_derivatives.rates[0];
+        let rates = &self.acting.input_derivatives.rates[0];
         let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
         let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
         for effect in self.rigid.bodies.forces.iter() {
             effect.act(&self.bodies(at), &mut out);
         }
         let plan = &self.rigid.plan;
-        let surface_loads = self.surface_loads(0.0);
-        for i in self.bodies_with_friction() {
-            let (friction, state, slip) = (self.friction.on(i), &self.friction_state[i], self.slip(at, i));
-            let torque = friction.act(state, &slip, &surface_loads[i], 1.0, &mut power.heat);
-            power.limit[i] = torque * state.mode.direction();
-            sum[self.freedom_of(i)] -= torque;
-            if i < FRICTION_WHEELS {
-                sum[CARRIER] += torque;
-            }
+        if self.rubs() {
+            self.rub(at, &self.surface_loads(at, 0.0), &mut sum, power);
         }
         for s in 0..2 {
-            power.shaft[s] = self.inputs.load_torque[s];
+            power.shaft[s] = self.acting.inputs.load_torque[s];
             if self.ends() && plan.shafts[s] {
                 let end = self.end(s);
                 power.shaft[s] = self.rigid.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
@@ -112,12 +72,12 @@ impl<'a> RigidEquations<'a> {
                 let inertial = self.rigid.inertia[wheel] * rates.side_speed[s];
                 power.input += (inertial - sum[wheel]) * at.v[wheel];
             } else {
-                sum[wheel] -= self.inputs.load_torque[s];
-                power.input -= self.inputs.load_torque[s] * at.v[wheel];
+                sum[wheel] -= self.acting.inputs.load_torque[s];
+                power.input -= self.acting.inputs.load_torque[s] * at.v[wheel];
             }
         }
         if !plan.carrier_imposed {
-            let drive = self.inputs.carrier_torque + power.drive;
+            let drive = self.acting.inputs.carrier_torque + power.drive;
             sum[CARRIER] += drive;
             power.input += drive * at.v[CARRIER];
         }
@@ -132,22 +92,6 @@ impl<'a> RigidEquations<'a> {
         })
     }
 
-    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
-    pub(in crate::model) fn forced(
-        &self,
-        at: &Point<MOST>,
-        inputs: &Inputs,
-        input_derivatives: &InputDerivatives,
-    ) -> [f64; MOST] {
-        let part = |inputs: &Inputs, input_derivatives: &InputDerivatives| {
-            let these = self.under(inputs, input_derivatives);
-            let (sum, imposed) = these.forces(at, &mut Power::default());
-            these.accelerations(&sum, &imposed)
-        };
-        let (with, without) = (part(inputs, input_derivatives), part(&Inputs::ZERO, &InputDerivatives::ZERO));
-        std::array::from_fn(|i| with[i] - without[i])
-    }
-
     fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], excess: f64) -> RigidTorques {
         let rigid = self.rigid;
         let lack: [f64; MOST] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
@@ -156,7 +100,7 @@ impl<'a> RigidEquations<'a> {
             carrier: if plan.carrier_imposed {
                 lack[0] + lack[1] + lack[CARRIER]
             } else {
-                self.inputs.carrier_torque + excess
+                self.acting.inputs.carrier_torque + excess
             },
             spin: if plan.spin_imposed { rigid.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
             gears: [lack[0], lack[1]],
@@ -173,9 +117,47 @@ impl<'a> RigidEquations<'a> {
     /// Energy of half-shafts and stuck friction [J].
     fn stored(&self, at: &Point<MOST>) -> f64 {
         let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
-        let energy = |i: usize| self.friction.on(i).energy(&self.friction_state[i], self.slip(at, i).position);
-        let held = Self::bodies_that_stick().filter(|&i| self.friction_state[i].stiffness > 0.0);
-        bodies + held.map(energy).sum::<f64>()
+        bodies + self.friction_energy(at)
+    }
+}
+
+impl Acted<MOST> for RigidEquations<'_> {
+    fn acting(&self) -> &Acting {
+        &self.acting
+    }
+
+    fn acting_mut(&mut self) -> &mut Acting {
+        &mut self.acting
+    }
+
+    fn plan(&self) -> &Plan {
+        &self.rigid.plan
+    }
+
+    fn layout(&self) -> &Layout {
+        &self.rigid.layout
+    }
+
+    fn rubs(&self) -> bool {
+        self.acting.rubs
+    }
+
+    fn ends(&self) -> bool {
+        self.rigid.layout.ends()
+    }
+
+    /// None: planets stick with the side gears.
+    fn sticking(&self) -> &[f64] {
+        &[]
+    }
+
+    fn mesh_loads(&self, _: &Point<MOST>) -> [SurfaceLoad; FRICTION_BODIES] {
+        [SurfaceLoad::default(); FRICTION_BODIES]
+    }
+
+    fn acceleration_by_inputs(&self, at: &Point<MOST>) -> [f64; MOST] {
+        let (sum, imposed) = self.forces(at, &mut Power::default());
+        self.accelerations(&sum, &imposed)
     }
 }
 
@@ -199,22 +181,15 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
-            if self.ends() {
-                rates[self.end(s)] = v[s] - v[self.end(s)];
-            }
         }
+        self.rigid.layout.set_twist_rates(v, &mut rates);
         rates
     }
 
     fn times_rates(&self, m: &mut Matrix<MOST>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            if self.ends() {
-                for s in 0..2 {
-                    row[s] += row[self.end(s)];
-                    row[self.end(s)] = -row[self.end(s)];
-                }
-            }
+            self.rigid.layout.turn_twist_rates(row);
         }
     }
 
@@ -232,37 +207,15 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
 
     fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, Power> {
         let (acceleration, power) = self.evaluate(at);
-        let (mut by_position, mut by_velocity, mut by_rate) =
-            ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
+        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
+        let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut imposed = [[0.0; MOST]; 2];
-        let mut out = Slopes {
-            n: MOST,
-            by_position: by_position.as_flattened_mut(),
-            by_velocity: by_velocity.as_flattened_mut(),
-            imposed: imposed.each_mut().map(|row| row.as_mut_slice()),
-        };
+        let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed);
         for effect in self.rigid.bodies.forces.iter() {
             effect.slopes(&self.bodies(at), &mut out);
         }
-        for i in self.bodies_with_friction() {
-            let [k, c] = self.friction.on(i).torque_slopes(&self.friction_state[i]);
-            let body = self.freedom_of(i);
-            if i < FRICTION_WHEELS {
-                for (row, sign) in [(i, -1.0), (CARRIER, 1.0)] {
-                    by_position[row][i] += sign * k;
-                    by_rate[row][i] += sign * c;
-                }
-                continue;
-            }
-            // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
-            let s = i - FRICTION_WHEELS;
-            by_position[body][CARRIER] -= k;
-            by_position[body][s] -= k;
-            if body != s {
-                by_position[body][body] += k;
-            }
-            by_velocity[body][body] -= c;
-        }
+        self.friction_slopes(&mut j);
+        let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
         let rigid = self.rigid;
         let follow = rigid.follow[0];
@@ -294,45 +247,35 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
     }
 
     fn is_driven(&self) -> bool {
-        self.driven
+        self.acting.driven
     }
 
     fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], Power) {
-        if self.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
+        if self.acting.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
     }
 
     fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, Power> {
-        if self.driven { self.later(time).linearise(at) } else { self.linearise(at) }
+        if self.acting.driven { self.later(time).linearise(at) } else { self.linearise(at) }
     }
 
     fn drift(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
-        let [first, second] = self.later(time).input_derivatives.rates;
-        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        self.drift_at(at, time)
     }
 
     fn weights(&self, at: &Point<MOST>) -> Point<MOST> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
         let mut weights = Point { q: [1.0; MOST], v: [1.0 / (carrier + at.v[PLANET].abs()); MOST] };
-        if self.friction.is_any() {
+        if self.rubs() {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
-        if self.ends() {
-            for s in 0..2 {
-                weights.q[self.end(s)] = 1.0 / (1e-3 + at.q[self.end(s)].abs());
-            }
+        for (i, _) in self.rigid.layout.attached() {
+            weights.q[i] = 1.0 / (1e-3 + at.q[i].abs());
         }
         weights
     }
 
     fn crossing(&self, start: (&Point<MOST>, f64), end: (&Point<MOST>, f64)) -> Option<f64> {
-        let surface_loads = [start, end].map(|(_, time)| self.surface_loads(time));
-        self.bodies_with_friction()
-            .filter_map(|i| {
-                let slips = [self.slip(start.0, i), self.slip(end.0, i)];
-                let ends = [(&slips[0], &surface_loads[0][i]), (&slips[1], &surface_loads[1][i])];
-                self.friction.on(i).crossing(&self.friction_state[i], ends[0], ends[1])
-            })
-            .reduce(f64::min)
+        self.friction_crossing(start, end)
     }
 }

@@ -1,24 +1,17 @@
 //! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
 
+use super::acting::Acted;
 use super::equations::Equations;
 use super::jacobian::Jacobian;
 use super::power::Power;
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
-use crate::contact::mesh::MeshForce;
 use crate::integrate::{Matrix, Point};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, Slopes};
+use crate::model::effect_kinds::body_effect::{Action, Slopes};
 use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{InputDerivatives, Inputs};
 use crate::model::setup::effect_outputs::CONTACT_HEAT;
 use crate::numeric::Dual;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
-    /// All positions and velocities as effects see them.
-    pub(in crate::model) fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
-        let Self { inputs, input_derivatives, .. } = self;
-        Bodies { q: &at.q, v: &at.v, layout: &self.teeth.layout, inputs, input_rates: &input_derivatives.rates[0] }
-    }
-
     /// Forces of everything but commanded torques; derivatives where they are asked for.
     #[inline]
     pub(in crate::model) fn act(
@@ -42,41 +35,15 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 } else if let Some(bodies) = self.bodies_of_gears() {
                     j.elastic_energy =
                         self.add_shared_forces(bodies, at, sum, [&mut *j.by_position, &mut j.by_rate], power);
-                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
+                    self.add_friction(at, None, sum, power);
                 } else {
-                    let mut load = [[MeshForce::default(); 2]; G];
-                    let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);
-                    let mut energy = [0.0; G];
-                    for g in 0..self.groups() {
-                        if let Some(twin) = self.twin(at, g) {
-                            (load[g], position[g], rate[g]) = (load[twin], position[twin], rate[twin]);
-                            energy[g] = energy[twin];
-                            continue;
-                        }
-                        for s in 0..2 {
-                            let (force, by) = self.mesh_linearised(&self.mesh_state(at, g, s));
-                            load[g][s] = force;
-                            position[g][s] = self.block(s, &by.by_position);
-                            rate[g][s] = self.block(s, &by.by_rate);
-                            energy[g] += by.energy;
-                        }
-                    }
-                    self.add_forces(|g, s| load[g][s].force, sum);
-                    self.add_blocks(&position, j.by_position);
-                    self.add_blocks(&rate, &mut j.by_rate);
-                    j.elastic_energy = self.sum(|g| self.members(g) * energy[g]);
-                    power.heat[CONTACT_HEAT] = self.sum(|g| self.members(g) * (load[g][0].heat + load[g][1].heat));
-                    self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
+                    j.elastic_energy = self.add_linearised(at, sum, [&mut *j.by_position, &mut j.by_rate], power);
+                    self.add_friction(at, None, sum, power);
                 }
                 self.friction_slopes(j);
                 self.act_on_bodies(at, sum, imposed, power);
                 let mut imposed_by = [[0.0; N]; 2];
-                let mut out = Slopes {
-                    n: N,
-                    by_position: j.by_position.as_flattened_mut(),
-                    by_velocity: j.by_velocity.as_flattened_mut(),
-                    imposed: imposed_by.each_mut().map(|row| row.as_mut_slice()),
-                };
+                let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed_by);
                 for effect in self.teeth.additions.bodies.forces.iter() {
                     effect.slopes(&self.bodies(at), &mut out);
                 }
@@ -96,27 +63,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         power.heat[CONTACT_HEAT] = self.add_tooth_torques(at, sum);
         let gears = [sum[0], sum[1]];
-        self.add_friction(at, || self.surface_loads_of(&[], &[]), sum, power);
+        self.add_friction(at, None, sum, power);
         gears
-    }
-
-    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
-    pub(in crate::model) fn forced(
-        &self,
-        at: &Point<N>,
-        inputs: &Inputs,
-        input_derivatives: &InputDerivatives,
-    ) -> [f64; N] {
-        let part = |inputs: &Inputs, input_derivatives: &InputDerivatives| {
-            let these = self.under(inputs, input_derivatives);
-            let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
-            these.add_brakes(&mut sum);
-            these.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
-            these.finish(at, &mut sum, &imposed, &mut power);
-            sum
-        };
-        let (with, without) = (part(inputs, input_derivatives), part(&Inputs::ZERO, &InputDerivatives::ZERO));
-        std::array::from_fn(|i| with[i] - without[i])
     }
 
     /// Effects on bodies.
@@ -142,7 +90,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Torque that the half-shaft of side `s` delivers to the wheel, where it twists [N·m].
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
         if !self.ends() || !self.teeth.plan.shafts[s] {
-            return self.inputs.load_torque[s];
+            return self.acting.inputs.load_torque[s];
         }
         let end = self.end(s);
         self.teeth.additions.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
@@ -163,21 +111,16 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         }
         let blocks = self
             .by_group(|g| [0, 1].map(|s| self.local_block(s, &loads[g][s].force.map(|f| [f.d[0], f.d[1], f.d[2]]))));
-        self.add_blocks(&blocks, j.by_position);
+        self.add_blocks::<false>(&blocks, j.by_position);
         if self.bodies_of_gears().is_some() {
-            self.add_cross_blocks(&self.cross_blocks(&loads), j.by_position);
+            self.add_blocks::<true>(&self.cross_blocks(&loads), j.by_position);
         }
         let mut carrier = 0.0;
         let bodies = self.bodies(&still);
         let mut action =
             Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
         let mut unused = [[0.0; N]; 2];
-        let mut slopes = Slopes {
-            n: N,
-            by_position: j.by_position.as_flattened_mut(),
-            by_velocity: j.by_velocity.as_flattened_mut(),
-            imposed: unused.each_mut().map(|row| row.as_mut_slice()),
-        };
+        let mut slopes = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut unused);
         for effect in self.teeth.additions.bodies.forces.iter().filter(|e| e.is_structure()) {
             effect.act(&bodies, &mut action);
             effect.slopes(&bodies, &mut slopes);

@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use crate::integrate::Matrix;
 use crate::model::scene::{Inputs, Layout};
 
 /// Positions and velocities of all degrees of freedom, and what the host commands.
@@ -42,7 +43,21 @@ pub struct Slopes<'a> {
     pub imposed: [&'a mut [f64]; 2],
 }
 
-impl Slopes<'_> {
+impl<'a> Slopes<'a> {
+    /// Derivatives that are added to these; `imposed` stands apart, so that the compiler knows what effects cannot touch.
+    #[inline]
+    pub fn new<const N: usize>(
+        [by_position, by_velocity]: [&'a mut Matrix<N>; 2],
+        imposed: &'a mut [[f64; N]; 2],
+    ) -> Self {
+        Self {
+            n: N,
+            by_position: by_position.as_flattened_mut(),
+            by_velocity: by_velocity.as_flattened_mut(),
+            imposed: imposed.each_mut().map(|row| row.as_mut_slice()),
+        }
+    }
+
     /// Adds to ∂force_i/∂position_j.
     #[inline]
     pub fn position(&mut self, i: usize, j: usize, value: f64) {

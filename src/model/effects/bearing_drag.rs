@@ -3,41 +3,27 @@
 //! The three parts of the SKF model in their plainest form: load-independent bearing torque, viscous drag, and churning
 //! with the square of the speed (ISO/TR 14179-1).
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, DEG_PER_S};
-use crate::declaration::{Parameter, Row, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::scene::Plan;
 
-/// Drag of bearings and oil.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BearingDragSpec {
-    /// Load-independent bearing torque on the carrier [N·m].
-    pub carrier_torque: f64,
-    /// Viscous drag on the carrier [N·m·s/rad].
-    pub carrier_viscous: f64,
-    /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
-    pub carrier_churning: f64,
-    /// Load-independent bearing torque on each side gear [N·m].
-    pub side_torque: f64,
-    /// Viscous drag on each side gear [N·m·s/rad].
-    pub side_viscous: f64,
-    /// Speed at which bearing torque has built up [rad/s].
-    pub breakaway_speed: f64,
-}
-
-impl Default for BearingDragSpec {
-    fn default() -> Self {
-        Self {
-            carrier_torque: 0.5,
-            carrier_viscous: 5e-3,
-            carrier_churning: 1e-4,
-            side_torque: 0.2,
-            side_viscous: 1e-3,
-            breakaway_speed: 0.1,
-        }
+spec! {
+    /// Drag of bearings and oil.
+    pub struct BearingDragSpec {
+        /// Load-independent bearing torque on the carrier [N·m].
+        pub carrier_torque: f64 = 0.5,
+        /// Viscous drag on the carrier [N·m·s/rad].
+        pub carrier_viscous: f64 = 5e-3,
+        /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
+        pub carrier_churning: f64 = 1e-4,
+        /// Load-independent bearing torque on each side gear [N·m].
+        pub side_torque: f64 = 0.2,
+        /// Viscous drag on each side gear [N·m·s/rad].
+        pub side_viscous: f64 = 1e-3,
+        /// Speed at which bearing torque has built up [rad/s].
+        pub breakaway_speed: f64 = 0.1,
     }
 }
 
@@ -48,57 +34,34 @@ impl Declare for BearingDragSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "bearing_drag.carrier_torque",
+            row("bearing_drag.carrier_torque", "Load-independent bearing torque on the carrier").real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e4),
                 |p| &mut p.carrier_torque,
-                "Load-independent bearing torque on the carrier",
             ),
-            real(
-                "bearing_drag.carrier_viscous",
+            row("bearing_drag.carrier_viscous", "Viscous drag on the carrier").real(
                 units::NMS_PER_RAD,
-                None,
                 (0.0, 1e3),
                 |p| &mut p.carrier_viscous,
-                "Viscous drag on the carrier",
             ),
-            real(
-                "bearing_drag.carrier_churning",
+            row("bearing_drag.carrier_churning", "Churning of oil by the carrier, with the square of its speed").real(
                 units::NMS2_PER_RAD2,
-                None,
                 (0.0, 1e2),
                 |p| &mut p.carrier_churning,
-                "Churning of oil by the carrier, with the square of its speed",
             ),
-            real(
-                "bearing_drag.side_torque",
+            row("bearing_drag.side_torque", "Load-independent bearing torque on each side gear").real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e4),
                 |p| &mut p.side_torque,
-                "Load-independent bearing torque on each side gear",
             ),
-            real(
-                "bearing_drag.side_viscous",
+            row("bearing_drag.side_viscous", "Viscous drag on each side gear").real(
                 units::NMS_PER_RAD,
-                None,
                 (0.0, 1e3),
                 |p| &mut p.side_viscous,
-                "Viscous drag on each side gear",
             ),
-            when(
-                "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0",
-                real(
-                    "bearing_drag.breakaway_speed",
-                    units::RAD_PER_S,
-                    Some(DEG_PER_S),
-                    (1e-6, 1e3),
-                    |p| &mut p.breakaway_speed,
-                    "Speed at which the bearing torque has built up",
-                ),
-            ),
+            row("bearing_drag.breakaway_speed", "Speed at which the bearing torque has built up")
+                .when("bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0")
+                .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
         ]
     }
 }

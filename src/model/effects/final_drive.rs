@@ -1,28 +1,21 @@
 //! Excitation by the final drive: the carrier's torque or imposed speed varies with the mesh order of the ring gear,
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ) — the first harmonic of a gear pair's mesh excitation.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, integer, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
 use crate::model::scene::Plan;
 use crate::model::scene::layout::CARRIER;
 use crate::numeric::{cos, sin};
 
-/// Excitation by the final drive's ring gear.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct FinalDriveSpec {
-    /// Teeth of the ring gear.
-    pub ring_teeth: i32,
-    /// Amplitude relative to the carrier's command, of torque or of speed.
-    pub amplitude: f64,
-}
-
-impl Default for FinalDriveSpec {
-    fn default() -> Self {
-        Self { ring_teeth: 37, amplitude: 0.02 }
+spec! {
+    /// Excitation by the final drive's ring gear.
+    pub struct FinalDriveSpec {
+        /// Teeth of the ring gear.
+        pub ring_teeth: i32 = 37,
+        /// Amplitude relative to the carrier's command, of torque or of speed.
+        pub amplitude: f64 = 0.02,
     }
 }
 
@@ -31,17 +24,13 @@ impl Declare for FinalDriveSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            when(
-                "final_drive.amplitude > 0",
-                integer("final_drive.ring_teeth", (1, 1000), |p| &mut p.ring_teeth, "Teeth of the ring gear"),
-            ),
-            real(
-                "final_drive.amplitude",
+            row("final_drive.ring_teeth", "Teeth of the ring gear")
+                .when("final_drive.amplitude > 0")
+                .integer((1, 1000), |p| &mut p.ring_teeth),
+            row("final_drive.amplitude", "Amplitude of the excitation relative to the carrier's command").real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.amplitude,
-                "Amplitude of the excitation relative to the carrier's command",
             ),
         ]
     }

@@ -2,27 +2,20 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_p / L.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, DEG};
-use crate::declaration::{Parameter, Row, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
 
-/// Torsion of the half-shafts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct HalfShaftSpec {
-    /// Stiffness, left and right [N·m/rad].
-    pub stiffness: [f64; 2],
-    /// Damping, left and right [N·m·s/rad].
-    pub damping: [f64; 2],
-}
-
-impl Default for HalfShaftSpec {
-    fn default() -> Self {
-        Self { stiffness: [1e4; 2], damping: [5.0; 2] }
+spec! {
+    /// Torsion of the half-shafts.
+    pub struct HalfShaftSpec {
+        /// Stiffness, left and right [N·m/rad].
+        pub stiffness: [f64; 2] = [1e4; 2],
+        /// Damping, left and right [N·m·s/rad].
+        pub damping: [f64; 2] = [5.0; 2],
     }
 }
 
@@ -41,50 +34,18 @@ impl Declare for HalfShaftSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            when(
-                "effects.half_shaft = true or scene.left_drive = speed",
-                real(
-                    "half_shaft.left_stiffness",
-                    units::NM_PER_RAD,
-                    None,
-                    (0.0, 1e9),
-                    |p| &mut p.stiffness[0],
-                    "Torsional stiffness of the left half-shaft",
-                ),
-            ),
-            when(
-                "scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0",
-                real(
-                    "half_shaft.left_damping",
-                    units::NMS_PER_RAD,
-                    None,
-                    (0.0, 1e6),
-                    |p| &mut p.damping[0],
-                    "Torsional damping of the left half-shaft",
-                ),
-            ),
-            when(
-                "effects.half_shaft = true or scene.right_drive = speed",
-                real(
-                    "half_shaft.right_stiffness",
-                    units::NM_PER_RAD,
-                    None,
-                    (0.0, 1e9),
-                    |p| &mut p.stiffness[1],
-                    "Torsional stiffness of the right half-shaft",
-                ),
-            ),
-            when(
-                "scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0",
-                real(
-                    "half_shaft.right_damping",
-                    units::NMS_PER_RAD,
-                    None,
-                    (0.0, 1e6),
-                    |p| &mut p.damping[1],
-                    "Torsional damping of the right half-shaft",
-                ),
-            ),
+            row("half_shaft.left_stiffness", "Torsional stiffness of the left half-shaft")
+                .when("effects.half_shaft = true or scene.left_drive = speed")
+                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[0]),
+            row("half_shaft.left_damping", "Torsional damping of the left half-shaft")
+                .when("scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0")
+                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[0]),
+            row("half_shaft.right_stiffness", "Torsional stiffness of the right half-shaft")
+                .when("effects.half_shaft = true or scene.right_drive = speed")
+                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[1]),
+            row("half_shaft.right_damping", "Torsional damping of the right half-shaft")
+                .when("scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0")
+                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[1]),
         ]
     }
 }
@@ -111,7 +72,7 @@ impl Effect for HalfShaftSpec {
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let shafts = HalfShafts::new(self, plan);
-        plan.ends.then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
+        plan.layout().ends().then(|| Box::new(Twist { shafts, heat: setting.heat }) as Box<dyn BodyEffect>)
     }
 
     fn read(&self, at: &Instant, out: &mut [f64]) {

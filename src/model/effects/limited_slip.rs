@@ -4,31 +4,24 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units;
-use crate::declaration::{Parameter, Row, real, tunable};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
-/// Clutch packs between side gears and carrier.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LimitedSlipSpec {
-    /// Torque of each clutch without load [N·m].
-    pub preload: f64,
-    /// Torque of each clutch per torque of the meshes on its side gear.
-    pub torque_coefficient: f64,
-    /// Torque at which a stuck clutch breaks loose over its sliding torque.
-    pub static_ratio: f64,
-    /// Stiffness of a stuck clutch [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for LimitedSlipSpec {
-    fn default() -> Self {
-        Self { preload: 50.0, torque_coefficient: 0.1, static_ratio: 1.0, stiffness: 1e5 }
+spec! {
+    /// Clutch packs between side gears and carrier.
+    pub struct LimitedSlipSpec {
+        /// Torque of each clutch without load [N·m].
+        pub preload: f64 = 50.0,
+        /// Torque of each clutch per torque of the meshes on its side gear.
+        pub torque_coefficient: f64 = 0.1,
+        /// Torque at which a stuck clutch breaks loose over its sliding torque.
+        pub static_ratio: f64 = 1.0,
+        /// Stiffness of a stuck clutch [N·m/rad].
+        pub stiffness: f64 = 1e5,
     }
 }
 
@@ -46,38 +39,18 @@ impl Declare for LimitedSlipSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            tunable(real(
-                "limited_slip.preload",
+            row("limited_slip.preload", "Torque of each clutch without load").tunable().real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e6),
                 |p| &mut p.preload,
-                "Torque of each clutch without load",
-            )),
-            tunable(real(
-                "limited_slip.torque_coefficient",
-                units::ONE,
-                None,
-                (0.0, 10.0),
-                |p| &mut p.torque_coefficient,
-                "Torque of each clutch per torque of the meshes on its side gear",
-            )),
-            real(
-                "limited_slip.static_ratio",
-                units::ONE,
-                None,
-                (1.0, 10.0),
-                |p| &mut p.static_ratio,
-                "Torque at which a stuck clutch breaks loose over its sliding torque",
             ),
-            real(
-                "limited_slip.stiffness",
-                units::NM_PER_RAD,
-                None,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-                "Stiffness of a stuck clutch",
-            ),
+            row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
+                .tunable()
+                .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
+            row("limited_slip.static_ratio", "Torque at which a stuck clutch breaks loose over its sliding torque")
+                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("limited_slip.stiffness", "Stiffness of a stuck clutch")
+                .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]
     }
 }

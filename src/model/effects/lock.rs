@@ -1,25 +1,18 @@
 //! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
 
-use serde::{Deserialize, Serialize};
-
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units;
-use crate::declaration::{Parameter, Range, Row, command, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
 
-/// A lock between side gears and carrier, by command.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct LockSpec {
-    /// Torque that each side holds at full command [N·m].
-    pub torque: f64,
-    /// Stiffness of each side at full command [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for LockSpec {
-    fn default() -> Self {
-        Self { torque: 5e3, stiffness: 1e6 }
+spec! {
+    /// A lock between side gears and carrier, by command.
+    pub struct LockSpec {
+        /// Torque that each side holds at full command [N·m].
+        pub torque: f64 = 5e3,
+        /// Stiffness of each side at full command [N·m/rad].
+        pub stiffness: f64 = 1e6,
     }
 }
 
@@ -30,30 +23,24 @@ impl Declare for LockSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "lock.torque",
+            row("lock.torque", "Torque that the lock holds on each side at full command").real(
                 units::NEWTON_METRE,
-                None,
                 (0.0, 1e7),
                 |p| &mut p.torque,
-                "Torque that the lock holds on each side at full command",
             ),
-            real(
-                "lock.stiffness",
+            row("lock.stiffness", "Stiffness of the lock on each side at full command").real(
                 units::NM_PER_RAD,
-                None,
                 (1.0, 1e9),
                 |p| &mut p.stiffness,
-                "Stiffness of the lock on each side at full command",
             ),
         ]
     }
 
     fn inputs() -> Vec<Row<InputField>> {
-        let at: InputField = |i| &mut i.lock;
-        let row = command("lock.command", at, "Command of the differential lock: 0 open, 1 locked");
         // a build without effects accepts no command for it
-        vec![Row { range: Some(Range { min: 0.0, max: if BUILT { 1.0 } else { 0.0 } }), ..row }]
+        let most = if BUILT { 1.0 } else { 0.0 };
+        let row = row("lock.command", "Command of the differential lock: 0 open, 1 locked");
+        vec![row.command(units::ONE, most, |i| &mut i.lock)]
     }
 }
 

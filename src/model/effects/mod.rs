@@ -20,7 +20,7 @@ mod wheel_brake;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
-use crate::declaration::{Parameter, Row, switch};
+use crate::declaration::{Parameter, Row, row};
 use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, InputField, Needs, Reading};
 
@@ -132,7 +132,7 @@ macro_rules! effects {
         pub fn switches() -> Vec<Row<Parameter<Effects>>> {
             vec![$(Row {
                 when: <$effect>::WHEN,
-                ..switch(concat!("effects.", stringify!($name)), |e| &mut e.$name, <$effect>::DESCRIPTION)
+                ..row(concat!("effects.", stringify!($name)), <$effect>::DESCRIPTION).switch(|e| &mut e.$name)
             }),+]
         }
 

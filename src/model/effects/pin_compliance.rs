@@ -4,10 +4,8 @@
 //! its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w + τ ẇ). Linear springs
 //! with damping proportional to stiffness.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, N_PER_UM};
-use crate::declaration::{Parameter, Row, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
@@ -16,20 +14,15 @@ use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;
 use crate::problem::Problem;
 
-/// What gives way in series with the teeth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PinComplianceSpec {
-    /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
-    pub pin_stiffness: f64,
-    /// Stiffness of the case against the thrust of a side gear [N/m].
-    pub case_stiffness: f64,
-    /// Damping over stiffness [s].
-    pub damping_time: f64,
-}
-
-impl Default for PinComplianceSpec {
-    fn default() -> Self {
-        Self { pin_stiffness: 5e8, case_stiffness: 1e9, damping_time: 1e-6 }
+spec! {
+    /// What gives way in series with the teeth.
+    pub struct PinComplianceSpec {
+        /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
+        pub pin_stiffness: f64 = 5e8,
+        /// Stiffness of the case against the thrust of a side gear [N/m].
+        pub case_stiffness: f64 = 1e9,
+        /// Damping over stiffness [s].
+        pub damping_time: f64 = 1e-6,
     }
 }
 
@@ -47,29 +40,20 @@ impl Declare for PinComplianceSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "pin_compliance.pin_stiffness",
-                units::N_PER_M,
-                Some(N_PER_UM),
+            row("pin_compliance.pin_stiffness", "Stiffness of a pin against the tangential force of its planet").real(
+                (units::N_PER_M, N_PER_UM),
                 (1e3, 1e13),
                 |p| &mut p.pin_stiffness,
-                "Stiffness of a pin against the tangential force of its planet",
             ),
-            real(
-                "pin_compliance.case_stiffness",
-                units::N_PER_M,
-                Some(N_PER_UM),
+            row("pin_compliance.case_stiffness", "Stiffness of the case against the thrust of a side gear").real(
+                (units::N_PER_M, N_PER_UM),
                 (1e3, 1e13),
                 |p| &mut p.case_stiffness,
-                "Stiffness of the case against the thrust of a side gear",
             ),
-            real(
-                "pin_compliance.damping_time",
+            row("pin_compliance.damping_time", "Damping over stiffness of pins and case").real(
                 units::SECOND,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.damping_time,
-                "Damping over stiffness of pins and case",
             ),
         ]
     }

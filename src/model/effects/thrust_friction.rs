@@ -11,10 +11,8 @@
 //! constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). Of the study's gears the rule gives 8.0,
 //! 13.5 and 22.8 mm, where the start values are 8, 14 and 22 mm.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, real, switch, tunable, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
@@ -31,36 +29,23 @@ const ROUNDING: f64 = 1e-9;
 /// Millimetres per metre.
 const PER_MM: f64 = 1e3;
 
-/// Friction of thrust washers and pins.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ThrustFrictionSpec {
-    /// Coefficient of the thrust washers μ_w.
-    pub coefficient: f64,
-    /// Coefficient of the pins μ_p.
-    pub pin_coefficient: f64,
-    /// Radii from the gears; otherwise as given below.
-    pub radii_from_geometry: bool,
-    /// Radius of the pins [m], if not from the gears.
-    pub pin_radius: f64,
-    /// Mean radius of the planets' washers [m], if not from the gears.
-    pub planet_washer_radius: f64,
-    /// Mean radius of the side gears' washers [m], if not from the gears.
-    pub side_washer_radius: f64,
-    /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
-    pub stiffness: f64,
-}
-
-impl Default for ThrustFrictionSpec {
-    fn default() -> Self {
-        Self {
-            coefficient: 0.05,
-            pin_coefficient: 0.05,
-            radii_from_geometry: false,
-            pin_radius: 8e-3,
-            planet_washer_radius: 14e-3,
-            side_washer_radius: 22e-3,
-            stiffness: 1e5,
-        }
+spec! {
+    /// Friction of thrust washers and pins.
+    pub struct ThrustFrictionSpec {
+        /// Coefficient of the thrust washers μ_w.
+        pub coefficient: f64 = 0.05,
+        /// Coefficient of the pins μ_p.
+        pub pin_coefficient: f64 = 0.05,
+        /// Radii from the gears; otherwise as given below.
+        pub radii_from_geometry: bool = false,
+        /// Radius of the pins [m], if not from the gears.
+        pub pin_radius: f64 = 8e-3,
+        /// Mean radius of the planets' washers [m], if not from the gears.
+        pub planet_washer_radius: f64 = 14e-3,
+        /// Mean radius of the side gears' washers [m], if not from the gears.
+        pub side_washer_radius: f64 = 22e-3,
+        /// Stiffness against turning before a side gear's washer slips [N·m/rad]; planets by the square of the gear ratio.
+        pub stiffness: f64 = 1e5,
     }
 }
 
@@ -79,69 +64,42 @@ impl Declare for ThrustFrictionSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            tunable(real(
-                "thrust_friction.coefficient",
+            row("thrust_friction.coefficient", "Coefficient of friction of the thrust washers").tunable().real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.coefficient,
-                "Coefficient of friction of the thrust washers",
-            )),
-            tunable(real(
-                "thrust_friction.pin_coefficient",
+            ),
+            row("thrust_friction.pin_coefficient", "Coefficient of friction of the pins").tunable().real(
                 units::ONE,
-                None,
                 (0.0, 1.0),
                 |p| &mut p.pin_coefficient,
-                "Coefficient of friction of the pins",
-            )),
-            switch(
+            ),
+            row(
                 "thrust_friction.radii_from_geometry",
-                |p| &mut p.radii_from_geometry,
                 "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
                  heel; false: as given",
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.pin_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.pin_radius,
-                    "Radius of the pins, if not from geometry",
-                ),
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.planet_washer_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.planet_washer_radius,
-                    "Mean radius of the planets' thrust washers, if not from geometry",
-                ),
-            ),
-            when(
-                "thrust_friction.radii_from_geometry = false",
-                real(
-                    "thrust_friction.side_washer_radius",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1.0),
-                    |p| &mut p.side_washer_radius,
-                    "Mean radius of the side gears' thrust washers, if not from geometry",
-                ),
-            ),
-            real(
+            )
+            .switch(|p| &mut p.radii_from_geometry),
+            row("thrust_friction.pin_radius", "Radius of the pins, if not from geometry")
+                .when("thrust_friction.radii_from_geometry = false")
+                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
+            row(
+                "thrust_friction.planet_washer_radius",
+                "Mean radius of the planets' thrust washers, if not from geometry",
+            )
+            .when("thrust_friction.radii_from_geometry = false")
+            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
+            row(
+                "thrust_friction.side_washer_radius",
+                "Mean radius of the side gears' thrust washers, if not from geometry",
+            )
+            .when("thrust_friction.radii_from_geometry = false")
+            .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
+            row(
                 "thrust_friction.stiffness",
-                units::NM_PER_RAD,
-                None,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
                 "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
-            ),
+            )
+            .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
         ]
     }
 }

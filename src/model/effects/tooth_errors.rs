@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::contact::errors::{ToothErrorSpec, ToothErrors, pitch};
 use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, DEG, UM};
-use crate::declaration::{Parameter, Row, integer, real, switch, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
@@ -21,115 +21,62 @@ impl Declare for ToothErrorSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            integer(
+            row(
                 "tooth_errors.accuracy_grade",
-                (0, 11),
-                |p| &mut p.accuracy_grade,
                 "Accuracy grade of the pitch by ISO 17485, 2 to 11; 0 = no pitch deviations",
-            ),
-            when(
-                "tooth_errors.accuracy_grade > 0 or tooth_errors.planet_runout > 0 or tooth_errors.side_runout > 0",
-                integer(
-                    "tooth_errors.seed",
-                    (-2147483648, 2147483647),
-                    |p| &mut p.seed,
-                    "Seed of individual pitch deviations and of the phases of runout",
-                ),
-            ),
-            when(
-                "tooth_errors.runout_by_grade = false",
-                real(
-                    "tooth_errors.planet_runout",
-                    units::METRE,
-                    Some(UM),
-                    (0.0, 1e-3),
-                    |p| &mut p.planet_runout,
-                    "Radial runout of each planet, peak to peak",
-                ),
-            ),
-            when(
-                "tooth_errors.runout_by_grade = false",
-                real(
-                    "tooth_errors.side_runout",
-                    units::METRE,
-                    Some(UM),
-                    (0.0, 1e-3),
-                    |p| &mut p.side_runout,
-                    "Radial runout of each side gear, peak to peak",
-                ),
-            ),
-            switch(
-                "tooth_errors.runout_by_grade",
-                |p| &mut p.runout_by_grade,
-                "Runout of all gears is the tolerance of the accuracy grade",
-            ),
-            real(
-                "tooth_errors.planet_tip_relief",
-                units::METRE,
-                Some(UM),
+            )
+            .integer((0, 11), |p| &mut p.accuracy_grade),
+            row("tooth_errors.seed", "Seed of individual pitch deviations and of the phases of runout")
+                .when(
+                    "tooth_errors.accuracy_grade > 0 or tooth_errors.planet_runout > 0 or tooth_errors.side_runout > 0",
+                )
+                .integer((-2147483648, 2147483647), |p| &mut p.seed),
+            row("tooth_errors.planet_runout", "Radial runout of each planet, peak to peak")
+                .when("tooth_errors.runout_by_grade = false")
+                .real((units::METRE, UM), (0.0, 1e-3), |p| &mut p.planet_runout),
+            row("tooth_errors.side_runout", "Radial runout of each side gear, peak to peak")
+                .when("tooth_errors.runout_by_grade = false")
+                .real((units::METRE, UM), (0.0, 1e-3), |p| &mut p.side_runout),
+            row("tooth_errors.runout_by_grade", "Runout of all gears is the tolerance of the accuracy grade")
+                .switch(|p| &mut p.runout_by_grade),
+            row("tooth_errors.planet_tip_relief", "Tip relief of the planets along the line of action").real(
+                (units::METRE, UM),
                 (0.0, 1e-3),
                 |p| &mut p.planet_tip_relief,
-                "Tip relief of the planets along the line of action",
             ),
-            real(
-                "tooth_errors.side_tip_relief",
-                units::METRE,
-                Some(UM),
+            row("tooth_errors.side_tip_relief", "Tip relief of the side gears along the line of action").real(
+                (units::METRE, UM),
                 (0.0, 1e-3),
                 |p| &mut p.side_tip_relief,
-                "Tip relief of the side gears along the line of action",
             ),
-            when(
-                "tooth_errors.planet_tip_relief > 0 or tooth_errors.side_tip_relief > 0",
-                real(
-                    "tooth_errors.relief_length",
-                    units::ONE,
-                    None,
-                    (0.01, 2.0),
-                    |p| &mut p.relief_length,
-                    "Length of both reliefs in base pitches",
-                ),
-            ),
-            real(
+            row("tooth_errors.relief_length", "Length of both reliefs in base pitches")
+                .when("tooth_errors.planet_tip_relief > 0 or tooth_errors.side_tip_relief > 0")
+                .real(units::ONE, (0.01, 2.0), |p| &mut p.relief_length),
+            row(
                 "tooth_errors.crowning",
-                units::METRE,
-                Some(UM),
-                (0.0, 1e-3),
-                |p| &mut p.crowning,
                 "Lengthwise crowning of a pair: gap at both ends of the face relative to its middle",
-            ),
-            real(
+            )
+            .real((units::METRE, UM), (0.0, 1e-3), |p| &mut p.crowning),
+            row(
                 "tooth_errors.shaft_angle_error",
-                units::RADIAN,
-                Some(DEG),
-                (-0.02, 0.02),
-                |p| &mut p.shaft_angle_error,
                 "Each planet axis leans away from the left side gear, toward the right one",
-            ),
-            real(
-                "tooth_errors.planet_axial_offset",
-                units::METRE,
-                Some(UM),
+            )
+            .real((units::RADIAN, DEG), (-0.02, 0.02), |p| &mut p.shaft_angle_error),
+            row("tooth_errors.planet_axial_offset", "Displacement of each planet along its axis, outward").real(
+                (units::METRE, UM),
                 (-1e-3, 1e-3),
                 |p| &mut p.planet_axial_offset,
-                "Displacement of each planet along its axis, outward",
             ),
-            real(
+            row(
                 "tooth_errors.side_axial_offset",
-                units::METRE,
-                Some(UM),
-                (-1e-3, 1e-3),
-                |p| &mut p.side_axial_offset,
                 "Displacement of each side gear along its axis, away from the planets' axes",
-            ),
-            real(
+            )
+            .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.side_axial_offset),
+            row(
                 "tooth_errors.axis_offset",
-                units::METRE,
-                Some(UM),
-                (-1e-3, 1e-3),
-                |p| &mut p.axis_offset,
                 "Displacement of the pins as one body across the side gears' axis, forward at planet 1",
-            ),
+            )
+            .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.axis_offset),
         ]
     }
 }

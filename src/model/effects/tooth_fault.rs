@@ -6,7 +6,7 @@ use crate::contact::ContactLaw;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
 use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, choice, command, integer, real, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
 use crate::model::effect_kinds::teeth::ToothEffects;
 use crate::model::scene::GearContact;
@@ -24,65 +24,33 @@ impl Declare for ToothFaultSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            choice!("tooth_fault.gear", "FaultyGear", ToothFaultSpec, |p| &mut p.gear, "Kind of gear with the broken tooth",
-            FaultyGear::None => "none" "no tooth is broken",
-            FaultyGear::Planet => "planet" "a tooth of a planet",
-            FaultyGear::Side => "side" "a tooth of a side gear"),
-            when(
-                "tooth_fault.gear != none",
-                integer(
-                    "tooth_fault.index",
-                    (0, 3),
-                    |p| &mut p.index,
-                    "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)",
-                ),
+            row("tooth_fault.gear", "Kind of gear with the broken tooth").choice(|p| &mut p.gear),
+            row("tooth_fault.index", "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)")
+                .when("tooth_fault.gear != none")
+                .integer((0, 3), |p| &mut p.index),
+            row("tooth_fault.tooth", "Number of the broken tooth from 0")
+                .when("tooth_fault.gear != none")
+                .integer((0, 199), |p| &mut p.tooth),
+            row("tooth_fault.missing_fraction", "Missing part of the face width from the heel inward")
+                .when("tooth_fault.gear != none and contact.law = line|line_weber")
+                .real(units::ONE, (0.0, 1.0), |p| &mut p.missing_fraction),
+            row("tooth_fault.depth", "Depth removed along the line of action").when("tooth_fault.gear != none").real(
+                (units::METRE, MM),
+                (0.0, 1e-2),
+                |p| &mut p.depth,
             ),
-            when(
-                "tooth_fault.gear != none",
-                integer("tooth_fault.tooth", (0, 199), |p| &mut p.tooth, "Number of the broken tooth from 0"),
-            ),
-            when(
-                "tooth_fault.gear != none and contact.law = line|line_weber",
-                real(
-                    "tooth_fault.missing_fraction",
-                    units::ONE,
-                    None,
-                    (0.0, 1.0),
-                    |p| &mut p.missing_fraction,
-                    "Missing part of the face width from the heel inward",
-                ),
-            ),
-            when(
-                "tooth_fault.gear != none",
-                real(
-                    "tooth_fault.depth",
-                    units::METRE,
-                    Some(MM),
-                    (0.0, 1e-2),
-                    |p| &mut p.depth,
-                    "Depth removed along the line of action",
-                ),
-            ),
-            when(
-                "tooth_fault.gear != none",
-                real(
-                    "tooth_fault.onset",
-                    units::SECOND,
-                    None,
-                    (0.0, 1e9),
-                    |p| &mut p.onset,
-                    "Time at which the piece breaks off; 0 = by fault.trigger alone",
-                ),
-            ),
+            row("tooth_fault.onset", "Time at which the piece breaks off; 0 = by fault.trigger alone")
+                .when("tooth_fault.gear != none")
+                .real(units::SECOND, (0.0, 1e9), |p| &mut p.onset),
         ]
     }
 
     fn inputs() -> Vec<Row<InputField>> {
-        let at: InputField = |i| &mut i.fault;
-        vec![when(
-            "tooth_fault.gear != none",
-            command("fault.trigger", at, "Breaks the tooth of effects.tooth_fault when it rises above 0.5"),
-        )]
+        vec![
+            row("fault.trigger", "Breaks the tooth of effects.tooth_fault when it rises above 0.5")
+                .when("tooth_fault.gear != none")
+                .command(units::ONE, 1.0, |i| &mut i.fault),
+        ]
     }
 }
 

@@ -2,8 +2,8 @@
 
 use crate::contact::tooth_friction;
 use crate::declaration::units::{self, MPA_S, UM};
-use crate::declaration::{Parameter, Row, choice, real, tunable, when};
-use crate::friction::{FrictionLaw, ToothFrictionSpec};
+use crate::declaration::{Parameter, Row, row};
+use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
 use crate::model::effect_kinds::teeth::FlankFriction;
 use crate::model::scene::GearContact;
@@ -20,85 +20,31 @@ impl Declare for ToothFrictionSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            choice!("tooth_friction.law", "FrictionLaw", ToothFrictionSpec, |p| &mut p.law, "Law of the coefficient of friction between flanks",
-            FrictionLaw::CoulombStribeck => "coulomb_stribeck" "given coefficient with a Stribeck peak if wanted",
-            FrictionLaw::BenedictKelley => "benedict_kelley" "local coefficient of Benedict and Kelley (1961)",
-            FrictionLaw::Iso14179 => "iso_14179" "mean coefficient of ISO/TR 14179-2",
-            FrictionLaw::XuKahraman => "xu_kahraman" "Xu and Kahraman (2007)"),
-            tunable(when(
-                "tooth_friction.law = coulomb_stribeck",
-                real(
-                    "tooth_friction.coefficient",
-                    units::ONE,
-                    None,
-                    (0.0, 0.3),
-                    |p| &mut p.coefficient,
-                    "Kinetic coefficient of friction of the flanks",
-                ),
-            )),
-            when(
-                "tooth_friction.law = coulomb_stribeck",
-                real(
-                    "tooth_friction.static_ratio",
-                    units::ONE,
-                    None,
-                    (1.0, 10.0),
-                    |p| &mut p.static_ratio,
-                    "Static over kinetic coefficient; 1 = no Stribeck peak",
-                ),
-            ),
-            when(
-                "tooth_friction.law = coulomb_stribeck and tooth_friction.static_ratio > 1",
-                real(
-                    "tooth_friction.stribeck_speed",
-                    units::M_PER_S,
-                    None,
-                    (1e-6, 100.0),
-                    |p| &mut p.stribeck_speed,
-                    "Sliding speed at which the Stribeck peak has fallen to 1/e",
-                ),
-            ),
-            real(
-                "tooth_friction.regularisation_speed",
+            row("tooth_friction.law", "Law of the coefficient of friction between flanks").choice(|p| &mut p.law),
+            row("tooth_friction.coefficient", "Kinetic coefficient of friction of the flanks")
+                .tunable()
+                .when("tooth_friction.law = coulomb_stribeck")
+                .real(units::ONE, (0.0, 0.3), |p| &mut p.coefficient),
+            row("tooth_friction.static_ratio", "Static over kinetic coefficient; 1 = no Stribeck peak")
+                .when("tooth_friction.law = coulomb_stribeck")
+                .real(units::ONE, (1.0, 10.0), |p| &mut p.static_ratio),
+            row("tooth_friction.stribeck_speed", "Sliding speed at which the Stribeck peak has fallen to 1/e")
+                .when("tooth_friction.law = coulomb_stribeck and tooth_friction.static_ratio > 1")
+                .real(units::M_PER_S, (1e-6, 100.0), |p| &mut p.stribeck_speed),
+            row("tooth_friction.regularisation_speed", "Sliding speed over which friction changes its sign").real(
                 units::M_PER_S,
-                None,
                 (1e-6, 1.0),
                 |p| &mut p.regularisation_speed,
-                "Sliding speed over which friction changes its sign",
             ),
-            when(
-                "tooth_friction.law != coulomb_stribeck",
-                real(
-                    "tooth_friction.oil_viscosity",
-                    units::PA_S,
-                    Some(MPA_S),
-                    (1e-5, 100.0),
-                    |p| &mut p.oil_viscosity,
-                    "Dynamic viscosity of the oil where it enters the mesh",
-                ),
-            ),
-            when(
-                "tooth_friction.law = iso_14179",
-                real(
-                    "tooth_friction.lubricant_factor",
-                    units::ONE,
-                    None,
-                    (0.1, 3.0),
-                    |p| &mut p.lubricant_factor,
-                    "Lubricant factor X_L of ISO/TR 14179-2",
-                ),
-            ),
-            when(
-                "tooth_friction.law != coulomb_stribeck",
-                real(
-                    "tooth_friction.roughness",
-                    units::METRE,
-                    Some(UM),
-                    (0.0, 1e-4),
-                    |p| &mut p.roughness,
-                    "Roughness R_a of the flanks",
-                ),
-            ),
+            row("tooth_friction.oil_viscosity", "Dynamic viscosity of the oil where it enters the mesh")
+                .when("tooth_friction.law != coulomb_stribeck")
+                .real((units::PA_S, MPA_S), (1e-5, 100.0), |p| &mut p.oil_viscosity),
+            row("tooth_friction.lubricant_factor", "Lubricant factor X_L of ISO/TR 14179-2")
+                .when("tooth_friction.law = iso_14179")
+                .real(units::ONE, (0.1, 3.0), |p| &mut p.lubricant_factor),
+            row("tooth_friction.roughness", "Roughness R_a of the flanks")
+                .when("tooth_friction.law != coulomb_stribeck")
+                .real((units::METRE, UM), (0.0, 1e-4), |p| &mut p.roughness),
         ]
     }
 }

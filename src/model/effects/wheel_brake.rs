@@ -8,25 +8,18 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
 //! of a locked mode, so that both wheels may be braked while speeds are imposed.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units;
-use crate::declaration::{Parameter, Range, Row, input, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
 use crate::model::effect_kinds::friction_source::{FrictionSource, WheelFriction};
 use crate::numeric::sqrt;
 
-/// Brakes at the wheels.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct WheelBrakeSpec {
-    /// Stiffness of a brake at standstill [N·m/rad].
-    pub stiffness: f64,
-}
-
-impl Default for WheelBrakeSpec {
-    fn default() -> Self {
-        Self { stiffness: 1e5 }
+spec! {
+    /// Brakes at the wheels.
+    pub struct WheelBrakeSpec {
+        /// Stiffness of a brake at standstill [N·m/rad].
+        pub stiffness: f64 = 1e5,
     }
 }
 
@@ -41,13 +34,10 @@ impl Declare for WheelBrakeSpec {
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![real(
-            "wheel_brake.stiffness",
+        vec![row("wheel_brake.stiffness", "Stiffness of a brake that holds its wheel at standstill").real(
             units::NM_PER_RAD,
-            None,
             (1.0, 1e9),
             |p| &mut p.stiffness,
-            "Stiffness of a brake that holds its wheel at standstill",
         )]
     }
 
@@ -55,19 +45,20 @@ impl Declare for WheelBrakeSpec {
         let torque = |name, at: InputField, description| {
             // a build without effects accepts no brake torque
             let max = if BUILT { MAX_TORQUE } else { 0.0 };
-            let row = input(name, units::NEWTON_METRE, None, MAX_TORQUE, at, description);
-            Row { range: Some(Range { min: 0.0, max }), ..row }
+            row(name, description).command(units::NEWTON_METRE, max, at)
         };
         vec![
             torque(
                 "left.brake_torque",
                 |i| &mut i.brake_torque[0],
-                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
+                 at standstill",
             ),
             torque(
                 "right.brake_torque",
                 |i| &mut i.brake_torque[1],
-                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel at standstill",
+                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
+                 at standstill",
             ),
         ]
     }

@@ -172,7 +172,7 @@ pub fn pair_lines(
         let force = |own: &Option<Gathered>| own.as_ref().map_or(0.0, |own| own.force);
         force(b).total_cmp(&force(a))
     });
-    let grows = matches!(mesh.law, Law::Line(_) | Law::LineWeber(_));
+    let grows = mesh.law.is_over_face();
     let mut count = 0;
     for (line, own) in lines.iter_mut().zip(gathered.iter().flatten()) {
         *line = own.line(contact, grows);

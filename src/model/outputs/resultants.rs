@@ -5,11 +5,11 @@ use super::mesh_forces::MeshForces;
 use crate::contact::tooth_load::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::ideal::Ideal;
 use crate::model::assembly::model::Model;
 use crate::model::assembly::teeth::SIGMA;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::rigid_equations::RigidEquations;
+use crate::model::dynamics::rigid_equations::{RigidEquations, RigidTorques};
 use crate::model::dynamics::sizes::{LARGEST, Largest};
 use crate::model::dynamics::state::State;
 use crate::model::effect_kinds::body_effect::Bodies;
@@ -55,7 +55,7 @@ fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat
     out.power_in = out.carrier_torque * v[CARRIER] + out.spin_torque * v[plan.layout().planet(0)];
     out.power_out = out.shaft_torque[0] * ends[0] + out.shaft_torque[1] * ends[1];
     out.power_loss = heat;
-    let torque = state.bias.mean().filter(|_| plan.ends).unwrap_or(out.shaft_torque);
+    let torque = state.bias.mean().filter(|_| plan.layout().ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
 }
 
@@ -149,9 +149,9 @@ impl Largest<'_> {
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.inputs.carrier_torque + power.drive
+            self.acting.inputs.carrier_torque + power.drive
         };
-        let inertial = self.teeth.inertia[self.planet(0)] * self.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * self.acting.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut power);
@@ -179,53 +179,48 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
     add_up(out, planets);
 }
 
-/// Forces of the ideal differential.
-pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
-    let (pair, ideal): (&Pair, &Ideal) = (&model.pair, &model.ideal);
-    let motion = ideal.motion(inputs);
-    let side_acceleration = ideal.side_accelerations(&motion);
-    let inertia = &ideal.inertia;
+/// Forces of gears without teeth from the accelerations of carrier and sides, and torques.
+fn without_teeth(
+    model: &Model,
+    (inputs, state): (&Inputs, &State),
+    (carrier_acceleration, side_acceleration): (f64, [f64; 2]),
+    (torques, shaft_torque): (&RigidTorques, [f64; 2]),
+    heat: f64,
+) -> Forces {
+    let plan = &model.ideal.plan;
+    let (carrier_torque, spin_torque) = (torques.carrier, torques.spin);
     let mut out = Forces {
-        carrier_acceleration: motion.carrier,
+        carrier_acceleration,
         side_acceleration,
-        carrier_torque: motion.carrier_torque,
-        spin_torque: motion.spin_torque,
+        carrier_torque,
+        spin_torque,
+        shaft_torque,
         has_parts: true,
         ..Forces::default()
     };
-    for s in 0..2 {
-        out.shaft_torque[s] = inputs.load_torque[s] + inertia.end[s] * side_acceleration[s];
-    }
     read_effects(&mut out, model, inputs, state);
-    let torque = [0, 1].map(|s| inputs.load_torque[s] + inertia.side[s] * side_acceleration[s]);
-    pitch_point_meshes(&mut out, pair, ideal.plan.planets, torque);
-    add_powers(&mut out, &ideal.plan, state, [state.v[0], state.v[1]], 0.0);
+    pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
+    add_powers(&mut out, plan, state, end_speeds(plan, state), heat);
     out
+}
+
+/// Forces of the ideal differential.
+pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
+    let (ideal, inertia) = (&model.ideal, &model.ideal.inertia);
+    let motion = ideal.motion(inputs);
+    let a = ideal.side_accelerations(&motion);
+    let with = |inertia: &[f64; 2]| [0, 1].map(|s| inputs.load_torque[s] + inertia[s] * a[s]);
+    let torques = RigidTorques { carrier: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
+    without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), 0.0)
 }
 
 /// Forces of the ideal differential with effects on bodies.
 pub fn rigid_forces(model: &Model, equations: &RigidEquations, inputs: &Inputs, state: &State) -> Forces {
     let (plan, point) = (&model.ideal.plan, &state.point());
     let (a, power) = equations.evaluate(point);
-    let torques = equations.torques(point);
-    let mut out = Forces {
-        carrier_acceleration: a[CARRIER],
-        side_acceleration: [a[0], a[1]],
-        carrier_torque: torques.carrier,
-        spin_torque: torques.spin,
-        has_parts: true,
-        ..Forces::default()
-    };
     let brakes = equations.brake_torques(point);
-    for s in 0..2 {
-        out.shaft_torque[s] = if plan.shafts[s] {
-            power.shaft[s]
-        } else {
-            inputs.load_torque[s] + brakes[s] + equations.rigid.rigid_end[s] * a[s]
-        };
-    }
-    read_effects(&mut out, model, inputs, state);
-    pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
-    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&power.heat));
-    out
+    let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.rigid.rigid_end[s] * a[s];
+    let shafts = [0, 1].map(|s| if plan.shafts[s] { power.shaft[s] } else { by_rigid(s) });
+    let heat = lost(&power.heat);
+    without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&equations.torques(point), shafts), heat)
 }

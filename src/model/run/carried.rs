@@ -85,10 +85,8 @@ fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
 /// Torques of effects, such as drag, on side gears and carrier at the speeds of `state`, before anything is wound up [N·m].
 fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
     let (q, mut v) = ([0.0; MAX_DOF], state.v);
-    if model.layout.ends {
-        for s in 0..2 {
-            v[model.layout.end(s)] = v[s];
-        }
+    for (i, to) in model.layout.attached() {
+        v[i] = v[to];
     }
     let bodies = Bodies { q: &q, v: &v, layout: &model.layout, inputs, input_rates: &Inputs::ZERO };
     let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);

@@ -4,6 +4,7 @@ use super::imposed;
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::model::Model;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::dynamics::state::State;
 use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
@@ -39,7 +40,7 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
         equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
-        state.friction = equations.friction_state;
+        state.friction = equations.acting().friction_state;
     });
 }
 

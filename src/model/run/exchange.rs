@@ -14,9 +14,10 @@ use super::timeline::{breaks_tooth, next_change};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Gears;
 use crate::model::dynamics::accepted::Accepted;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::sizes::{Largest, with_equations};
 use crate::model::dynamics::state::State;
-use crate::model::scene::layout::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
 use crate::model::scene::{InputDerivatives, Inputs, Plan};
 
 /// A body with a position and a velocity among the states.
@@ -32,30 +33,31 @@ pub enum Body {
     Planet(usize),
     /// Pin; its angle is counted from the carrier, its speed is not.
     Pin(usize),
-    /// Wheel-side end of a half-shaft; its position is the twist, its speed its own.
-    End(usize),
+    /// Attached body, such as the wheel-side end of a half-shaft; its position is the twist, its speed its own.
+    Attached(usize),
 }
 
 /// The bodies, in the order of the states.
 pub const BODIES: [Body; MAX_DOF] = {
     use Body::*;
-    [
-        Side(0),
-        Side(1),
-        Carrier,
-        Seat(0),
-        Seat(1),
-        Planet(0),
-        Planet(1),
-        Planet(2),
-        Planet(3),
-        Pin(0),
-        Pin(1),
-        Pin(2),
-        Pin(3),
-        End(0),
-        End(1),
-    ]
+    let mut all = [Carrier; MAX_DOF];
+    let pairs = [(0, Side(0)), (1, Side(1)), (3, Seat(0)), (4, Seat(1))];
+    let mut i = 0;
+    while i < pairs.len() {
+        all[pairs[i].0] = pairs[i].1;
+        i += 1;
+    }
+    i = 0;
+    while i < MAX_PLANETS {
+        (all[5 + i], all[5 + MAX_PLANETS + i]) = (Planet(i), Pin(i));
+        i += 1;
+    }
+    i = 5 + 2 * MAX_PLANETS;
+    while i < MAX_DOF {
+        all[i] = Attached(i - 5 - 2 * MAX_PLANETS);
+        i += 1;
+    }
+    all
 };
 
 /// States: positions of all bodies, then their velocities.
@@ -75,7 +77,7 @@ impl Body {
             Self::Seat(s) => plan.pins.then(|| layout.seat(s)),
             Self::Planet(i) => (i < plan.planets).then(|| layout.planet(plan.group_of[i])),
             Self::Pin(i) => (plan.pins && i < plan.planets).then(|| layout.pin(plan.group_of[i])),
-            Self::End(s) => plan.shafts[s].then(|| layout.end(s)),
+            Self::Attached(k) => plan.attached(k),
         }
     }
 }
@@ -206,11 +208,11 @@ impl Simulation {
                         &mut Records { begin: from.time, work, heat, bias, watched },
                     );
                 }
-                let mut anchors = equations.friction_state().map(|state| state.anchor);
-                equations.drag(&end, &last, &mut anchors);
-                equations.anchor(&anchors);
-                is_due = equations.is_due(&end, 0.0);
-                state.friction = *equations.friction_state();
+                let mut anchors = equations.acting().anchors();
+                equations.drag_anchors(&end, &last, &mut anchors);
+                equations.acting_mut().anchor(&anchors);
+                is_due = equations.is_friction_due(&end, 0.0);
+                state.friction = equations.acting().friction_state;
                 outcome
             });
             outcome.map_err(|tooth| StepFailure { time: state.time(), message: tooth.message(model) })?;
@@ -243,9 +245,9 @@ impl Simulation {
         state.work += energy(model, inputs, state) - energy(model, inputs, &before);
         update_friction(model, inputs, state);
         with_equations!(model, state, inputs, |equations| {
-            if equations.is_due(&state.point(), 0.0) {
-                equations.settle(&state.point(), 0.0, &mut state.heat);
-                state.friction = *equations.friction_state();
+            if equations.is_friction_due(&state.point(), 0.0) {
+                equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
+                state.friction = equations.acting().friction_state;
             }
         });
         break_tooth(model, inputs, state);

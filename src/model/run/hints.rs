@@ -15,7 +15,7 @@ pub fn stiffer_teeth(p: &Parameters) -> &'static str {
             "use a larger geometry.module, or contact.stiffness_from_hertz = false with a larger contact.stiffness"
         }
         (_, ContactLaw::Impact) => "raise contact.stiffness",
-        (_, ContactLaw::Line | ContactLaw::LineWeber) => from_gears,
+        _ => from_gears,
     }
 }
 

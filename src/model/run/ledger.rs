@@ -6,14 +6,14 @@ use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::model::Model;
 use crate::model::assembly::rigid::MOST;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
 use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
 use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::watched::Watched;
-use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::scene::layout::{FRICTION_BODIES, LEFT};
+use crate::model::scene::layout::LEFT;
 use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
 
 /// Sums that completed steps add to.
@@ -31,17 +31,7 @@ pub struct Records<'a> {
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
-pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
-    /// State of the dry friction.
-    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES];
-    /// Whether friction is due to switch, `time` [s] after the inputs were set.
-    fn is_due(&self, at: &Point<N>, time: f64) -> bool;
-    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
-    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]);
-    /// Takes dragged anchors over.
-    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]);
-    /// Switches friction where it is due; the energy that its springs lose is heat.
-    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]);
+pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> + Acted<N> {
     /// Returns the tooth that is bent too far, if one is.
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
     /// Records a completed step, with what it was while pending; steps of fixed size and of a host's solver never were.
@@ -49,30 +39,6 @@ pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> {
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for Equations<'_, N, G, WITH_EFFECTS> {
-    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
-        &self.friction_state
-    }
-
-    #[inline]
-    fn is_due(&self, at: &Point<N>, time: f64) -> bool {
-        WITH_EFFECTS && self.is_friction_due(at, time)
-    }
-
-    #[inline]
-    fn drag(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
-        if WITH_EFFECTS {
-            self.drag_anchors(at, power, anchors);
-        }
-    }
-
-    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
-        self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
-    }
-
-    fn settle(&mut self, at: &Point<N>, time: f64, heat: &mut [f64; HEATS]) {
-        self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
-    }
-
     #[inline]
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection> {
         let (approach, g, side) = self.deepest(at);
@@ -101,26 +67,6 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for E
 }
 
 impl Recorded<MOST> for RigidEquations<'_> {
-    fn friction_state(&self) -> &[FrictionState; FRICTION_BODIES] {
-        &self.friction_state
-    }
-
-    fn is_due(&self, at: &Point<MOST>, time: f64) -> bool {
-        self.is_friction_due(at, time)
-    }
-
-    fn drag(&self, at: &Point<MOST>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
-        self.drag_anchors(at, power, anchors);
-    }
-
-    fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
-        self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
-    }
-
-    fn settle(&mut self, at: &Point<MOST>, time: f64, heat: &mut [f64; HEATS]) {
-        self.settle_friction(at, time, 0..FRICTION_BODIES, heat);
-    }
-
     fn admit(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
         Ok(())
     }

@@ -100,7 +100,7 @@ impl Simulation {
     fn forces_with(&mut self, parts: bool) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| parts && !forces.has_parts) {
             let mut shown = self.present();
-            if self.model.ideal.plan.ends && self.state.ahead.is_some() {
+            if self.model.layout.ends() && self.state.ahead.is_some() {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }

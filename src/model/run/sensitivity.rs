@@ -9,6 +9,7 @@ use super::imposed::{add_impulse, body_effects, imposed_speeds};
 use super::simulation::Simulation;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::model::Gears;
+use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::ledger_readings::LedgerReadings;

@@ -52,10 +52,12 @@ pub fn speeds(model: &Model, inputs: &Inputs, state: &mut State) {
         if follow {
             v[s] = carrier + SIGMA[s] * ratio * spin;
         }
-        if layout.ends {
-            let own = plan.shafts[s] && plan.side_imposed[s];
-            v[layout.end(s)] = if own { inputs.side_speed[s] } else { v[s] };
-        }
+    }
+    for (i, to) in layout.attached() {
+        v[i] = v[to];
+    }
+    for s in (0..2).filter(|&s| plan.shafts[s] && plan.side_imposed[s]) {
+        v[layout.end(s)] = inputs.side_speed[s];
     }
 }
 

@@ -18,7 +18,7 @@ use crate::model::dynamics::rigid_equations::RigidEquations;
 use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LARGEST, LEAST};
 use crate::model::dynamics::state::State;
 use crate::model::dynamics::watched::Watched;
-use crate::model::scene::layout::MAX_GROUPS;
+use crate::model::scene::layout::{FRICTION_BODIES, MAX_GROUPS};
 use crate::model::scene::{Inputs, Method};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
@@ -106,13 +106,13 @@ pub fn integrate_teeth(
         };
     }
     let is_default = method == Method::Adaptive;
-    match teeth.layout.count() {
-        0..=LEAST if is_default || method == Method::FixedStep => {
+    match (teeth.layout.groups, teeth.layout.plain()) {
+        (1, Some(false)) if is_default || method == Method::FixedStep => {
             whole::<LEAST, 1, true>(teeth, model, state, stretch, budget)
         }
-        DIFFERENT if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
-        EXACT if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
-        0..=MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
+        (2, Some(false)) if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
+        (1, Some(true)) if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
+        _ if teeth.layout.count() <= MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
         _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
     }
 }
@@ -168,7 +168,7 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
     let longest = if clock.now < clock.end { STRETCH } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
-    let mut anchors = equations.friction_state().map(|state| state.anchor);
+    let mut anchors = equations.acting().anchors();
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, work, heat, bias, .. } = state;
@@ -178,8 +178,8 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
                 equations.admit(step.end)?;
             }
             equations.record(model, (&step, pending), &mut records);
-            equations.drag(step.end, &step.power[2], &mut anchors);
-            switched = equations.is_due(step.end, step.time);
+            equations.drag_anchors(step.end, &step.power[2], &mut anchors);
+            switched = equations.is_friction_due(step.end, step.time);
             Ok(if switched || step.time >= longest { AfterStep::Stop } else { AfterStep::Continue })
         };
         let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
@@ -199,14 +199,14 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
                 }),
             },
         };
-        equations.anchor(&anchors);
+        equations.acting_mut().anchor(&anchors);
         if switched {
-            equations.settle(&course.point, course.time, &mut state.heat);
-            anchors = equations.friction_state().map(|state| state.anchor);
+            equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
+            anchors = equations.acting().anchors();
             switched = course.time < longest && course.end - course.time > RESOLUTION;
         }
     }
-    state.friction = *equations.friction_state();
+    state.friction = equations.acting().friction_state;
     state.set_point(&course.point);
     clock.time = course.time;
     match &course.pending {

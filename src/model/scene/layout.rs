@@ -1,11 +1,14 @@
 //! Degrees of freedom: how many there can be, and the index of each.
 
+use super::attached::{self, ATTACHED, ENDS};
+
 /// Largest number of planets.
 pub const MAX_PLANETS: usize = 4;
 /// Largest number of groups of planets: each planet a group.
 pub const MAX_GROUPS: usize = MAX_PLANETS;
-/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, ends.
-pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + 2;
+/// Largest number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, and
+/// what is attached to these.
+pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + attached::COUNT;
 /// Number of bodies with dry friction: side gears, groups of planets, wheels.
 pub const FRICTION_BODIES: usize = FRICTION_WHEELS + 2;
 /// Index of the first group of planets among them.
@@ -20,8 +23,8 @@ pub const CARRIER: usize = 2;
 /// Index of the planets of a scene without pins that move; positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
-/// Index of each degree of freedom: side gears, carrier, [axial seats of the side gears], planets, [their pins],
-/// [ends of the half-shafts].
+/// Index of each degree of freedom: side gears, carrier, [axial seats of the side gears], planets, [their pins], [ends of the
+/// half-shafts], [what else is attached].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// Groups of planets (1, 2 or 4; the last of four may have no members).
@@ -30,8 +33,8 @@ pub struct Layout {
     pub members: [f64; MAX_GROUPS],
     /// Whether pins and seats move.
     pub pins: bool,
-    /// Whether half-shafts have ends.
-    pub ends: bool,
+    /// Which bodies are attached, of `ATTACHED`.
+    pub attached: [bool; attached::COUNT],
 }
 
 impl Layout {
@@ -58,12 +61,37 @@ impl Layout {
     /// Index of the end of the half-shaft of side `s`.
     #[inline]
     pub fn end(&self, s: usize) -> usize {
-        self.planet(self.groups * if self.pins { 2 } else { 1 } + s)
+        self.body(s)
+    }
+    /// Index of attached body `k`.
+    #[inline]
+    pub fn body(&self, k: usize) -> usize {
+        let before = self.attached[..k].iter().map(|&is| usize::from(is)).sum::<usize>();
+        self.planet(self.groups * if self.pins { 2 } else { 1 } + before)
+    }
+    /// Indices of the attached bodies and of those that they turn against.
+    pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
+        (0..attached::COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
+    }
+    /// Whether any is attached.
+    #[inline]
+    pub fn is_attached(&self) -> bool {
+        self.attached.contains(&true)
+    }
+    /// Whether half-shafts have ends, which both have then.
+    #[inline]
+    pub fn ends(&self) -> bool {
+        self.attached[0]
+    }
+    /// Whether half-shafts have ends, if no pins and seats move and nothing else is attached.
+    pub fn plain(&self) -> Option<bool> {
+        let others = self.pins || self.attached[ENDS..].contains(&true);
+        (!others).then(|| self.ends())
     }
     /// Degrees of freedom.
     #[inline]
     pub fn count(&self) -> usize {
-        self.end(if self.ends { 2 } else { 0 })
+        self.body(attached::COUNT)
     }
 }
 

@@ -1,31 +1,31 @@
 //! Elastic and mass data, and moments of inertia of the bodies.
 
-use serde::{Deserialize, Serialize};
-
-/// Elastic and mass data of both gears.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Material {
-    /// Young's modulus E [Pa].
-    pub young_modulus: f64,
-    /// Poisson's ratio ν.
-    pub poisson_ratio: f64,
-    /// Density ρ [kg/m³].
-    pub density: f64,
+spec! {
+    /// Elastic and mass data of both gears.
+    pub struct Material {
+        /// Young's modulus E [Pa].
+        pub young_modulus: f64 = 2.07e11,
+        /// Poisson's ratio ν.
+        pub poisson_ratio: f64 = 0.25,
+        /// Density ρ [kg/m³].
+        pub density: f64 = 7800.0,
+    }
 }
 
-/// Moments of inertia about the axis of rotation [kg·m²].
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct InertiaSpec {
-    /// Gears from their solids; otherwise as given below.
-    pub from_geometry: bool,
-    /// Carrier with ring gear and cross-shaft, without planets.
-    pub carrier: f64,
-    /// One side gear, if not from geometry.
-    pub side_gear: f64,
-    /// One planet about its own axis, if not from geometry.
-    pub planet: f64,
-    /// Wheel side of the left half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
-    pub left_end: f64,
-    /// Wheel side of the right half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
-    pub right_end: f64,
+spec! {
+    /// Moments of inertia about the axis of rotation [kg·m²].
+    pub struct InertiaSpec {
+        /// Gears from their solids; otherwise as given below.
+        pub from_geometry: bool = true,
+        /// Carrier with ring gear and cross-shaft, without planets.
+        pub carrier: f64 = 0.02,
+        /// One side gear, if not from geometry.
+        pub side_gear: f64 = 1.47e-4,
+        /// One planet about its own axis, if not from geometry.
+        pub planet: f64 = 3.23e-5,
+        /// Wheel side of the left half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
+        pub left_end: f64 = 0.0,
+        /// Wheel side of the right half-shaft, rigid on the side gear unless the shaft twists; 0 = none.
+        pub right_end: f64 = 0.0,
+    }
 }

@@ -1,5 +1,6 @@
 //! What a scene is made of before any effect: drives, inputs, material, integration, and the plan of its bodies.
 
+pub mod attached;
 mod drives;
 mod input_derivatives;
 mod inputs;

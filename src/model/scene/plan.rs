@@ -3,6 +3,7 @@
 //! Planets that are identical and in phase start alike and stay alike, so one is simulated and counted as many times
 //! as there are.
 
+use super::attached::{self, ENDS};
 use super::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive};
 use super::layout::{CARRIER, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS};
 use crate::geometry::{GearSpec, Pair, assembly};
@@ -36,8 +37,10 @@ pub struct Plan {
     pub side_imposed: [bool; 2],
     /// Half-shafts that twist, left and right.
     pub shafts: [bool; 2],
-    /// Whether ends of half-shafts move.
-    pub ends: bool,
+    /// Which bodies are attached,
+    pub attached: [bool; attached::COUNT],
+    /// and their moments of inertia, those of ends of half-shafts aside [kg·m²].
+    pub attached_inertia: [f64; attached::COUNT],
     /// Pins and seats give way.
     pub pins: bool,
     /// Representation of tooth contact.
@@ -53,6 +56,8 @@ pub struct Requests {
     pub pins: bool,
     /// Half-shafts that twist even if they are driven by torque, left and right.
     pub shafts: [bool; 2],
+    /// Moments of inertia of attached bodies, beyond the ends of half-shafts; 0 for none [kg·m²].
+    pub attached: [f64; attached::COUNT],
 }
 
 impl Plan {
@@ -70,7 +75,10 @@ impl Plan {
             spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
             side_imposed,
             shafts,
-            ends: shafts[0] || shafts[1],
+            attached: std::array::from_fn(
+                |k| if k < ENDS { shafts.contains(&true) } else { requests.attached[k] > 0.0 },
+            ),
+            attached_inertia: requests.attached,
             pins: requests.pins,
             contact: scene.gear_contact,
         };
@@ -151,7 +159,7 @@ impl Plan {
             },
             members: self.groups.map(|g| g.members),
             pins: self.pins,
-            ends: self.ends,
+            attached: self.attached,
         }
     }
 
@@ -167,10 +175,16 @@ impl Plan {
         periods
     }
 
+    /// Degree of freedom of attached body `k`, where it moves: of the end of a half-shaft that twists.
+    pub fn attached(&self, k: usize) -> Option<usize> {
+        let moves = if k < ENDS { self.shafts[k] } else { self.attached[k] };
+        moves.then(|| self.layout().body(k))
+    }
+
     /// Degrees of freedom, the imposed ones among them; there are twice as many states.
     pub fn freedoms(&self) -> usize {
         match self.contact {
-            GearContact::Ideal => 2 + if self.ends { 2 } else { 0 },
+            GearContact::Ideal => 2 + self.layout().attached().count(),
             _ => self.layout().count(),
         }
     }

@@ -84,6 +84,7 @@ impl<'a> SceneEffects<'a> {
                 individual: all.individual || one.individual,
                 pins: all.pins || one.pins,
                 shafts: [0, 1].map(|s| all.shafts[s] || one.shafts[s]),
+                attached: std::array::from_fn(|k| all.attached[k] + one.attached[k]),
             }
         })
     }

@@ -7,7 +7,7 @@ mod gears;
 mod scene;
 mod solver;
 
-use crate::declaration::{Parameter, Row, switch, when};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::Parameters;
 use crate::model::effects;
 
@@ -31,18 +31,13 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
 /// Switches of two properties of plain teeth.
 fn teeth() -> [Row<Parameter<Parameters>>; 2] {
     [
-        switch(
-            "effects.backlash",
-            |p| &mut p.effects.backlash,
-            "Backlash geometry.backlash; false: teeth without play",
-        ),
-        when(
-            "scene.gear_contact != ideal",
-            switch(
-                "effects.corner_contact",
-                |p| &mut p.effects.corner_contact,
-                "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
-            ),
-        ),
+        row("effects.backlash", "Backlash geometry.backlash; false: teeth without play")
+            .switch(|p| &mut p.effects.backlash),
+        row(
+            "effects.corner_contact",
+            "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",
+        )
+        .when("scene.gear_contact != ideal")
+        .switch(|p| &mut p.effects.corner_contact),
     ]
 }

@@ -1,6 +1,5 @@
 //! Both meshes of a planet on the bodies of its gears, and random states.
 
-use bevel_differential::contact::any_spring::AnySpring;
 use bevel_differential::contact::bodies::{MeshOnBodies, SharedBodies, Support};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
@@ -8,6 +7,7 @@ use bevel_differential::contact::detailed::{
 };
 use bevel_differential::contact::gaps::FlankGaps;
 use bevel_differential::contact::law::Face;
+use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::contact::pairs::{Engagement, Flank};
 use bevel_differential::contact::shared::{SharedForce, SharedMeshes};

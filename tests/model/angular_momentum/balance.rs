@@ -156,7 +156,7 @@ impl Differential {
         for s in 0..2 {
             turn(side, Body::Side(s));
             torques.push(-self.drag(speed(Body::Side(s)), false));
-            let wheel = if plan.shafts[s] { Body::End(s) } else { Body::Side(s) };
+            let wheel = if plan.shafts[s] { Body::Attached(s) } else { Body::Side(s) };
             if plan.side_imposed[s] {
                 // what imposes a speed takes the torque of the shaft, and what its end needs
                 let shaft = &self.p.specs.half_shaft;

@@ -7,6 +7,23 @@ use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 
+/// Reading of the peak-to-peak value of an output.
+macro_rules! peaks {
+    ($name:literal, $what:literal, $unit:ident, $display:ident) => {
+        Reading {
+            name: concat!($name, "_peak_to_peak"),
+            unit: units::$unit,
+            display: Some($display),
+            changes: Changes::ByStep,
+            description: concat!(
+                "Peak-to-peak value of ",
+                $what,
+                " over the last whole mesh cycle; 0 before, and in model exchange"
+            ),
+        }
+    };
+}
+
 /// Peak-to-peak values over mesh cycles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeshHistorySpec;
@@ -20,46 +37,16 @@ impl Declare for MeshHistorySpec {
         why: "it follows from the motion of teeth against each other",
     });
     const READINGS: &'static [Reading] = &[
-        speed(
-            "left.speed_peak_to_peak",
-            "Peak-to-peak value of left.speed over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        speed(
-            "right.speed_peak_to_peak",
-            "Peak-to-peak value of right.speed over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[1].left_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the left side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[1].right_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the right side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[2].left_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the left side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[2].right_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the right side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[3].left_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the left side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[3].right_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the right side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[4].left_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the left side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
-        transmission_error(
-            "planet[4].right_transmission_error_peak_to_peak",
-            "Peak-to-peak value of the transmission error to the right side gear over the last whole mesh cycle; 0 before, and in model exchange",
-        ),
+        peaks!("left.speed", "left.speed", RAD_PER_S, DEG_PER_S),
+        peaks!("right.speed", "right.speed", RAD_PER_S, DEG_PER_S),
+        peaks!("planet[1].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
+        peaks!("planet[1].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
+        peaks!("planet[2].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
+        peaks!("planet[2].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
+        peaks!("planet[3].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
+        peaks!("planet[3].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
+        peaks!("planet[4].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
+        peaks!("planet[4].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
@@ -68,11 +55,3 @@ impl Declare for MeshHistorySpec {
 }
 
 impl Effect for MeshHistorySpec {}
-
-const fn speed(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: units::RAD_PER_S, display: Some(DEG_PER_S), changes: Changes::ByStep, description }
-}
-
-const fn transmission_error(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: units::METRE, display: Some(MM), changes: Changes::ByStep, description }
-}

@@ -1,52 +1,34 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use serde::{Deserialize, Serialize};
-
 use crate::declaration::units::{self, MPA};
-use crate::declaration::{Parameter, Row, real};
+use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 use crate::strength::{Material, SnCurve};
 
-/// Strength of the gears.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct StrengthSpec {
-    /// Tip radius of the tool that cuts the roots, in modules.
-    pub tool_radius: f64,
-    /// Application factor K_A: load on the teeth over the simulated load.
-    pub application_factor: f64,
-    /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
-    pub bending_strength: f64,
-    /// Cycles at the knee of bending.
-    pub bending_cycles: f64,
-    /// Life factor of bending at 10³ cycles Y_NT.
-    pub bending_life_factor: f64,
-    /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
-    pub idler_factor: f64,
-    /// Contact strength of the flanks at the knee σ_Hlim [Pa].
-    pub contact_strength: f64,
-    /// Cycles at the knee of pitting.
-    pub contact_cycles: f64,
-    /// Life factor of pitting at 10⁵ cycles Z_NT.
-    pub contact_life_factor: f64,
-    /// Time after the start of the run from which safety and damage count [s].
-    pub rate_from: f64,
-}
-
-impl Default for StrengthSpec {
-    fn default() -> Self {
-        Self {
-            tool_radius: 0.25,
-            application_factor: 1.0,
-            bending_strength: 1e9,
-            bending_cycles: 3e6,
-            bending_life_factor: 2.5,
-            idler_factor: 0.7,
-            contact_strength: 1.5e9,
-            contact_cycles: 5e7,
-            contact_life_factor: 1.6,
-            rate_from: 0.0,
-        }
+spec! {
+    /// Strength of the gears.
+    pub struct StrengthSpec {
+        /// Tip radius of the tool that cuts the roots, in modules.
+        pub tool_radius: f64 = 0.25,
+        /// Application factor K_A: load on the teeth over the simulated load.
+        pub application_factor: f64 = 1.0,
+        /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
+        pub bending_strength: f64 = 1e9,
+        /// Cycles at the knee of bending.
+        pub bending_cycles: f64 = 3e6,
+        /// Life factor of bending at 10³ cycles Y_NT.
+        pub bending_life_factor: f64 = 2.5,
+        /// Part of the bending strength that teeth loaded on alternate flanks keep Y_M.
+        pub idler_factor: f64 = 0.7,
+        /// Contact strength of the flanks at the knee σ_Hlim [Pa].
+        pub contact_strength: f64 = 1.5e9,
+        /// Cycles at the knee of pitting.
+        pub contact_cycles: f64 = 5e7,
+        /// Life factor of pitting at 10⁵ cycles Z_NT.
+        pub contact_life_factor: f64 = 1.6,
+        /// Time after the start of the run from which safety and damage count [s].
+        pub rate_from: f64 = 0.0,
     }
 }
 
@@ -71,13 +53,15 @@ impl Declare for StrengthSpec {
         stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs where they touch"),
         stress(
             "stress.contact_pitch",
-            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; largest of all meshes",
+            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; \
+             largest of all meshes",
         ),
         stress("stress.root_planet_max", "Largest root stress of the planets by ISO 10300 method B1"),
         stress("stress.root_side_max", "Largest root stress of the side gears by ISO 10300 method B1"),
         stress(
             "stress.contact_rated",
-            "Largest contact pressure by which flanks are rated, for safety.flank_min and damage: one pair carries the mesh at the worse inner point of single contact, under the load factor of its face",
+            "Largest contact pressure by which flanks are rated, for safety.flank_min and damage: one pair \
+             carries the mesh at the worse inner point of single contact, under the load factor of its face",
         ),
         damage("damage.planet", "Miner sum of the roots of the worst planet"),
         damage("damage.side", "Miner sum of the roots of the worse side gear"),
@@ -85,96 +69,62 @@ impl Declare for StrengthSpec {
         damage("damage.side_flank", "Miner sum of pitting of the worse side gear"),
         safety(
             "safety.root_min",
-            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that roll times the idler factor, over root stress; 1000 at most, and before the first step that is rated",
+            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that \
+             roll times the idler factor, over root stress; 1000 at most, and before the first step that is \
+             rated",
         ),
         safety(
             "safety.flank_min",
-            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over stress.contact_rated; 1000 at most, and before the first step that is rated",
+            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over \
+             stress.contact_rated; 1000 at most, and before the first step that is rated",
         ),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            real(
-                "strength.tool_radius",
+            row("strength.tool_radius", "Tip radius of the tool that cuts the roots, per module").real(
                 units::ONE,
-                None,
                 (0.0, 0.6),
                 |p| &mut p.tool_radius,
-                "Tip radius of the tool that cuts the roots, per module",
             ),
-            real(
+            row(
                 "strength.bending_strength",
-                units::PASCAL,
-                Some(MPA),
-                (1e6, 1e11),
-                |p| &mut p.bending_strength,
-                "Bending strength of the roots at the knee under pulsating load (carburised MQ, ISO 6336-5: 2 x 500 MPa)",
-            ),
-            real(
-                "strength.bending_cycles",
+                "Bending strength of the roots at the knee under pulsating load (carburised MQ, ISO 6336-5: 2 x \
+                 500 MPa)",
+            )
+            .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.bending_strength),
+            row("strength.bending_cycles", "Cycles at the knee of bending")
+                .real(units::ONE, (1e4, 1e12), |p| &mut p.bending_cycles),
+            row("strength.bending_life_factor", "Life factor of bending at 1e3 cycles (ISO 6336-3)").real(
                 units::ONE,
-                None,
-                (1e4, 1e12),
-                |p| &mut p.bending_cycles,
-                "Cycles at the knee of bending",
-            ),
-            real(
-                "strength.bending_life_factor",
-                units::ONE,
-                None,
                 (1.05, 10.0),
                 |p| &mut p.bending_life_factor,
-                "Life factor of bending at 1e3 cycles (ISO 6336-3)",
             ),
-            real(
-                "strength.idler_factor",
-                units::ONE,
-                None,
-                (0.5, 1.0),
-                |p| &mut p.idler_factor,
-                "Part of the bending strength that teeth loaded on alternate flanks keep",
-            ),
-            real(
+            row("strength.idler_factor", "Part of the bending strength that teeth loaded on alternate flanks keep")
+                .real(units::ONE, (0.5, 1.0), |p| &mut p.idler_factor),
+            row(
                 "strength.contact_strength",
-                units::PASCAL,
-                Some(MPA),
-                (1e6, 1e11),
-                |p| &mut p.contact_strength,
                 "Contact strength of the flanks at the knee (carburised MQ, ISO 6336-5: 1500 MPa)",
-            ),
-            real(
-                "strength.contact_cycles",
+            )
+            .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.contact_strength),
+            row("strength.contact_cycles", "Cycles at the knee of pitting")
+                .real(units::ONE, (1e6, 1e12), |p| &mut p.contact_cycles),
+            row("strength.contact_life_factor", "Life factor of pitting at 1e5 cycles (ISO 6336-2)").real(
                 units::ONE,
-                None,
-                (1e6, 1e12),
-                |p| &mut p.contact_cycles,
-                "Cycles at the knee of pitting",
-            ),
-            real(
-                "strength.contact_life_factor",
-                units::ONE,
-                None,
                 (1.05, 10.0),
                 |p| &mut p.contact_life_factor,
-                "Life factor of pitting at 1e5 cycles (ISO 6336-2)",
             ),
-            real(
+            row(
                 "strength.application_factor",
-                units::ONE,
-                None,
-                (0.1, 10.0),
-                |p| &mut p.application_factor,
                 "Application factor: load on the teeth over the simulated one, for what the scene does not contain",
-            ),
-            real(
+            )
+            .real(units::ONE, (0.1, 10.0), |p| &mut p.application_factor),
+            row(
                 "strength.rate_from",
-                units::SECOND,
-                None,
-                (0.0, 1e9),
-                |p| &mut p.rate_from,
-                "Time after the start of the run from which safety and damage count: what a start that is not in equilibrium takes to settle",
-            ),
+                "Time after the start of the run from which safety and damage count: what a start that is not in \
+                 equilibrium takes to settle",
+            )
+            .real(units::SECOND, (0.0, 1e9), |p| &mut p.rate_from),
         ]
     }
 }

@@ -1,7 +1,7 @@
 //! Properties of every law.
 
-use super::*;
-use crate::numeric::Dual;
+use bevel_differential::friction::*;
+use bevel_differential::numeric::Dual;
 
 const LAWS: [FrictionLaw; 4] =
     [FrictionLaw::CoulombStribeck, FrictionLaw::BenedictKelley, FrictionLaw::Iso14179, FrictionLaw::XuKahraman];

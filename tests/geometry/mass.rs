@@ -7,11 +7,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::mass::{FACETS, GearMass, gear_mass, of_sectors};
-use super::tests::{fillet, specs, volume};
-use super::{Foot, GearSolid};
-use crate::geometry::involute::Gear;
-use crate::geometry::{GearSpec, Pair};
+use crate::solid::{fillet, specs, volume};
+use bevel_differential::geometry::involute::Gear;
+use bevel_differential::geometry::solid::mass::{GearMass, gear_mass};
+use bevel_differential::geometry::solid::{Foot, GearSolid};
+use bevel_differential::geometry::{GearSpec, Pair};
 
 const DENSITY: f64 = 7800.0;
 /// Relative error at 64 facets below which its parts cancel each other.
@@ -104,7 +104,7 @@ fn errors(a: &GearMass, b: &GearMass) -> [f64; 4] {
 fn masses_converge_with_second_order_to_the_integral_over_the_outline() {
     let (mut seen, mut all) = (0, 0);
     for (name, spec, pair, i, exact) in gears() {
-        let at = |facets| errors(&of_sectors(&pair, &spec, i, DENSITY, facets), &exact);
+        let at = |facets| errors(&GearSolid::new(&pair, &spec, i, facets, 1).mass(DENSITY), &exact);
         let (coarse, fine) = (at(32), at(64));
         for k in 0..4 {
             all += 1;
@@ -132,7 +132,7 @@ fn inertias_of_the_simulation_are_within_the_stated_error() {
 #[test]
 fn the_exported_gear_has_the_mass_of_the_simulation() {
     for (name, spec, pair, i, _) in gears() {
-        let whole = GearSolid::new(&pair, &spec, i, FACETS, 1);
+        let whole = GearSolid::new(&pair, &spec, i, 96, 1);
         let found = errors(&gear_mass(&pair, &spec, i, DENSITY), &whole.mass(DENSITY));
         assert!(found.iter().all(|e| e.abs() < 1e-9), "{name}: {found:?}");
         let weighed = whole.mass(DENSITY).mass / (DENSITY * volume(&whole));

@@ -1,7 +1,9 @@
-use super::pitch::Tolerances;
-use super::*;
-use crate::geometry::GearSpec;
-use crate::geometry::Pair;
+//! Gaps of tooth pairs with all errors, against what each error is.
+
+use bevel_differential::contact::errors::pitch::Tolerances;
+use bevel_differential::contact::errors::*;
+use bevel_differential::contact::pairs::Flank;
+use bevel_differential::geometry::{GearSpec, Pair};
 
 const LEFT: MeshId = MeshId { planet: 0, side: 0 };
 const RIGHT: MeshId = MeshId { planet: 0, side: 1 };

@@ -1,14 +1,13 @@
 //! Interference of teeth against closed forms, and against parry3d's verdict on the whole solids.
 
+use crate::solid::specs;
+use bevel_differential::geometry::solid::interference::{Approach, Interference, Stance, Verdict};
+use bevel_differential::geometry::solid::{GearSolid, Part};
+use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
 use nalgebra::Vector3;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::query::intersection_test;
 use parry3d_f64::shape::TriMesh;
-
-use super::interference::{Approach, Interference, Stance, Verdict};
-use super::tests::specs;
-use super::{GearSolid, Part};
-use crate::geometry::{AddendumSystem, GearSpec, Pair};
 
 const MM: f64 = 1e3;
 

@@ -2,11 +2,10 @@
 
 use std::collections::HashMap;
 
+use bevel_differential::geometry::involute::direction;
+use bevel_differential::geometry::solid::{GearSolid, Outline, Part, Shape};
+use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair, checks};
 use nalgebra::Vector3;
-
-use super::{GearSolid, Outline, Part, Shape};
-use crate::geometry::involute::direction;
-use crate::geometry::{AddendumSystem, GearSpec, Pair, checks};
 
 /// Gears of all kinds without `checks::errors`, with their special property.
 pub(crate) fn specs() -> Vec<(&'static str, GearSpec)> {

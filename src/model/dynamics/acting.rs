@@ -1,0 +1,343 @@
+//! What acts on gears of any level besides their teeth: inputs, and dry friction with where it sticks or slides.
+
+use std::iter::Chain;
+use std::ops::Range;
+
+use super::jacobian::Jacobian;
+use super::power::Power;
+use crate::integrate::Point;
+use crate::model::assembly::body_effects::BodyEffects;
+use crate::model::dynamics::state::State;
+use crate::model::effect_kinds::body_effect::Bodies;
+use crate::model::effect_kinds::dry_friction::DryFriction;
+use crate::model::effect_kinds::friction::Friction;
+use crate::model::effect_kinds::friction_state::{FrictionState, Mode};
+use crate::model::effect_kinds::slip::Slip;
+use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::scene::{InputDerivatives, Inputs, Layout, Plan};
+
+/// Inputs and dry friction under which equations hold.
+#[derive(Clone, Copy)]
+pub struct Acting {
+    /// Inputs.
+    pub inputs: Inputs,
+    /// How they go on.
+    pub input_derivatives: InputDerivatives,
+    /// Whether they change while they act.
+    pub driven: bool,
+    /// State of the dry friction.
+    pub friction_state: [FrictionState; FRICTION_BODIES],
+    friction: Option<Friction>,
+    /// Whether there is any friction.
+    pub rubs: bool,
+}
+
+impl Acting {
+    /// What acts at `state` under `inputs`, with the effects `bodies` where there are any.
+    #[inline]
+    pub fn new(bodies: Option<&BodyEffects>, inputs: &Inputs, state: &State) -> Self {
+        let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
+        let (input_derivatives, driven) =
+            (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
+        let friction = bodies.map(|bodies| bodies.friction(state.lock, &inputs, &input_derivatives));
+        let rubs = friction.as_ref().is_some_and(Friction::is_any);
+        Self { inputs, input_derivatives, driven, friction_state: state.friction, friction, rubs }
+    }
+
+    /// Where the springs of dry friction are anchored.
+    pub fn anchors(&self) -> [f64; FRICTION_BODIES] {
+        self.friction_state.map(|state| state.anchor)
+    }
+
+    /// Takes dragged anchors over.
+    pub fn anchor(&mut self, anchors: &[f64; FRICTION_BODIES]) {
+        self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
+    }
+
+    /// Dry friction on all bodies.
+    #[inline]
+    pub fn friction(&self) -> &Friction {
+        self.friction.as_ref().unwrap_or(&Friction::NONE)
+    }
+}
+
+/// Bodies on which friction acts.
+fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl Iterator<Item = usize> {
+    of.bodies_that_stick().filter(|&i| of.acting().friction().on(i).is_on())
+}
+
+/// Equations of gears of any level, as what acts on them sees them.
+pub trait Acted<const N: usize> {
+    /// What acts.
+    fn acting(&self) -> &Acting;
+    /// The same, to be changed.
+    fn acting_mut(&mut self) -> &mut Acting;
+    /// Scene plan.
+    fn plan(&self) -> &Plan;
+    /// Index of each degree of freedom.
+    fn layout(&self) -> &Layout;
+    /// Whether there is dry friction.
+    fn rubs(&self) -> bool;
+    /// Whether half-shafts have ends.
+    fn ends(&self) -> bool;
+    /// Groups of planets that may stick on their pins, and how many planets are in each.
+    fn sticking(&self) -> &[f64];
+    /// Loads of the meshes on the surfaces of side gears and planets at `at`, where friction depends on them.
+    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];
+    /// Accelerations by inputs and effects alone.
+    fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N];
+
+    /// The equations under other inputs.
+    fn under(&self, inputs: &Inputs, input_derivatives: &InputDerivatives) -> Self
+    where
+        Self: Copy,
+    {
+        let mut these = *self;
+        let acting = these.acting_mut();
+        (acting.inputs, acting.input_derivatives) = (*inputs, *input_derivatives);
+        these
+    }
+
+    /// The equations with the inputs of `time` [s] later.
+    fn later(&self, time: f64) -> Self
+    where
+        Self: Copy,
+    {
+        let (inputs, input_derivatives) = self.acting().input_derivatives.after(time, &self.acting().inputs);
+        self.under(&inputs, &input_derivatives)
+    }
+
+    /// The part of the accelerations that follows from `inputs` and their derivatives: accelerations are linear in both.
+    fn forced(&self, at: &Point<N>, inputs: &Inputs, input_derivatives: &InputDerivatives) -> [f64; N]
+    where
+        Self: Copy,
+    {
+        let with = self.under(inputs, input_derivatives).acceleration_by_inputs(at);
+        let without = self.under(&Inputs::ZERO, &InputDerivatives::ZERO).acceleration_by_inputs(at);
+        std::array::from_fn(|i| with[i] - without[i])
+    }
+
+    /// The slope of the accelerations by time alone, `time` [s] after the inputs were set.
+    fn drift_at(&self, at: &Point<N>, time: f64) -> [f64; N]
+    where
+        Self: Copy,
+    {
+        let [first, second] = self.later(time).acting().input_derivatives.rates;
+        self.forced(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+    }
+
+    /// All positions and velocities as effects see them.
+    fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
+        let Acting { inputs, input_derivatives, .. } = self.acting();
+        Bodies { q: &at.q, v: &at.v, layout: self.layout(), inputs, input_rates: &input_derivatives.rates[0] }
+    }
+
+    /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
+    #[inline]
+    fn wheel(&self, s: usize) -> usize {
+        if self.ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
+    }
+
+    /// Bodies that may stick, by their number: side gears, groups of planets, wheels.
+    fn bodies_that_stick(&self) -> Chain<Range<usize>, Range<usize>> {
+        (0..FRICTION_PLANETS + self.sticking().len()).chain(FRICTION_WHEELS..FRICTION_BODIES)
+    }
+
+    /// Degree of freedom on which the friction of body `i` acts.
+    fn freedom_of(&self, i: usize) -> usize {
+        match i {
+            0..FRICTION_PLANETS => i,
+            FRICTION_PLANETS..FRICTION_WHEELS => self.layout().planet(i - FRICTION_PLANETS),
+            _ => self.wheel(i - FRICTION_WHEELS),
+        }
+    }
+
+    /// Motion of body `i` against the surface it rubs on: carrier, pin, or ground.
+    fn slip(&self, at: &Point<N>, i: usize) -> Slip {
+        let body = self.freedom_of(i);
+        match i {
+            0..FRICTION_PLANETS => Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] },
+            FRICTION_PLANETS..FRICTION_WHEELS => Slip { position: at.q[body], speed: at.v[body] },
+            _ => {
+                let s = i - FRICTION_WHEELS;
+                let twist = if body == s { 0.0 } else { at.q[body] };
+                Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
+            }
+        }
+    }
+
+    /// Friction on body `i` with its state, and how many bodies it stands for.
+    fn friction_on(&self, i: usize) -> (&DryFriction, &FrictionState, f64) {
+        let planets = FRICTION_PLANETS..FRICTION_WHEELS;
+        let count = if planets.contains(&i) { self.sticking()[i - FRICTION_PLANETS] } else { 1.0 };
+        (self.acting().friction().on(i), &self.acting().friction_state[i], count)
+    }
+
+    /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
+    fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
+        let (mut all, acting) = (self.mesh_loads(at), self.acting());
+        let wheels = if acting.driven && time > 0.0 {
+            acting.friction().wheel_loads(&acting.input_derivatives.after(time, &acting.inputs).0)
+        } else {
+            acting.friction().wheel_loads(&acting.inputs)
+        };
+        all[FRICTION_WHEELS..].copy_from_slice(&wheels);
+        all
+    }
+
+    /// Adds the torques and the heat of dry friction under the loads on its surfaces.
+    fn rub(
+        &self,
+        at: &Point<N>,
+        surface_loads: &[SurfaceLoad; FRICTION_BODIES],
+        sum: &mut [f64; N],
+        power: &mut Power,
+    ) {
+        for i in bodies_with_friction(self) {
+            let (friction, state, count) = self.friction_on(i);
+            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut power.heat);
+            power.limit[i] = torque * state.mode.direction();
+            sum[self.freedom_of(i)] -= torque;
+            if i < FRICTION_PLANETS {
+                sum[CARRIER] += torque;
+            }
+        }
+    }
+
+    /// Derivatives of dry friction by the motion of the bodies it holds.
+    fn friction_slopes(&self, j: &mut Jacobian<'_, N>) {
+        if !self.rubs() {
+            return;
+        }
+        for i in bodies_with_friction(self) {
+            let (friction, state, _) = self.friction_on(i);
+            let [k, c] = friction.torque_slopes(state);
+            let body = self.freedom_of(i);
+            if i >= FRICTION_WHEELS {
+                // the angle of a wheel is that of the carrier, plus that of the side gear, less the twist
+                let s = i - FRICTION_WHEELS;
+                j.by_position[body][CARRIER] -= k;
+                j.by_position[body][s] -= k;
+                if body != s {
+                    j.by_position[body][body] += k;
+                }
+                j.by_velocity[body][body] -= c;
+                continue;
+            }
+            j.by_position[body][body] -= k;
+            j.by_rate[body][body] -= c;
+            if i < FRICTION_PLANETS {
+                j.by_position[CARRIER][i] += k;
+                j.by_rate[CARRIER][i] += c;
+            }
+        }
+    }
+
+    /// Torques of the friction on the wheels [N·m].
+    fn brake_torques(&self, at: &Point<N>) -> [f64; 2]
+    where
+        Self: Sized,
+    {
+        let surface_loads = self.acting().friction().wheel_loads(&self.acting().inputs);
+        [0, 1].map(|s| {
+            let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
+            let torque = || friction.torque(state, &self.slip(at, FRICTION_WHEELS + s), &surface_loads[s]);
+            if friction.is_on() { torque() } else { 0.0 }
+        })
+    }
+
+    /// Energy of stuck friction [J].
+    fn friction_energy(&self, at: &Point<N>) -> f64 {
+        let energy = |i: usize| {
+            let (friction, state, count) = self.friction_on(i);
+            count * friction.energy(state, self.slip(at, i).position)
+        };
+        self.bodies_that_stick().filter(|&i| self.acting().friction_state[i].stiffness > 0.0).map(energy).sum()
+    }
+
+    /// Whether loads decide if friction switches at `at`.
+    fn awaits_load(&self, at: &Point<N>) -> bool {
+        let awaits = |i: usize| self.friction_on(i).0.awaits_load(self.friction_on(i).1, &self.slip(at, i));
+        self.rubs() && bodies_with_friction(self).any(awaits)
+    }
+
+    /// Fraction of a step after which friction switches, if it does, given its ends with their times [s].
+    fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+        if !self.awaits_load(end.0) {
+            return None;
+        }
+        let surface_loads = [start, end].map(|(at, time)| self.surface_loads(at, time));
+        bodies_with_friction(self)
+            .filter_map(|i| {
+                let slips = [self.slip(start.0, i), self.slip(end.0, i)];
+                let ends = [(&slips[0], &surface_loads[0][i]), (&slips[1], &surface_loads[1][i])];
+                let (friction, state, _) = self.friction_on(i);
+                friction.crossing(state, ends[0], ends[1])
+            })
+            .reduce(f64::min)
+    }
+
+    /// Distance of each friction from its switch, where it acts.
+    fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES]
+    where
+        Self: Sized,
+    {
+        let mut margins = [None; FRICTION_BODIES];
+        if self.rubs() {
+            let surface_loads = self.surface_loads(at, 0.0);
+            for i in bodies_with_friction(self) {
+                let (friction, state, _) = self.friction_on(i);
+                margins[i] = Some(friction.margin(state, &self.slip(at, i), &surface_loads[i]));
+            }
+        }
+        margins
+    }
+
+    /// Whether friction is due to switch at `at`, `time` [s] after the inputs were set.
+    fn is_friction_due(&self, at: &Point<N>, time: f64) -> bool {
+        if !self.awaits_load(at) {
+            return false;
+        }
+        let surface_loads = self.surface_loads(at, time);
+        bodies_with_friction(self).any(|i| {
+            let (friction, state, _) = self.friction_on(i);
+            friction.is_due(state, &self.slip(at, i), &surface_loads[i])
+        })
+    }
+
+    /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
+    #[inline]
+    fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+        if !self.rubs() {
+            return;
+        }
+        for i in bodies_with_friction(self).filter(|&i| self.acting().friction_state[i].mode != Mode::Stuck) {
+            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, power.limit[i]);
+        }
+    }
+
+    /// Switches friction where it is due at `at`, `time` [s] after the inputs were set, on `bodies`; what its springs
+    /// lose is heat.
+    fn settle_friction(&mut self, at: &Point<N>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
+        let surface_loads = self.surface_loads(at, time);
+        for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
+            let ((friction, _, count), slip) = (self.friction_on(i), self.slip(at, i));
+            if friction.is_on() {
+                let friction = *friction;
+                friction.settle(&mut self.acting_mut().friction_state[i], &slip, &surface_loads[i], count, heat);
+            }
+        }
+    }
+
+    /// Adapts friction to changed stiffnesses: it starts on bodies that were free, and ends on others.
+    fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64])
+    where
+        Self: Sized,
+    {
+        for i in self.bodies_that_stick() {
+            let ((&friction, _, count), slip) = (self.friction_on(i), self.slip(at, i));
+            friction.adapt(&mut self.acting_mut().friction_state[i], &slip, heat, count);
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! Errors of teeth.
+
+mod chip;
+mod gaps;
+mod individual;
+mod spec;

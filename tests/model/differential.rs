@@ -1,0 +1,64 @@
+//! A differential for programs in Rust.
+
+use bevel_differential::*;
+
+fn refused(outcome: Result<(), DifferentialError>) -> String {
+    outcome.expect_err("it is refused").to_string()
+}
+
+#[test]
+fn what_does_not_fit_is_refused_by_name_value_and_range() {
+    let mut it = Differential::new();
+    for (outcome, words) in [
+        (it.set("geometry.modul", 1.0), vec!["geometry.modul"]),
+        (it.set("geometry.module", 4.5), vec!["geometry.module", "4.5 m", "did you mean 4.5 mm"]),
+        (it.set("geometry.planet_teeth", 10.5), vec!["geometry.planet_teeth", "10.5", "whole"]),
+        (it.set("effects.strength", 2.0), vec!["effects.strength", "true"]),
+        (it.set("contact.law", 99.0), vec!["contact.law", "line_weber"]),
+        (it.set_text("contact.law", "lines"), vec!["\"lines\"", "impact (1)", "line (2)"]),
+        (it.set_text("geometry.module", "big"), vec!["geometry.module", "\"big\""]),
+        (it.set("left.speed", 1.0), vec!["left.speed", "output"]),
+        (it.set("left.load_torque", f64::NAN), vec!["left.load_torque", "finite"]),
+        (it.advance(f64::NAN), vec!["NaN s"]),
+        (it.advance(-1.0), vec!["-1 s"]),
+    ] {
+        let said = refused(outcome);
+        assert!(words.iter().all(|word| said.contains(word)), "{said}");
+    }
+    assert_eq!(it.time(), 0.0);
+}
+
+#[test]
+fn problems_of_the_start_come_together_and_the_values_stay() {
+    let mut it = Differential::new();
+    it.set("geometry.face_width", 0.2).expect("within its range");
+    let said = refused(it.advance(0.1));
+    assert!(said.contains("geometry.face_width"), "{said}");
+    it.set("geometry.face_width", 0.02).expect("it was not started");
+    it.advance(0.01).expect("it runs now");
+    assert!(refused(it.set("geometry.face_width", 0.03)).contains("fixed parameter"));
+}
+
+#[test]
+fn inputs_and_tunable_parameters_act_from_when_they_are_set() {
+    let mut it = Differential::new();
+    it.set_text("scene.carrier_drive", "torque").expect("a choice");
+    it.advance(0.01).expect("a step");
+    let before = it.get("der(carrier.speed)").expect("an output");
+    it.set("carrier.torque_command", 5000.0).expect("an input");
+    it.set("contact.damping", 2e4).expect("a tunable parameter");
+    it.advance(0.01).expect("a step");
+    assert_eq!(it.get("carrier.torque_command").expect("an input"), 5000.0);
+    assert!(it.get("der(carrier.speed)").expect("an output") > before);
+    assert_eq!(it.time(), 0.02);
+}
+
+#[test]
+fn a_clone_goes_its_own_way() {
+    let mut it = Differential::new();
+    it.advance(0.01).expect("a step");
+    let mut other = it.clone();
+    it.advance(0.02).expect("a step");
+    other.advance(0.02).expect("a step");
+    assert_eq!(it.get("left.speed"), other.get("left.speed"));
+}
