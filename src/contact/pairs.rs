@@ -100,12 +100,12 @@ const WORKING_APPROACH: f64 = 5e-3;
 /// Margin that keeps rounding from losing a pair that just touches [base pitches, rad].
 const ROUNDING: f64 = 1e-9;
 
-/// Smallest whole number not below `x`, for |x| far below 2⁵¹.
+/// Smallest whole number not below `x`, for |x| below 2⁶³; trial states may be absurd.
 #[inline(always)]
 fn ceil(x: f64) -> f64 {
     // doubles from 2⁵² to 2⁵³ are whole numbers: the sum is rounded to the nearest, and so is what is left
     const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
-    let whole = (x + WHOLE) - WHOLE;
+    let whole = if x.abs() < WHOLE / 3.0 { (x + WHOLE) - WHOLE } else { x as i64 as f64 };
     if whole < x { whole + 1.0 } else { whole }
 }
 
