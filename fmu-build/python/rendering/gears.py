@@ -1,8 +1,8 @@
 """Renders the solids of the differential, with half-shafts, pin and carrier added for orientation.
 
-Writes the picture of docs/geometry.md and the FMU's icon, from the solids that `fmu-build geometry` wrote:
+Writes the picture of docs/geometry.md and the FMU's icon, from the meshes that `bevel-differential geometry` wrote:
 
-    cargo run --release -- geometry
+    target/python/bin/bevel-differential geometry --glb --part assembly --out target/geometry
     python3 -m venv target/rendering && target/rendering/bin/pip install -r fmu-build/python/rendering/requirements.txt
     target/rendering/bin/python fmu-build/python/rendering/gears.py [--quick]
 
@@ -51,7 +51,7 @@ def main():
         ROOT / "target" / "geometry", ROOT / "docs" / "figures" / "gears.png",
         ROOT / "fmu-build" / "model.png"][len(arguments):])
     rays, icon_rays = (QUICK_RAYS, QUICK_RAYS) if "--quick" in sys.argv else (RAYS, ICON_RAYS)
-    scene = trimesh.load(folder / "differential.glb", process=False)
+    scene = trimesh.load(folder / "assembly.glb", process=False)
     with tempfile.TemporaryDirectory() as scratch:
         parts = [*gears(scene), *surroundings()]
         shapes = {f"part_{k}": shape(Path(scratch) / f"{k}.ply", mesh, colour, rough)
