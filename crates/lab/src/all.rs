@@ -19,7 +19,7 @@ const COMMANDS: [&[&str]; 20] = [
     &["real-time"],
     &["zero-cost", "--quick"],
     &["stiffness"],
-    &["pattern"],
+    &["patterns"],
     &["solids", "--quick"],
     &["survey", "--scenes", "20"],
     &["compare-solvers", "--quick"],

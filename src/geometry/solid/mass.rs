@@ -9,10 +9,10 @@ use parry3d_f64::math::Vector;
 use super::manifold::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
-/// Units of length per metre, millimetres or less: parry3d's tolerances are absolute and suit bodies of some units. A gear within
-/// [`LEAST`] units is measured in tenths.
+/// Units of length per metre, millimetres or less. parry3d's tolerances are absolute: where moments of inertia have less than about
+/// [`LEAST`] in kilograms and units, as those of gears within a centimetre, units are smaller.
 const MM: f64 = 1e3;
-const LEAST: f64 = 10.0;
+const LEAST: f64 = 0.5;
 /// Facets per flank: masses and moments of inertia are then within 2e-5 of the limit.
 const FACETS: usize = 96;
 
@@ -44,9 +44,10 @@ pub fn gear_mass(pair: &Pair, spec: &GearSpec, gear: usize, density: f64) -> Gea
 impl GearSolid {
     /// Mass properties about the gear's axis and apex at the density `density` [kg/m³]; of a sector its share of them.
     pub fn mass(&self, density: f64) -> GearMass {
-        let reach = self.vertices.iter().map(|v| v.norm_squared()).fold(0.0, f64::max);
+        let reach = self.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let moment = density * reach.powi(5);
         let mut unit = MM;
-        while reach > 0.0 && reach * unit * unit < LEAST * LEAST {
+        while moment > 0.0 && moment * unit * unit < LEAST {
             unit *= 10.0;
         }
         let vertices: Vec<Vector> =

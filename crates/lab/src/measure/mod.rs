@@ -27,7 +27,7 @@ pub enum MeasureCommand {
     #[command(alias = "foreign")]
     CompareSolvers(compare_solvers::CompareSolversCommand),
     Drivetrain(drivetrain::DrivetrainCommand),
-    Pattern(pattern::PatternCommand),
+    Patterns(pattern::PatternsCommand),
     Prices(prices::PricesCommand),
 }
 
@@ -42,7 +42,7 @@ impl MeasureCommand {
             Self::CompareSimulators(command) => command.run(),
             Self::CompareSolvers(command) => command.run(),
             Self::Drivetrain(command) => command.run(),
-            Self::Pattern(command) => command.run(),
+            Self::Patterns(command) => command.run(),
             Self::Prices(command) => command.run(),
         }
     }

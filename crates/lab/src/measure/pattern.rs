@@ -14,13 +14,13 @@ const MARKS: [&str; 2] = ["<!-- pattern:begin -->", "<!-- pattern:end -->"];
 
 /// Shows the contact patterns of docs/pattern.md: aligned teeth, and one thing out of place at a time
 #[derive(Args, Clone, Debug)]
-pub struct PatternCommand {
+pub struct PatternsCommand {
     /// Also renew docs/pattern.md and its figures
     #[arg(long)]
     write: bool,
 }
 
-impl PatternCommand {
+impl PatternsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("looking for Python");
