@@ -11,6 +11,7 @@
 
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
+#![allow(clippy::result_large_err)] // problems are rare and say much
 
 pub mod accuracy;
 pub mod ask;

@@ -6,9 +6,12 @@ use std::time::{Duration, Instant};
 /// Between two communication points of a run whoever waits is asked this often.
 const OFTEN: Duration = Duration::from_millis(50);
 
+/// Is given the part of the work that is done and what is being done; says whether to go on.
+type Tell<'a> = Box<dyn FnMut(f64, &str) -> bool + 'a>;
+
 /// Whoever waits.
 pub struct Watch<'a> {
-    tell: Box<dyn FnMut(f64, &str) -> bool + 'a>,
+    tell: Tell<'a>,
     done: f64,
     what: String,
     asked: Option<Instant>,

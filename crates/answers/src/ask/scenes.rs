@@ -142,7 +142,8 @@ impl RunQuestion {
 /// What `write` returns, after its file is at `path`. Where it fails nothing is left of the file.
 fn written<T>(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> Result<T>) -> Result<T> {
     let failed = || format!("{} cannot be written", shown(path));
-    let part = path.with_added_extension("part");
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
     let mut file = BufWriter::new(File::create(&part).with_context(failed)?);
     let done = write(&mut file).and_then(|done| {
         file.flush().with_context(failed)?;
