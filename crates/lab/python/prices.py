@@ -1,19 +1,21 @@
 """What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
 
-usage: prices.py FMU EFFECTS FOLDER MACHINE RUNS PAIRS [OTHER_FMU]
+usage: prices.py FMU FOLDER RUNS PAIRS [OTHER_FMU]
 
 Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
 also writes FOLDER/prices.csv."""
 
 import csv
-import json
 import statistics
 import sys
 from pathlib import Path
 
 from bevel_differential import Differential, Fmu
+from bevel_differential.text import markdown
 
 from calls import TEN, Calls
+from effects_list import effects
+from tools import machine, say
 
 STEP = 1e-3
 COUNTED = 0.5
@@ -26,15 +28,6 @@ LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_conta
 ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag", "strength",
        "tooth_errors"]
 OF_ALL = {"tooth_errors.accuracy_grade": 6, "tooth_errors.planet_tip_relief": 0.0}
-
-
-def effects(file):
-    """Start values that switch on each effect, by its name."""
-    found = {}
-    for effect in json.loads(Path(file).read_text(encoding="utf-8")):
-        switch = {effect["switch"]: True} if effect["switch"] else {}
-        found[effect["name"].removeprefix("effects.")] = {**switch, **effect["example"]}
-    return found
 
 
 class Bench:
@@ -79,17 +72,6 @@ def digits(value, number=3):
 def within(quartiles):
     low, middle, high = quartiles
     return f"{middle:.2f} ({low:.2f} – {high:.2f})"
-
-
-def table(rows):
-    """Markdown, the first of the rows the header."""
-    header, *others = rows
-    lines = [header, ["---", *["---:"] * (len(header) - 1)], *others]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
-
-
-def say(fraction, what):
-    print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
 
 
 class Prices:
@@ -137,7 +119,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
     with (Path(folder) / "prices.csv").open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([["on", "evaluation", "communication_step"], *data])
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
-    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{table(rows)}\n"
+    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown(rows)}\n"
             f"All together an evaluation costs {of_all:.1f} times that of plain teeth; 1 and what each adds alone make {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
@@ -145,7 +127,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
             say((2 + len(singles) + done) / stages, f"timing {a}, {b}")
             row, of_one, _ = priced.row(f"`{a}`, `{b}`", singles[a] | singles[b])
             rows.append([*row[:2], *row[3:7], f"{of_one / (known[a] + known[b] - 1.0):.2f}"])
-        text += f"\nEach pair.\n\n{table(rows)}"
+        text += f"\nEach pair.\n\n{markdown(rows)}"
     return text
 
 
@@ -165,14 +147,15 @@ def builds(bench, fmu, other, switches):
             continue
         (before, now), over = bench.compare((other, values, outputs), (fmu, values, outputs))
         rows.append([name, digits(1e6 * now), digits(1e6 * before), within(over)])
-    return table(rows)
+    return markdown(rows)
 
 
 def main():
-    file, described, folder, machine, runs, with_pairs, *other = sys.argv[1:]
-    bench, fmu, switches = Bench(folder, int(runs)), Fmu.of(file), effects(described)
+    file, folder, runs, with_pairs, *other = sys.argv[1:]
+    bench, fmu = Bench(folder, int(runs)), Fmu.of(file)
+    switches = {effect.name: effect.on for effect in effects(file)}
     text = builds(bench, fmu, Fmu.of(other[0]), switches) if other else prices(bench, fmu, switches, with_pairs == "pairs", folder)
-    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine}.")
+    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
 
 
 if __name__ == "__main__":

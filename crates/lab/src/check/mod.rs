@@ -2,19 +2,16 @@
 //! time, other hosts, other platforms, a browser or a machine without Rust; and one that looks
 //! for changes that no test notices.
 
-pub mod executed;
 pub mod fuzz;
 pub mod hosts;
+pub mod instructions;
 pub mod memcheck;
 pub mod mutants;
 pub mod page;
 pub mod platforms;
 pub mod python_tests;
 pub mod questions;
-pub mod real_time;
-pub mod stepping;
 pub mod wheel;
-pub mod zero_cost;
 
 use anyhow::Result;
 use clap::Subcommand;
@@ -27,8 +24,8 @@ pub enum CheckCommand {
     TestWheel(wheel::TestWheelCommand),
     TestPage(page::TestPageCommand),
     #[command(alias = "off")]
-    ZeroCost(zero_cost::ZeroCostCommand),
-    RealTime(real_time::RealTimeCommand),
+    ZeroCost(instructions::ZeroCostCommand),
+    RealTime(instructions::RealTimeCommand),
     Fuzz(fuzz::FuzzCommand),
     Questions(questions::QuestionsCommand),
     #[command(alias = "memory")]

@@ -44,7 +44,7 @@ impl TestPageCommand {
             found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
-        let environment = environments::browser(|what| progress.stage(what))?;
+        let environment = environments::browser(&|what| progress.stage(what))?;
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         progress.stage("testing the page");

@@ -1,10 +1,8 @@
 //! What measures: time and error of this program's fidelities and methods, of solid teeth, of couplings of FMUs, and of other
 //! programs on the same cases. Each command writes figures, and a document with `--write`.
 
-pub mod compare_simulators;
-pub mod compare_solvers;
+pub mod compare;
 pub mod cost;
-pub mod drivetrain;
 pub mod pattern;
 pub mod prices;
 pub mod solids;
@@ -23,10 +21,10 @@ pub enum MeasureCommand {
     Stiffness(stiffness::StiffnessCommand),
     Survey(survey::SurveyCommand),
     #[command(alias = "peers")]
-    CompareSimulators(compare_simulators::CompareSimulatorsCommand),
+    CompareSimulators(compare::CompareSimulatorsCommand),
     #[command(alias = "foreign")]
-    CompareSolvers(compare_solvers::CompareSolversCommand),
-    Drivetrain(drivetrain::DrivetrainCommand),
+    CompareSolvers(compare::CompareSolversCommand),
+    Drivetrain(compare::DrivetrainCommand),
     Pattern(pattern::PatternCommand),
     Prices(prices::PricesCommand),
 }

@@ -1,8 +1,8 @@
-//! Tables that a script prints, for the terminal and, where asked for, for a document with its pictures.
+//! Scripts that measure or check: what they print is for the terminal and, where asked for, for a document with its pictures.
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use answers::text::table::for_terminal;
 use anyhow::{Context, Result};
@@ -20,32 +20,61 @@ pub struct Document {
     pub pictures: &'static [&'static str],
 }
 
-impl Document {
-    /// Runs `script`, prints its tables and where its results are, and renews the document if `write`.
-    pub fn make(
-        &self,
-        progress: Progress,
-        doing: &str,
-        (environment, script, arguments): (&Environment, &Path, &[OsString]),
-        results: &Path,
-        write: bool,
-    ) -> Result<()> {
-        progress.begin_bar(doing);
-        let tables = script::run(environment, script, arguments, &progress)?;
+/// A script and what it needs.
+pub struct Script {
+    /// Its file.
+    pub file: PathBuf,
+    /// What it does, beside the bar.
+    pub doing: &'static str,
+    /// Makes the environment that it runs in.
+    pub environment: fn(&dyn Fn(&str)) -> Result<Environment>,
+    /// The folder of its results.
+    pub folder: PathBuf,
+}
+
+impl Script {
+    /// Runs it with the arguments that `prepare` returns, prints its tables and where its results are, and returns the tables.
+    pub fn run(&self, prepare: impl FnOnce(&Progress) -> Result<Vec<OsString>>) -> Result<String> {
+        let progress = Progress::start("looking for Python");
+        let environment = (self.environment)(&|what| progress.stage(what))?;
+        let arguments = prepare(&progress)?;
+        paths::create_folder(&self.folder)?;
+        progress.begin_bar(self.doing);
+        let tables = script::run(&environment, &self.file, &arguments, &progress)?;
         progress.finish();
         print!("{}", for_terminal(&tables));
-        println!("\nresults: {}", paths::shown(results));
-        if !write {
-            return Ok(());
-        }
-        sections::renew(self.file, self.marks, &tables)?;
+        println!("\nresults: {}", paths::shown(&self.folder));
+        Ok(tables)
+    }
+}
+
+impl Document {
+    /// Runs `script`, and renews the document with its tables if `write`.
+    pub fn make(
+        &self,
+        script: &Script,
+        write: bool,
+        prepare: impl FnOnce(&Progress) -> Result<Vec<OsString>>,
+    ) -> Result<()> {
+        let tables = script.run(prepare)?;
+        if write { self.renew(&tables, &script.folder) } else { Ok(()) }
+    }
+
+    /// Renews the document with `tables` and the pictures in `folder`.
+    pub fn renew(&self, tables: &str, folder: &Path) -> Result<()> {
+        sections::renew(self.file, self.marks, tables)?;
         let figures = paths::workspace().join("docs").join("figures");
         for picture in self.pictures {
-            fs::copy(results.join(picture), figures.join(picture))
+            fs::copy(folder.join(picture), figures.join(picture))
                 .with_context(|| format!("{picture} cannot be copied to docs/figures"))?;
         }
         let with_pictures = if self.pictures.is_empty() { "" } else { " and its pictures in docs/figures" };
         println!("renewed: {}{with_pictures}", self.file);
         Ok(())
     }
+}
+
+/// Arguments of a script, with `--quick` at the end if it is to be short.
+pub fn arguments(given: impl IntoIterator<Item = impl Into<OsString>>, quick: bool) -> Vec<OsString> {
+    given.into_iter().map(Into::into).chain(quick.then(|| "--quick".into())).collect()
 }
