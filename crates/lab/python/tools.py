@@ -10,6 +10,8 @@ from pathlib import Path
 WORKSPACE = Path(__file__).resolve().parents[3]
 # below this a number is shown with a power of ten
 SMALL = 1e-3
+# from here on a fraction is shown as a multiple
+MANY = 10.0
 
 
 def say(fraction, what):
@@ -57,3 +59,13 @@ def renew(document, marks, text):
     if not (begin and end):
         raise SystemExit(f"{document} has no marked section; add the lines \"{marks[0]}\" and \"{marks[1]}\"")
     file.write_text(f"{before}{begin}\n{text}{end}{after}", encoding="utf-8")
+
+
+def percent(fraction):
+    """A fraction in per cent with two significant digits; large ones as a multiple."""
+    if not math.isfinite(fraction):
+        return "no number"
+    if fraction >= MANY:
+        return f"{fraction:.0f} x"
+    decimals = max(1 - math.floor(math.log10(100.0 * abs(fraction))), 0) if fraction else 0
+    return f"{100.0 * fraction:.0e} %".replace("e-0", "e-") if decimals > 5 else f"{100.0 * fraction:.{decimals}f} %"

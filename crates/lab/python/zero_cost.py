@@ -62,11 +62,10 @@ def main():
                 ["all instructions", *(f"{total:.1f}" for total in totals)]]
         print(f"{markdown(rows)}\nsame bits, no more work")
         return
-    print(f"{markdown(rows)}\n"
-          "Instructions per communication step of 1 ms in the study's turn. \"Left out\" is a build without any effect: its "
-          "results have the same bits, and off does no more work: not one operation on floating-point numbers, branch or "
-          "call more. What is left between them are moves: compilers keep other values in registers. Switching on takes the "
-          "time of more steps, too, where the effect brings faster motion.")
+    print(f"{markdown(rows)}\nInstructions per communication step of 1 ms in the study's turn. \"Left out\" is a build without "
+          "any effect: its results have the same bits, and off does no more work: not one operation on floating-point numbers, "
+          "branch or call more. What is left between them are moves: compilers keep other values in registers. Switching on "
+          "takes the time of more steps, too, where the effect brings faster motion.")
 
 
 if __name__ == "__main__":
