@@ -1,6 +1,7 @@
 /* The calls of runs without anything around them: reset, set, initialise, step, get, as a host in C makes them.
    calls LIBRARY GUID SET STOP STEP RUNS [OUTPUT...]
-   SET: a file of lines "Real|Integer|Boolean REFERENCE VALUE"; OUTPUT: value references of Reals; STEP 0: one long step.
+   SET: a file of lines "Real|Integer|Boolean|Later REFERENCE VALUE", Later: a Real that is set after initialisation; OUTPUT: value
+   references of Reals; STEP 0: one long step.
    Prints a line for each run: its seconds, and the seconds of the processor that its steps took. */
 
 #include <dlfcn.h>
@@ -45,15 +46,16 @@ int main(int count, char **given) {
     int (*get_real)(Component, const Reference *, size_t, double *) = find(library, "fmi2GetReal");
     int (*step)(Component, double, double, int) = find(library, "fmi2DoStep");
 
-    Reference reals[MOST], integers[MOST], booleans[MOST], outputs[MOST], reference;
-    double numbers[MOST], values[MOST], value;
+    Reference reals[MOST], laters[MOST], integers[MOST], booleans[MOST], outputs[MOST], reference;
+    double numbers[MOST], late[MOST], values[MOST], value;
     int wholes[MOST], truths[MOST];
-    size_t n_reals = 0, n_integers = 0, n_booleans = 0, n_outputs = 0;
+    size_t n_reals = 0, n_laters = 0, n_integers = 0, n_booleans = 0, n_outputs = 0;
     char kind[16];
     FILE *file = fopen(given[3], "r");
     if (!file) { perror(given[3]); return 1; }
-    while (fscanf(file, "%15s %u %lf", kind, &reference, &value) == 3 && n_reals + n_integers + n_booleans < MOST) {
+    while (fscanf(file, "%15s %u %lf", kind, &reference, &value) == 3 && n_reals + n_laters + n_integers + n_booleans < MOST) {
         if (!strcmp(kind, "Real")) { reals[n_reals] = reference; numbers[n_reals++] = value; }
+        else if (!strcmp(kind, "Later")) { laters[n_laters] = reference; late[n_laters++] = value; }
         else if (!strcmp(kind, "Integer")) { integers[n_integers] = reference; wholes[n_integers++] = (int)value; }
         else { booleans[n_booleans] = reference; truths[n_booleans++] = (int)value; }
     }
@@ -74,6 +76,7 @@ int main(int count, char **given) {
         if (n_booleans) check(set_boolean(it, booleans, n_booleans, truths), "booleans");
         check(enter(it), "enter");
         check(leave(it), "leave");
+        if (n_laters) check(set_real(it, laters, n_laters, late), "later reals");
         check(get_real(it, outputs, n_outputs, values), "get");
         double stepping = now(CLOCK_PROCESS_CPUTIME_ID);
         for (long k = 0; k < steps; ++k) {

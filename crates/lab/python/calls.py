@@ -18,13 +18,15 @@ class Calls:
         self.program = self.folder / "calls"
         subprocess.run(["cc", "-O2", "-o", self.program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
 
-    def seconds(self, fmu, values, outputs, stop, step, runs=1):
-        """Seconds of each run of `fmu` to `stop`, and those of the processor that its steps took."""
+    def seconds(self, fmu, values, outputs, stop, step, runs=1, later=None):
+        """Seconds of each run of `fmu` to `stop`, and those of the processor that its steps took; inputs `later` are set after
+        initialisation."""
         library = next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
         lines = []
-        for name, value in values.items():
-            variable = fmu.variable(name)
-            lines.append(f"{CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
+        for named, kind in ((values, None), (later or {}, "Later")):
+            for name, value in named.items():
+                variable = fmu.variable(name)
+                lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
         (self.folder / "set").write_text("\n".join(lines))
         references = [str(fmu.variable(name).reference) for name in outputs]
         command = [self.program, library, fmu.description.guid, self.folder / "set", str(stop), str(step or 0.0), str(runs), *references]

@@ -2,8 +2,7 @@
 
 use anyhow::Result;
 
-use super::measured_here;
-use super::summary::TitledTable;
+use super::{measured_here, titled};
 use answers::accuracy::answer::Answer;
 use answers::accuracy::gears::Gears;
 use answers::accuracy::words::{effects_on, percent, solver, two};
@@ -40,7 +39,7 @@ pub const ALL: [Decision; 11] = [
 const COLUMNS: &str = "quantity,scene,want,accuracy,gears,effects,solver,error,stray,real_time,price,reference_price";
 
 /// Answers the first `count` questions. `report` receives the fraction done and the current job.
-pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> Result<(String, TitledTable)> {
+pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> Result<(String, String)> {
     let mut file = measured_here(COLUMNS, &["error: of the chosen setting against the richest model, as a fraction"])?;
     let mut table =
         Table::new(["quantity", "within", "gears", "effects", "solver", "error", "× real time", "asked by"]);
@@ -85,7 +84,7 @@ pub fn measure(count: usize, timed: bool, report: &mut dyn FnMut(f64, &str)) -> 
     }
     let table = table.all_left();
     let title = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy` with the options of its row";
-    Ok((file.text()?, TitledTable::new(title, table)))
+    Ok((file.text()?, titled(title, &table)))
 }
 
 /// The error, and what cannot be told.

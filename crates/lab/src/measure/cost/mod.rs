@@ -1,22 +1,20 @@
 //! What accuracy costs, measured on this machine.
 //!
 //! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
-//! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
+//! 2. The communication step of a coupled run, with and without rollback ([`communication`]).
 //! 3. Decisions: the cheapest setting for a quantity and an accuracy ([`decisions`]), and the laws over gears and loads
 //!    ([`laws`]).
-//! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
+//! 4. The ladder of fidelities: what each gets right, and what it costs, measured by python/cost.py.
 //!
-//! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
+//! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py, which also sums up.
 
 pub mod cases;
 pub mod communication;
 pub mod coupling;
 pub mod decisions;
-pub mod fidelity;
 pub mod laws;
 pub mod measure;
 pub mod reference;
-pub mod summary;
 pub mod vehicle;
 pub mod work_precision;
 
@@ -29,18 +27,20 @@ use clap::Args;
 
 use crate::tools::machine::machine;
 use crate::tools::places;
+use crate::tools::scripted::arguments;
 use answers::text::csv_file::CsvFile;
+use answers::text::table::{Table, for_terminal};
+use fmu_build::fmu::package;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
 use fmu_build::tools::{paths, script, sections};
-use summary::TitledTable;
 
-/// The document or the marks of the summary.
+/// The document and the marks of the summary.
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 const DECISIONS: [&str; 2] = ["<!-- decisions:begin -->", "<!-- decisions:end -->"];
-/// Share of the bar that belongs to each figure, and to drawing.
-const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
+/// Share of the bar that belongs to methods, couplings and decisions; the rest is that of cost.py.
+const SHARES: [f64; 3] = [0.5, 0.15, 0.2];
 
 /// Measures what accuracy costs: methods, fidelities, settings and communication steps
 #[derive(Args, Clone, Debug)]
@@ -73,7 +73,7 @@ pub struct CostPlan {
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
     pub patience: f64,
-    /// Whether the ladder leaves out rungs between others.
+    /// Whether the table of the laws is left out.
     pub short: bool,
 }
 
@@ -108,48 +108,40 @@ impl CostCommand {
             let done = SHARES[..part].iter().sum::<f64>() + SHARES[part] * done;
             progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
         };
+        paths::create_folder(&folder)?;
         if self.decisions {
-            paths::create_folder(&folder)?;
             progress.begin_bar("measuring");
-            let tables = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
+            let tables = decide(&form, &folder, &mut |done, what| report(2, done, what))?;
             progress.finish();
-            return self.conclude(&tables, &[], &folder);
+            return self.conclude(&tables, "", &folder);
         }
         // Python first: what the user has to install should not come out after minutes of measuring
         let environment = Environment::ready(|what| progress.stage(what))?;
-        paths::create_folder(&folder)?;
+        progress.stage("packaging the FMU");
+        let fmu = package::package()?;
         progress.begin_bar("measuring");
         let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
         save(&folder, "work_precision.csv", &found.csv()?)?;
-        save(
-            &folder,
-            "communication_step.csv",
-            &communication::measure(&form, &mut |done, what| report(1, done, what))?,
-        )?;
-        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| report(2, done, what))?)?;
-        let decisions = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
-        report(4, 0.0, "drawing");
-        let script = places::script("cost.py");
-        script::run(&environment, &script, &[&folder], &progress)?;
+        let couplings = communication::measure(&form, &mut |done, what| report(1, done, what))?;
+        save(&folder, "communication_step.csv", &couplings)?;
+        let decisions = decide(&form, &folder, &mut |done, what| report(2, done, what))?;
+        let given = arguments([fmu, folder.clone()], self.quick);
+        let summary = script::run(&environment, &places::script("cost.py"), &given, &progress)?;
         progress.finish();
-        self.conclude(&decisions, &summary::tables(&found), &folder)
+        self.conclude(&decisions, &summary, &folder)
     }
 
     /// Prints what was found, and renews the document.
-    fn conclude(&self, decisions: &[TitledTable], tables: &[TitledTable], folder: &Path) -> Result<()> {
-        for table in decisions.iter().chain(tables) {
-            println!("{}", table.terminal());
-        }
+    fn conclude(&self, decisions: &str, summary: &str, folder: &Path) -> Result<()> {
+        println!("{}\n{}", for_terminal(decisions), for_terminal(summary));
         let mut files = files(folder)?;
         files.sort();
         println!("machine: {}\nfiles:", machine());
         files.iter().for_each(|file| println!("  {}", paths::shown(file)));
         if self.write {
-            for (tables, marks) in [(decisions, DECISIONS), (tables, MARKS)] {
-                if !tables.is_empty() {
-                    let text: Vec<String> = tables.iter().map(TitledTable::markdown).collect();
-                    let text = format!("{}\nMeasured on {}.\n", text.join("\n"), machine());
-                    sections::renew(DOCUMENT, marks, &text)?;
+            for (text, marks) in [(decisions, DECISIONS), (summary, MARKS)] {
+                if !text.is_empty() {
+                    sections::renew(DOCUMENT, marks, &format!("{text}\nMeasured on {}.\n", machine()))?;
                 }
             }
             copy_pictures(&files)?;
@@ -159,15 +151,21 @@ impl CostCommand {
     }
 }
 
+/// A table under a title.
+fn titled(title: &str, table: &Table) -> String {
+    format!("{title}:\n\n{}", table.markdown())
+}
+
 /// The table of decisions, and that of the laws unless the plan is short.
-fn decide(form: &CostPlan, folder: &Path, report: &mut dyn FnMut(f64, &str)) -> Result<Vec<TitledTable>> {
+fn decide(form: &CostPlan, folder: &Path, report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let (csv, table) = decisions::measure(form.decisions, !form.short, &mut |done, what| report(0.7 * done, what))?;
     save(folder, "decisions.csv", &csv)?;
-    let mut tables = vec![table];
-    if !form.short {
-        tables.push(laws::measure(&mut |done, what| report(0.7 + 0.3 * done, what))?);
-    }
-    Ok(tables)
+    let laws = if form.short {
+        String::new()
+    } else {
+        format!("\n{}", laws::measure(&mut |done, what| report(0.7 + 0.3 * done, what))?)
+    };
+    Ok(table + &laws)
 }
 
 /// The time left, once it can be estimated.
