@@ -33,7 +33,7 @@ impl HostsCommand {
             file: places::script("hosts.py"),
             doing: "running hosts",
             environment: environments::hosts,
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");

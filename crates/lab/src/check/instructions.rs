@@ -38,10 +38,9 @@ pub struct RealTimeCommand {
 impl ZeroCostCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        let script = counting("zero_cost.py", BUILD);
-        EFFECTS_PAGE.make(&script, self.write && !self.quick, |_| {
+        EFFECTS_PAGE.make(&counting("zero_cost.py"), self.write && !self.quick, |_| {
             let on = EFFECTS.iter().filter(|_| !self.quick).map(|effect| effect.name.into());
-            Ok([script.folder.clone().into()].into_iter().chain(on).collect())
+            Ok([paths::target().join(BUILD).into()].into_iter().chain(on).collect())
         })
     }
 }
@@ -49,18 +48,17 @@ impl ZeroCostCommand {
 impl RealTimeCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        let script = counting("real_time.py", "real-time");
-        COST_PAGE.make(&script, self.write, |_| {
-            Ok(vec![script.folder.clone().into(), paths::target().join(BUILD).into()])
+        COST_PAGE.make(&counting("real_time.py"), self.write, |_| {
+            Ok(["real-time", BUILD].map(|folder| paths::target().join(folder).into()).to_vec())
         })
     }
 }
 
-fn counting(file: &str, folder: &str) -> Script {
+fn counting(file: &str) -> Script {
     Script {
         file: places::script(file),
         doing: "counting",
         environment: |report| Environment::ready(report),
-        folder: paths::target().join(folder),
+        folder: None,
     }
 }

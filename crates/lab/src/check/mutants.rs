@@ -32,10 +32,11 @@ impl MutantsCommand {
             file: places::script("mutants").join("campaign.py"),
             doing: "trying changes",
             environment: environments::parser,
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         let numbers = [self.count as u64, self.seed].map(|number| number.to_string().into());
-        DOCUMENT
-            .make(&script, self.write, |_| Ok(arguments([paths::workspace(), folder].into_iter().chain(numbers), false)))
+        DOCUMENT.make(&script, self.write, |_| {
+            Ok(arguments([paths::workspace(), folder].into_iter().chain(numbers), false))
+        })
     }
 }

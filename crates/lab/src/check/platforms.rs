@@ -13,8 +13,11 @@ use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::paths;
 use fmu_build::tools::python::Environment;
 
-const DOCUMENT: Document =
-    Document { file: "docs/platforms.md", marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"], pictures: &[] };
+const DOCUMENT: Document = Document {
+    file: "docs/platforms.md",
+    marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"],
+    pictures: &[],
+};
 
 /// Checks that the libraries of all platforms give the same bits, Windows under wine
 #[derive(Args, Clone, Debug)]
@@ -31,19 +34,19 @@ impl PlatformsCommand {
             file: places::script("platforms.py"),
             doing: "comparing",
             environment: |report| Environment::complete(report),
-            folder: paths::target().join("platforms"),
+            folder: None,
         };
         DOCUMENT
             .make(&script, self.write, |progress| {
                 progress.stage("building the library for each platform");
-                built(&script)
+                built()
             })
             .context("the libraries do not agree, or could not be compared")
     }
 }
 
 /// An FMU for each library: the arguments of the script.
-fn built(script: &Script) -> Result<Vec<OsString>> {
+fn built() -> Result<Vec<OsString>> {
     let (Some(_), Some(windows)) = (toolchains::old_linux().found(), WINDOWS.found()) else {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };
@@ -57,7 +60,7 @@ fn built(script: &Script) -> Result<Vec<OsString>> {
     }));
     let mut arguments: Vec<OsString> = vec![paths::scenes().into(), windows.programs().join("wine64").into()];
     for (index, (name, library)) in named.into_iter().enumerate() {
-        let fmu = script.folder.join(format!("{index}.fmu"));
+        let fmu = paths::target().join("platforms").join(format!("{index}.fmu"));
         package::write_archive(&[library], None, Packing::Quick, &fmu)?;
         let mut pair = OsString::from(format!("{name}="));
         pair.push(fmu);

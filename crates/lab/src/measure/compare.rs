@@ -68,7 +68,7 @@ impl CompareSimulatorsCommand {
             file: places::simulators_benchmark().join("run.py"),
             doing: "comparing",
             environment: environments::simulators,
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         SIMULATORS.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
@@ -85,7 +85,7 @@ impl CompareSolversCommand {
             file: places::solvers_benchmark().join("compare.py"),
             doing: "comparing",
             environment: environments::solvers,
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         SOLVERS.make(&script, self.write, |progress| {
             progress.stage("building the equations as a library");
@@ -102,7 +102,7 @@ impl DrivetrainCommand {
             file: places::drivetrain().join("run.py"),
             doing: "coupling",
             environment: environments::drivetrain,
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         DRIVETRAIN.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");

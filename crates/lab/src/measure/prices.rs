@@ -45,7 +45,7 @@ impl PricesCommand {
             file: places::script("prices.py"),
             doing: "timing",
             environment: |report| Environment::ready(report),
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");

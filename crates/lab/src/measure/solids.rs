@@ -45,7 +45,7 @@ impl SolidsCommand {
             file: places::script("solids.py"),
             doing: "measuring",
             environment: |report| Environment::ready(report),
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");

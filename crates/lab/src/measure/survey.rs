@@ -45,7 +45,7 @@ impl SurveyCommand {
             file: places::script("survey.py"),
             doing: "answering",
             environment: |report| Environment::ready(report),
-            folder: folder.clone(),
+            folder: Some(folder.clone()),
         };
         if self.shipped {
             return SHIPPED.make(&script, self.write, |_| Ok(vec!["--shipped".into()]));

@@ -28,8 +28,8 @@ pub struct Script {
     pub doing: &'static str,
     /// Makes the environment that it runs in.
     pub environment: fn(&dyn Fn(&str)) -> Result<Environment>,
-    /// The folder of its results.
-    pub folder: PathBuf,
+    /// The folder of its results, if it leaves any.
+    pub folder: Option<PathBuf>,
 }
 
 impl Script {
@@ -38,12 +38,14 @@ impl Script {
         let progress = Progress::start("looking for Python");
         let environment = (self.environment)(&|what| progress.stage(what))?;
         let arguments = prepare(&progress)?;
-        paths::create_folder(&self.folder)?;
+        self.folder.as_deref().map_or(Ok(()), paths::create_folder)?;
         progress.begin_bar(self.doing);
         let tables = script::run(&environment, &self.file, &arguments, &progress)?;
         progress.finish();
         print!("{}", for_terminal(&tables));
-        println!("\nresults: {}", paths::shown(&self.folder));
+        if let Some(folder) = &self.folder {
+            println!("\nresults: {}", paths::shown(folder));
+        }
         Ok(tables)
     }
 }
@@ -57,14 +59,14 @@ impl Document {
         prepare: impl FnOnce(&Progress) -> Result<Vec<OsString>>,
     ) -> Result<()> {
         let tables = script.run(prepare)?;
-        if write { self.renew(&tables, &script.folder) } else { Ok(()) }
+        if write { self.renew(&tables, script.folder.as_deref()) } else { Ok(()) }
     }
 
     /// Renews the document with `tables` and the pictures in `folder`.
-    pub fn renew(&self, tables: &str, folder: &Path) -> Result<()> {
+    pub fn renew(&self, tables: &str, folder: Option<&Path>) -> Result<()> {
         sections::renew(self.file, self.marks, tables)?;
         let figures = paths::workspace().join("docs").join("figures");
-        for picture in self.pictures {
+        for (picture, folder) in self.pictures.iter().zip(folder.into_iter().cycle()) {
             fs::copy(folder.join(picture), figures.join(picture))
                 .with_context(|| format!("{picture} cannot be copied to docs/figures"))?;
         }

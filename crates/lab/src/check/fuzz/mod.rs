@@ -27,7 +27,6 @@ use fmu_build::command_line::LABORATORY;
 
 use crate::tools::places;
 use crate::tools::scripted::Script;
-use fmu_build::tools::paths;
 use fmu_build::tools::python::Environment;
 
 /// Number of calls by default.
@@ -57,7 +56,7 @@ impl FuzzCommand {
             file: places::script("fuzz.py"),
             doing: "calling",
             environment: |report| Environment::ready(report),
-            folder: paths::target().join("fuzz"),
+            folder: None,
         };
         let numbers = [self.calls.div_ceil(CALLS), CALLS].map(|number| number.to_string());
         let program = env::current_exe().context("the path of this program is unknown")?;
