@@ -3,8 +3,8 @@
 use anyhow::Result;
 use clap::Args;
 
-use crate::tools::scripted::{Document, Script, arguments};
-use crate::tools::{environments, places};
+use crate::tools::places;
+use crate::tools::scripted::{Document, Needs, Script, arguments};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::paths;
 
@@ -32,7 +32,7 @@ impl HostsCommand {
         let script = Script {
             file: places::script("hosts.py"),
             doing: "running hosts",
-            environment: environments::hosts,
+            needs: Needs::Bench(&places::HOSTS),
             folder: Some(folder.clone()),
         };
         DOCUMENT.make(&script, self.write, |progress| {

@@ -4,10 +4,8 @@ use anyhow::Result;
 use bevel_differential::model::EFFECTS;
 use clap::Args;
 
-use crate::tools::places;
 use crate::tools::scripted::{Document, Script};
 use fmu_build::tools::paths;
-use fmu_build::tools::python::Environment;
 
 const EFFECTS_PAGE: Document =
     Document { file: "docs/effects.md", marks: ["<!-- off:begin -->", "<!-- off:end -->"], pictures: &[] };
@@ -38,7 +36,7 @@ pub struct RealTimeCommand {
 impl ZeroCostCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        EFFECTS_PAGE.make(&counting("zero_cost.py"), self.write && !self.quick, |_| {
+        EFFECTS_PAGE.make(&Script::own("zero_cost.py", "counting", None), self.write && !self.quick, |_| {
             let on = EFFECTS.iter().filter(|_| !self.quick).map(|effect| effect.name.into());
             Ok([paths::target().join(BUILD).into()].into_iter().chain(on).collect())
         })
@@ -48,17 +46,8 @@ impl ZeroCostCommand {
 impl RealTimeCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        COST_PAGE.make(&counting("real_time.py"), self.write, |_| {
+        COST_PAGE.make(&Script::own("real_time.py", "counting", None), self.write, |_| {
             Ok(["real-time", BUILD].map(|folder| paths::target().join(folder).into()).to_vec())
         })
-    }
-}
-
-fn counting(file: &str) -> Script {
-    Script {
-        file: places::script(file),
-        doing: "counting",
-        environment: |report| Environment::ready(report),
-        folder: None,
     }
 }

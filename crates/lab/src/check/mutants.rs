@@ -4,8 +4,8 @@ use anyhow::Result;
 use clap::Args;
 use fmu_build::tools::paths;
 
-use crate::tools::scripted::{Document, Script, arguments};
-use crate::tools::{environments, places};
+use crate::tools::places;
+use crate::tools::scripted::{Document, Needs, Script, arguments};
 
 const DOCUMENT: Document =
     Document { file: "docs/mutants.md", marks: ["<!-- mutants:begin -->", "<!-- mutants:end -->"], pictures: &[] };
@@ -29,9 +29,9 @@ impl MutantsCommand {
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("mutants").join(format!("{}-{}", self.seed, self.count));
         let script = Script {
-            file: places::script("mutants").join("campaign.py"),
+            file: places::MUTANTS.folder().join("campaign.py"),
             doing: "trying changes",
-            environment: environments::parser,
+            needs: Needs::Bench(&places::MUTANTS),
             folder: Some(folder.clone()),
         };
         let numbers = [self.count as u64, self.seed].map(|number| number.to_string().into());

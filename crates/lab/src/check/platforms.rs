@@ -6,12 +6,11 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use crate::tools::places;
-use crate::tools::scripted::{Document, Script};
+use crate::tools::scripted::{Document, Needs, Script};
 use fmu_build::fmu::libraries::{self, Library};
 use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::paths;
-use fmu_build::tools::python::Environment;
 
 const DOCUMENT: Document = Document {
     file: "docs/platforms.md",
@@ -30,12 +29,8 @@ pub struct PlatformsCommand {
 impl PlatformsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        let script = Script {
-            file: places::script("platforms.py"),
-            doing: "comparing",
-            environment: |report| Environment::complete(report),
-            folder: None,
-        };
+        let script =
+            Script { file: places::script("platforms.py"), doing: "comparing", needs: Needs::Tests, folder: None };
         DOCUMENT
             .make(&script, self.write, |progress| {
                 progress.stage("building the library for each platform");

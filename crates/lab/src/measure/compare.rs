@@ -4,8 +4,8 @@
 use anyhow::Result;
 use clap::Args;
 
-use crate::tools::scripted::{Document, Script, arguments};
-use crate::tools::{environments, places};
+use crate::tools::places;
+use crate::tools::scripted::{Document, Needs, Script, arguments};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::paths;
 
@@ -65,9 +65,9 @@ impl CompareSimulatorsCommand {
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("peers");
         let script = Script {
-            file: places::simulators_benchmark().join("run.py"),
+            file: places::SIMULATORS.folder().join("run.py"),
             doing: "comparing",
-            environment: environments::simulators,
+            needs: Needs::Bench(&places::SIMULATORS),
             folder: Some(folder.clone()),
         };
         SIMULATORS.make(&script, self.write, |progress| {
@@ -82,9 +82,9 @@ impl CompareSolversCommand {
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("cost");
         let script = Script {
-            file: places::solvers_benchmark().join("compare.py"),
+            file: places::SOLVERS.folder().join("compare.py"),
             doing: "comparing",
-            environment: environments::solvers,
+            needs: Needs::Bench(&places::SOLVERS),
             folder: Some(folder.clone()),
         };
         SOLVERS.make(&script, self.write, |progress| {
@@ -99,9 +99,9 @@ impl DrivetrainCommand {
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("drivetrain");
         let script = Script {
-            file: places::drivetrain().join("run.py"),
+            file: places::DRIVETRAIN.folder().join("run.py"),
             doing: "coupling",
-            environment: environments::drivetrain,
+            needs: Needs::Bench(&places::DRIVETRAIN),
             folder: Some(folder.clone()),
         };
         DRIVETRAIN.make(&script, self.write, |progress| {

@@ -6,11 +6,9 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
-use crate::tools::places;
 use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::fmu::package;
 use fmu_build::tools::paths;
-use fmu_build::tools::python::Environment;
 
 const DOCUMENT: Document =
     Document { file: "docs/prices.md", marks: ["<!-- prices:begin -->", "<!-- prices:end -->"], pictures: &[] };
@@ -41,12 +39,7 @@ impl PricesCommand {
             ensure!(other.is_file(), "{}: there is no such FMU", other.display());
         }
         let folder = paths::target().join("prices");
-        let script = Script {
-            file: places::script("prices.py"),
-            doing: "timing",
-            environment: |report| Environment::ready(report),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::own("prices.py", "timing", Some(&folder));
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
             let mut given = arguments([package::package()?, folder.clone()], false);

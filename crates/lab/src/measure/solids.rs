@@ -6,10 +6,8 @@ use std::path::PathBuf;
 use anyhow::{Context, Result};
 use clap::Args;
 
-use crate::tools::places;
 use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::fmu::package;
-use fmu_build::tools::python::Environment;
 use fmu_build::tools::{paths, sections};
 
 const DOCUMENT: Document = Document {
@@ -41,12 +39,7 @@ impl SolidsCommand {
     /// Measures, draws and prints the tables.
     pub fn run(&self) -> Result<()> {
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("solids"));
-        let script = Script {
-            file: places::script("solids.py"),
-            doing: "measuring",
-            environment: |report| Environment::ready(report),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::own("solids.py", "measuring", Some(&folder));
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
             Ok(arguments([package::package()?, folder.clone()], self.quick))

@@ -7,10 +7,8 @@ use std::path::PathBuf;
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use crate::tools::places;
 use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::tools::paths;
-use fmu_build::tools::python::Environment;
 
 const RANDOM: Document =
     Document { file: "docs/accuracy.md", marks: ["<!-- survey:begin -->", "<!-- survey:end -->"], pictures: &[] };
@@ -41,12 +39,7 @@ impl SurveyCommand {
     /// Answers all questions, runs the FMU, and prints the table of misses.
     pub fn run(&self) -> Result<()> {
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("survey"));
-        let script = Script {
-            file: places::script("survey.py"),
-            doing: "answering",
-            environment: |report| Environment::ready(report),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::own("survey.py", "answering", Some(&folder));
         if self.shipped {
             return SHIPPED.make(&script, self.write, |_| Ok(vec!["--shipped".into()]));
         }

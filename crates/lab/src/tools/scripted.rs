@@ -10,6 +10,8 @@ use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
 use fmu_build::tools::{paths, script, sections};
 
+use super::places::{self, Bench};
+
 /// Where tables and pictures go.
 pub struct Document {
     /// The document.
@@ -26,17 +28,37 @@ pub struct Script {
     pub file: PathBuf,
     /// What it does, beside the bar.
     pub doing: &'static str,
-    /// Makes the environment that it runs in.
-    pub environment: fn(&dyn Fn(&str)) -> Result<Environment>,
+    /// What it runs in.
+    pub needs: Needs,
     /// The folder of its results, if it leaves any.
     pub folder: Option<PathBuf>,
 }
 
+/// Environments of scripts.
+pub enum Needs {
+    /// That of users' commands.
+    Users,
+    /// The same with the packages of the tests.
+    Tests,
+    /// That of a folder of scripts.
+    Bench(&'static Bench),
+}
+
 impl Script {
+    /// A script of the laboratory's own that runs in the environment of users' commands.
+    pub fn own(name: &str, doing: &'static str, folder: Option<&Path>) -> Self {
+        Self { file: places::script(name), doing, needs: Needs::Users, folder: folder.map(Path::to_owned) }
+    }
+
     /// Runs it with the arguments that `prepare` returns, prints its tables and where its results are, and returns the tables.
     pub fn run(&self, prepare: impl FnOnce(&Progress) -> Result<Vec<OsString>>) -> Result<String> {
         let progress = Progress::start("looking for Python");
-        let environment = (self.environment)(&|what| progress.stage(what))?;
+        let report = |what: &str| progress.stage(what);
+        let environment = match self.needs {
+            Needs::Users => Environment::ready(report)?,
+            Needs::Tests => Environment::complete(report)?,
+            Needs::Bench(bench) => bench.environment(report)?,
+        };
         let arguments = prepare(&progress)?;
         self.folder.as_deref().map_or(Ok(()), paths::create_folder)?;
         progress.begin_bar(self.doing);

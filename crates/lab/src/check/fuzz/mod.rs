@@ -25,9 +25,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use fmu_build::command_line::LABORATORY;
 
-use crate::tools::places;
 use crate::tools::scripted::Script;
-use fmu_build::tools::python::Environment;
 
 /// Number of calls by default.
 const MANY: usize = 1_000_000;
@@ -52,12 +50,7 @@ impl FuzzCommand {
         if self.is_worker {
             return work(self.seed, self.calls);
         }
-        let script = Script {
-            file: places::script("fuzz.py"),
-            doing: "calling",
-            environment: |report| Environment::ready(report),
-            folder: None,
-        };
+        let script = Script::own("fuzz.py", "calling", None);
         let numbers = [self.calls.div_ceil(CALLS), CALLS].map(|number| number.to_string());
         let program = env::current_exe().context("the path of this program is unknown")?;
         let words = numbers.into_iter().chain([self.seed.to_string(), LABORATORY.to_owned()]);

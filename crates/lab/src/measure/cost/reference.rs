@@ -6,7 +6,7 @@
 
 use std::fs;
 
-use anyhow::{Context, Result, anyhow, ensure};
+use anyhow::{Context, Result, anyhow};
 use bevel_differential::model::Method;
 
 use super::cases::{CaseMotion, CostCase, Fidelity, Sample};
@@ -81,29 +81,19 @@ fn from_file(case: &CostCase, name: String) -> Result<Reference> {
 
 /// Samples at `times` from the text of a file.
 fn parse(text: &str, times: &[f64]) -> Result<Vec<Sample>> {
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let names: Vec<&str> = lines.next().context("is empty")?.split(',').collect();
-    let place = |name: &str| names.iter().position(|n| *n == name).with_context(|| format!("has no column {name}"));
-    let columns = COLUMNS.map(place);
-    let [left, right, left_force, right_force] = columns;
-    let columns = [left?, right?, left_force?, right_force?];
-    let rows: Vec<Vec<f64>> = lines
-        .map(|line| {
-            line.split(',').map(|cell| cell.trim().parse().map_err(|_| anyhow!("\"{cell}\" is no number"))).collect()
-        })
-        .collect::<Result<_>>()?;
-    times
-        .iter()
-        .map(|&time| {
-            let row = rows.iter().find(|row| (row[0] - time).abs() < SAME);
-            let row = row.with_context(|| {
-                format!("has no row for {time} s: renew the file with tests/python/make_reference.py")
-            })?;
-            ensure!(row.len() == names.len(), "the row for {time} s is not complete");
-            let [left, right, left_force, right_force] = columns.map(|column| row[column]);
-            Ok(Sample { speed: [left, right], force: [left_force, right_force] })
-        })
-        .collect()
+    let mut file = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    let names = file.headers()?.clone();
+    let place = |name: &str| names.iter().position(|n| n == name).with_context(|| format!("has no column {name}"));
+    let columns = COLUMNS.into_iter().map(place).collect::<Result<Vec<_>>>()?;
+    let rows = file.deserialize().collect::<Result<Vec<Vec<f64>>, _>>()?;
+    let sample = |&time: &f64| {
+        let row = rows.iter().find(|row| (row[0] - time).abs() < SAME);
+        let row = row
+            .with_context(|| format!("has no row for {time} s: renew the file with tests/python/make_reference.py"))?;
+        let [speed, force] = [0, 2].map(|k| [row[columns[k]], row[columns[k + 1]]]);
+        Ok(Sample { speed, force })
+    };
+    times.iter().map(sample).collect()
 }
 
 /// Radau and Rodas5P of this program; they share the equations and the error control, but no formula of a step.
