@@ -5,7 +5,6 @@ use anyhow::{Result, anyhow};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Parameters};
 
-use super::titled;
 use answers::accuracy::gears::Gears;
 use answers::accuracy::record::{Record, in_one_line};
 use answers::accuracy::want::{self, Want};
@@ -78,7 +77,7 @@ pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     }
     let title = "Errors of each law against `line_weber` + gear bodies, least and largest over four gear pairs (10/16, 12/20 and 14/18 \
                  teeth, modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's for the size";
-    Ok(titled(title, &table))
+    Ok(format!("{title}:\n\n{}", table.markdown()))
 }
 
 fn error(want: &Want, scene: &Scene, found: &Record, reference: &Record) -> Result<f64, String> {

@@ -2,16 +2,13 @@
 //!
 //! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
 //! 2. The communication step of a coupled run, with and without rollback ([`communication`]).
-//! 3. Decisions: the cheapest setting for a quantity and an accuracy ([`decisions`]), and the laws over gears and loads
-//!    ([`laws`]).
-//! 4. The ladder of fidelities: what each gets right, and what it costs, measured by python/cost.py.
-//!
-//! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py, which also sums up.
+//! 3. The laws over gears and loads ([`laws`]).
+//! 4. Decisions: the cheapest setting for a quantity and an accuracy, and the ladder of fidelities: what each gets right, and
+//!    what it costs. Both are measured by python/cost.py, which also draws all pictures and sums up.
 
 pub mod cases;
 pub mod communication;
 pub mod coupling;
-pub mod decisions;
 pub mod laws;
 pub mod measure;
 pub mod reference;
@@ -29,7 +26,7 @@ use crate::tools::machine::machine;
 use crate::tools::places;
 use crate::tools::scripted::arguments;
 use answers::text::csv_file::CsvFile;
-use answers::text::table::{Table, for_terminal};
+use answers::text::table::for_terminal;
 use fmu_build::fmu::package;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
@@ -39,8 +36,8 @@ use fmu_build::tools::{paths, script, sections};
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 const DECISIONS: [&str; 2] = ["<!-- decisions:begin -->", "<!-- decisions:end -->"];
-/// Share of the bar that belongs to methods, couplings and decisions; the rest is that of cost.py.
-const SHARES: [f64; 3] = [0.5, 0.15, 0.2];
+/// Share of the bar that belongs to methods, couplings and laws; the rest is that of cost.py.
+const SHARES: [f64; 3] = [0.5, 0.15, 0.05];
 
 /// Measures what accuracy costs: methods, fidelities, settings and communication steps
 #[derive(Args, Clone, Debug)]
@@ -67,8 +64,6 @@ pub struct CostPlan {
     pub fixed_steps: &'static [f64],
     /// Communication steps, each an exact part of 0.1 s [s].
     pub communication_steps: &'static [f64],
-    /// Questions that are answered.
-    pub decisions: usize,
     /// Runs of each setting.
     pub runs: usize,
     /// Seconds on the processor after which a run is given up.
@@ -81,7 +76,6 @@ const FULL: CostPlan = CostPlan {
     tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
     fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
     communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
-    decisions: decisions::ALL.len(),
     runs: 15,
     patience: 10.0,
     short: false,
@@ -91,7 +85,6 @@ const QUICK: CostPlan = CostPlan {
     tolerances: &[1e-3, 1e-6, 1e-9],
     fixed_steps: &[1e-4, 1e-5],
     communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
-    decisions: 1,
     runs: 5,
     patience: 0.5,
     short: true,
@@ -109,26 +102,27 @@ impl CostCommand {
             progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
         };
         paths::create_folder(&folder)?;
-        if self.decisions {
-            progress.begin_bar("measuring");
-            let tables = decide(&form, &folder, &mut |done, what| report(2, done, what))?;
-            progress.finish();
-            return self.conclude(&tables, "", &folder);
-        }
         // Python first: what the user has to install should not come out after minutes of measuring
         let environment = Environment::ready(|what| progress.stage(what))?;
-        progress.stage("packaging the FMU");
-        let fmu = package::package()?;
-        progress.begin_bar("measuring");
-        let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
-        save(&folder, "work_precision.csv", &found.csv()?)?;
-        let couplings = communication::measure(&form, &mut |done, what| report(1, done, what))?;
-        save(&folder, "communication_step.csv", &couplings)?;
-        let decisions = decide(&form, &folder, &mut |done, what| report(2, done, what))?;
-        let given = arguments([fmu, folder.clone()], self.quick);
+        let mut given = vec![folder.clone()];
+        if !self.decisions {
+            progress.stage("packaging the FMU");
+            given.insert(0, package::package()?);
+            progress.begin_bar("measuring");
+            let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
+            save(&folder, "work_precision.csv", &found.csv()?)?;
+            let couplings = communication::measure(&form, &mut |done, what| report(1, done, what))?;
+            save(&folder, "communication_step.csv", &couplings)?;
+        } else {
+            progress.begin_bar("measuring");
+        }
+        let laws = if form.short { None } else { Some(laws::measure(&mut |done, what| report(2, done, what))?) };
+        let given = arguments(given, self.quick);
         let summary = script::run(&environment, &places::script("cost.py"), &given, &progress)?;
         progress.finish();
-        self.conclude(&decisions, &summary, &folder)
+        let decisions = fs::read_to_string(folder.join("decisions.md")).context("decisions.md cannot be read")?;
+        let tables: Vec<String> = [decisions].into_iter().chain(laws).collect();
+        self.conclude(&tables.join("\n"), &summary, &folder)
     }
 
     /// Prints what was found, and renews the document.
@@ -149,23 +143,6 @@ impl CostCommand {
         }
         Ok(())
     }
-}
-
-/// A table under a title.
-fn titled(title: &str, table: &Table) -> String {
-    format!("{title}:\n\n{}", table.markdown())
-}
-
-/// The table of decisions, and that of the laws unless the plan is short.
-fn decide(form: &CostPlan, folder: &Path, report: &mut dyn FnMut(f64, &str)) -> Result<String> {
-    let (csv, table) = decisions::measure(form.decisions, !form.short, &mut |done, what| report(0.7 * done, what))?;
-    save(folder, "decisions.csv", &csv)?;
-    let laws = if form.short {
-        String::new()
-    } else {
-        format!("\n{}", laws::measure(&mut |done, what| report(0.7 + 0.3 * done, what))?)
-    };
-    Ok(table + &laws)
 }
 
 /// The time left, once it can be estimated.
