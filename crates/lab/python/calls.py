@@ -10,25 +10,40 @@ TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right
        "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 
 
+def compiled(folder, name, *libraries):
+    """A host in C, built in a folder."""
+    program = Path(folder) / name
+    subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name(f"{name}.c"), "-ldl", *libraries], check=True)
+    return program
+
+
+def library_of(fmu):
+    """The library of this machine."""
+    return next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
+
+
+def write_start(file, fmu, values, later=None):
+    """Writes start values for a host; inputs `later` are set after initialisation."""
+    lines = []
+    for named, kind in ((values, None), (later or {}, "Later")):
+        for name, value in named.items():
+            variable = fmu.variable(name)
+            lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
+    file.write_text("\n".join(lines))
+
+
 class Calls:
     """The C program; `folder` is where it is built and finds its start values."""
 
     def __init__(self, folder):
-        self.folder = Path(folder)
-        self.program = self.folder / "calls"
-        subprocess.run(["cc", "-O2", "-o", self.program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
+        self.folder, self.program = Path(folder), compiled(folder, "calls")
 
-    def seconds(self, fmu, values, outputs, stop, step, runs=1, later=None):
-        """Seconds of each run of `fmu` to `stop`, and those of the processor that its steps took; inputs `later` are set after
-        initialisation."""
-        library = next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
-        lines = []
-        for named, kind in ((values, None), (later or {}, "Later")):
-            for name, value in named.items():
-                variable = fmu.variable(name)
-                lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
-        (self.folder / "set").write_text("\n".join(lines))
+    def seconds(self, fmu, values, outputs, stretches, runs=1, later=None):
+        """Seconds of each run of `fmu`, and those of the processor that its steps took. `stretches`: pairs of their end and step [s],
+        None for one long step; inputs `later` are set after initialisation."""
+        write_start(self.folder / "set", fmu, values, later)
+        parts = ",".join(f"{end!r}:{step or 0.0!r}" for end, step in stretches)
         references = [str(fmu.variable(name).reference) for name in outputs]
-        command = [self.program, library, fmu.description.guid, self.folder / "set", str(stop), str(step or 0.0), str(runs), *references]
+        command = [self.program, library_of(fmu), fmu.description.guid, self.folder / "set", parts, str(runs), *references]
         printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return [tuple(map(float, line.split())) for line in printed.splitlines()]

@@ -116,7 +116,7 @@ def measure(fmu, folder, short, begin, end):
         for place, (scene, *_, values) in enumerate(runs):
             say(begin + (end - begin) * (0.2 + 0.8 * (number + place / len(runs)) / ROUNDS), "ladder: times")
             if found[place][0] == "ok":
-                seconds[place] += [own for _, own in calls.seconds(fmu, values, [], scene.end, STEP, RUNS, scene.later)]
+                seconds[place] += [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.later)]
     rows = [HEAD]
     for place, ((scene, name, adds, _), (status, message, values)) in enumerate(zip(runs, found)):
         first = place // len(rungs) * len(rungs)

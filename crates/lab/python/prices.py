@@ -37,7 +37,7 @@ class Bench:
         self.calls, self.runs = Calls(folder), runs
 
     def _per_step(self, fmu, values, steps, outputs):
-        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, steps * STEP, STEP)
+        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, [(steps * STEP, STEP)])
         return seconds / steps
 
     def _steps(self, fmu, values, outputs):

@@ -143,7 +143,7 @@ def measured(fmu, plan, folder):
     for run in range(RUNS):
         for place, kind in enumerate(kinds):
             say(0.5 + 0.45 * (run * len(kinds) + place) / seconds.size, "times")
-            [(_, seconds[run, place])] = calls.seconds(fmu, settings(*kind, USUAL), [], plan.end, STEP)
+            [(_, seconds[run, place])] = calls.seconds(fmu, settings(*kind, USUAL), [], [(plan.end, STEP)])
     for row, own in zip(rows, seconds.T):
         row.seconds = np.quantile(own, [0.25, 0.5, 0.75])
         row.real_time = plan.end / row.taken

@@ -52,7 +52,7 @@ def overhead(calls, fmu, runs):
             package, bare = [], []
             for _ in range(max(1, runs // 20)):
                 # the first run makes what follows from the gears
-                bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, STOP, step, 21)[1:]]
+                bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, [(STOP, step)], 21)[1:]]
                 package += [timed(use) for _ in range(20)]
             yield row(what, min(package) * 1e3, min(bare) * 1e3, "ms", limit)
 

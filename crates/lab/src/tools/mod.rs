@@ -1,6 +1,5 @@
 //! Tools that only the laboratory needs, beside those of `fmu_build`.
 
-pub mod machine;
 pub mod places;
 pub mod random;
 pub mod scripted;
