@@ -7,13 +7,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from bevel_differential import Fmu
 from bevel_differential.text import markdown
 
 sys.path.append(str(Path(__file__).parents[2] / "crates" / "lab" / "python"))
 import counting  # noqa: E402
+import coupling  # noqa: E402
 import fuzz  # noqa: E402
 import hosts  # noqa: E402
 import ladder  # noqa: E402
+import precision  # noqa: E402
 import solids_errors  # noqa: E402
 import survey_scenes  # noqa: E402
 import tools  # noqa: E402
@@ -94,6 +97,72 @@ def test_every_rung_of_the_ladder_is_richer_than_the_one_before():
     for name, (_, more) in ladder.RUNGS.items():
         assert more.items() - values.items(), name
         values |= more
+
+
+@pytest.fixture(scope="module")
+def host(tmp_path_factory):
+    return coupling.Host(Fmu.of(), tmp_path_factory.mktemp("host"))
+
+
+def test_plain_stepping_is_of_order_one_and_rollback_of_order_two(host):
+    # ideal gears are a closed form between communication points: all error is that of the coupling
+    exact = host.reference("0", "ideal")
+    for how, order in (("0", 1.0), ("2", 2.0)):
+        small, large = (precision.errors(exact, host.run(how, "ideal", step)[0])[0] for step in (1e-4, 2e-4))
+        assert math.log2(large / small) == pytest.approx(order, abs=0.1)
+
+
+def test_constant_inputs_need_no_communication(host):
+    few, many = (host.run("constant", "ideal", step)[0] for step in (0.1, 1e-3))
+    assert precision.errors(few, many)[0] < 1e-12
+
+
+def test_a_host_that_the_fmu_refuses_fails(host):
+    with pytest.raises(ValueError, match="status"):
+        host.run("0", "ideal", 0.1, tolerance=-1.0)
+
+
+def test_cases_run_and_end_on_time():
+    for motion, fidelity in precision.CASES:
+        case = precision.Case(Fmu.of(), motion, fidelity)
+        samples, counts = case.samples("adaptive", 1e-3)
+        assert samples.shape == (len(case.times), 4) and np.all(np.isfinite(samples)), case.name
+        # steps do not depend on the times of samples, and one that leads beyond the last of them is not completed
+        assert counts[0] + counts[2] > 0, case.name
+        assert case.times[-1] == pytest.approx(case.stretches[-1][0])
+
+
+def test_a_run_without_patience_is_given_up():
+    with pytest.raises(ValueError, match="given up at"):
+        precision.Case(Fmu.of(), "turn", "line").samples("fixed_step", 1e-6, patience=0.0)
+
+
+def test_errors_are_relative_to_the_largest_speed_and_the_mean_force():
+    reference = np.array([[10.0, 0.0, 100.0, 100.0], [-20.0, 0.0, 300.0, 300.0]])
+    samples = np.array([[10.0, 0.0, 100.0, 100.0], [-19.0, 0.0, 280.0, 280.0]])
+    assert precision.errors(reference, samples) == [0.05, 0.1]
+    assert math.isnan(precision.errors(reference, samples * math.nan)[0])
+
+
+def test_a_file_of_references_is_read_at_the_times_asked_for_and_says_what_it_lacks(tmp_path):
+    head = ["left.speed", "right.speed", "planet[1].left_normal_force", "x", "planet[1].right_normal_force"]
+    strays = "#   " + ", ".join(f"{name} {k}.0e-12" for k, name in enumerate(precision.COMPARED, 1))
+    file = tmp_path / "reference.csv"
+    file.write_text(f"# a line\n{strays}\ntime,{','.join(head)}\n0,1,2,3,9,4\n0.1,5,6,7,9,8\n", encoding="utf-8")
+    samples, own = precision.from_file(file, [0.1])
+    assert samples.tolist() == [[5.0, 6.0, 7.0, 8.0]] and own == [2e-12, 4e-12]
+    with pytest.raises(SystemExit, match="no row for 0.2 s"):
+        precision.from_file(file, [0.2])
+    file.write_text("time\n0\n", encoding="utf-8")
+    with pytest.raises(SystemExit, match="no column left.speed"):
+        precision.from_file(file, [0.0])
+
+
+def test_ideal_gears_in_a_turn_are_their_closed_form():
+    case = precision.Case(Fmu.of(), "turn", "ideal")
+    exact, source, _ = case.reference()
+    assert source == "closed form"
+    assert max(precision.errors(exact, case.samples("adaptive", 1e-2)[0])) < 1e-14
 
 
 def test_random_numbers_are_those_of_splitmix():
