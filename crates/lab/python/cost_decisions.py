@@ -2,7 +2,8 @@
 
 import math
 
-from bevel_differential import Scene, accuracy
+from bevel_differential import accuracy
+from bevel_differential.scene_file import find, read_scene
 from bevel_differential.text import markdown
 from tools import percent, say, significant, write_measured
 
@@ -29,8 +30,7 @@ def decisions(folder, count, timed, begin, end):
     """Answers the first questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
     rows, table = [COLUMNS], [HEAD]
     for place, (quantity, name, want, within) in enumerate(ALL[:count]):
-        with Scene.load(name) as scene:
-            stop = scene.stop
+        stop = read_scene(find(name))["stop"]
         # the start settles
         start = 0.1 * stop if name == "study_turning" else None
         found = accuracy(name, want, within, from_=start, timed=timed, progress=lambda done, what, place=place, quantity=quantity: say(

@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 
 use crate::tools::places;
-use crate::tools::scripted::{Document, Needs, Script, arguments};
+use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::paths;
 
@@ -29,12 +29,7 @@ impl HostsCommand {
     /// Runs it.
     pub fn run(self) -> Result<()> {
         let folder = paths::target().join("hosts");
-        let script = Script {
-            file: places::script("hosts.py"),
-            doing: "running hosts",
-            needs: Needs::Bench(&places::HOSTS),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::of(&places::HOSTS, places::script("hosts.py"), "running hosts", &folder);
         DOCUMENT.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
             let fmu = package::package()?;

@@ -5,7 +5,7 @@ use clap::Args;
 use fmu_build::tools::paths;
 
 use crate::tools::places;
-use crate::tools::scripted::{Document, Needs, Script, arguments};
+use crate::tools::scripted::{Document, Script, arguments};
 
 const DOCUMENT: Document =
     Document { file: "docs/mutants.md", marks: ["<!-- mutants:begin -->", "<!-- mutants:end -->"], pictures: &[] };
@@ -28,12 +28,8 @@ impl MutantsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("mutants").join(format!("{}-{}", self.seed, self.count));
-        let script = Script {
-            file: places::MUTANTS.folder().join("campaign.py"),
-            doing: "trying changes",
-            needs: Needs::Bench(&places::MUTANTS),
-            folder: Some(folder.clone()),
-        };
+        let script =
+            Script::of(&places::MUTANTS, places::MUTANTS.folder().join("campaign.py"), "trying changes", &folder);
         let numbers = [self.count as u64, self.seed].map(|number| number.to_string().into());
         DOCUMENT.make(&script, self.write, |_| {
             Ok(arguments([paths::workspace(), folder].into_iter().chain(numbers), false))

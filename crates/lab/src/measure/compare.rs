@@ -5,7 +5,7 @@ use anyhow::Result;
 use clap::Args;
 
 use crate::tools::places;
-use crate::tools::scripted::{Document, Needs, Script, arguments};
+use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::paths;
 
@@ -64,12 +64,7 @@ impl CompareSimulatorsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("peers");
-        let script = Script {
-            file: places::SIMULATORS.folder().join("run.py"),
-            doing: "comparing",
-            needs: Needs::Bench(&places::SIMULATORS),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::of(&places::SIMULATORS, places::SIMULATORS.folder().join("run.py"), "comparing", &folder);
         SIMULATORS.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
             Ok(arguments([package::package()?, folder], self.quick))
@@ -81,12 +76,7 @@ impl CompareSolversCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("cost");
-        let script = Script {
-            file: places::SOLVERS.folder().join("compare.py"),
-            doing: "comparing",
-            needs: Needs::Bench(&places::SOLVERS),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::of(&places::SOLVERS, places::SOLVERS.folder().join("compare.py"), "comparing", &folder);
         SOLVERS.make(&script, self.write, |progress| {
             progress.stage("building the equations as a library");
             Ok(arguments([package::build_library(EQUATIONS)?, folder], self.quick))
@@ -98,12 +88,7 @@ impl DrivetrainCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
         let folder = paths::target().join("drivetrain");
-        let script = Script {
-            file: places::DRIVETRAIN.folder().join("run.py"),
-            doing: "coupling",
-            needs: Needs::Bench(&places::DRIVETRAIN),
-            folder: Some(folder.clone()),
-        };
+        let script = Script::of(&places::DRIVETRAIN, places::DRIVETRAIN.folder().join("run.py"), "coupling", &folder);
         DRIVETRAIN.make(&script, self.write, |progress| {
             progress.stage("packaging the FMU");
             // libcosim sets no enumerations, and the scene is made of them

@@ -50,6 +50,11 @@ impl Script {
         Self { file: places::script(name), doing, needs: Needs::Users, folder: folder.map(Path::to_owned) }
     }
 
+    /// One that runs in the environment of `bench`; its results go to `folder`.
+    pub fn of(bench: &'static Bench, file: PathBuf, doing: &'static str, folder: &Path) -> Self {
+        Self { file, doing, needs: Needs::Bench(bench), folder: Some(folder.to_owned()) }
+    }
+
     /// Runs it with the arguments that `prepare` returns, prints its tables and where its results are, and returns the tables.
     pub fn run(&self, prepare: impl FnOnce(&Progress) -> Result<Vec<OsString>>) -> Result<String> {
         let progress = Progress::start("looking for Python");
