@@ -1,9 +1,13 @@
 """The calls of runs without anything around them: calls.c, compiled."""
 
+import math
 import subprocess
 from pathlib import Path
 
+import numpy as np
+
 from bevel_differential.batches import CALLS
+from tools import say
 
 # what a host reads at each communication point, where reading counts
 TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
@@ -30,6 +34,22 @@ def write_start(file, fmu, values, later=None):
             variable = fmu.variable(name)
             lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
     file.write_text("\n".join(lines))
+
+
+def in_turn(runs, rounds, take, bar, what):
+    """Rounds of timed runs, each run once in a round, so that other load of the machine affects all alike. `take(run, round)` gives the
+    seconds of a run; the bar moves over the pair `bar`. Returns the seconds of each."""
+    seconds = [[] for _ in runs]
+    for number in range(rounds):
+        for place, run in enumerate(runs):
+            say(bar[0] + (bar[1] - bar[0]) * (number + place / len(runs)) / rounds, what)
+            seconds[place] += take(run, number)
+    return seconds
+
+
+def quartiles(seconds):
+    """Median and quartiles; no numbers without any."""
+    return np.quantile(seconds, [0.5, 0.25, 0.75]).tolist() if len(seconds) else [math.nan] * 3
 
 
 class Calls:

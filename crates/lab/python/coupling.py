@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calls import compiled, library_of, write_start
+from calls import compiled, in_turn, library_of, quartiles, write_start
 from precision import COMPARED, FIDELITIES, errors
 from tools import say, write_measured
 
@@ -76,7 +76,7 @@ def measure(fmu, folder, steps, rounds, begin, end):
         if kind not in exact:
             exact[kind] = host.reference(how, fidelity)
         for step in steps:
-            run = {"of": (how, fidelity, name), "step": step, "ends": ["ok", ""], "seconds": []}
+            run = {"of": (how, fidelity, name), "step": step, "ends": ["ok", ""]}
             try:
                 samples, run["counts"], _ = host.run(how, fidelity, step)
                 run["errors"] = errors(exact[kind], samples)
@@ -85,20 +85,20 @@ def measure(fmu, folder, steps, rounds, begin, end):
             except ValueError as why:
                 run |= {"ends": ["failed", str(why)], "errors": [math.nan] * 2, "counts": ["nan"] * 2}
             runs.append(run)
-    for number in range(rounds):
-        for place, run in enumerate(runs):
-            say(begin + (end - begin) * (0.4 + 0.6 * (number + place / len(runs)) / rounds), "coupled runs: times")
-            if run["ends"][0] == "ok":
-                run["seconds"] += host.run(*run["of"][:2], run["step"], runs=RUNS)[2]
-    unit = next((np.median(run["seconds"]) for run in runs if run["of"] == COUPLINGS[0] and run["step"] == UNIT), math.nan)
+
+    def take(run, _):
+        return host.run(*run["of"][:2], run["step"], runs=RUNS)[2] if run["ends"][0] == "ok" else []
+
+    seconds = in_turn(runs, rounds, take, (begin + 0.4 * (end - begin), end), "coupled runs: times")
+    unit = next(quartiles(taken)[0] for run, taken in zip(runs, seconds) if run["of"] == COUPLINGS[0] and run["step"] == UNIT)
     rows = [HEAD]
-    for before, run in zip([None, *runs], runs):
-        low, median, high = np.quantile(run["seconds"], [0.25, 0.5, 0.75]).tolist() if run["seconds"] else [math.nan] * 3
+    for before, run, taken in zip([None, *runs], runs, seconds):
+        median, low, high = quartiles(taken)
         order = math.nan
         if before and before["of"] == run["of"]:
             order = float(np.log(run["errors"][0] / before["errors"][0]) / np.log(run["step"] / before["step"]))
         _, fidelity, name = run["of"]
-        rows.append([name, fidelity, run["step"], *run["ends"], len(run["seconds"]), median, low, high, float(median / unit), *run["errors"],
+        rows.append([name, fidelity, run["step"], *run["ends"], len(taken), median, low, high, median / unit, *run["errors"],
                      order, *run["counts"]])
     write_measured(folder / "communication_step.csv", [
         "a car accelerates with its left wheel on ice; tyres and car in the host, differential and wheels in the FMU",

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from bevel_differential import DifferentialError, Scene
-from calls import Calls
+from calls import Calls, in_turn, quartiles
 from tools import say, write_measured
 
 HEAD = ["scene", "rung", "adds", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
@@ -111,17 +111,18 @@ def measure(fmu, folder, short, begin, end):
             found.append(("ok", "", list(map(float, scene.looked(record(fmu, scene, values))))))
         except DifferentialError as why:
             found.append(("failed", str(why), [math.nan] * len(scene.quantities)))
-    seconds = [[] for _ in runs]
-    for number in range(ROUNDS if not short else 1):
-        for place, (scene, *_, values) in enumerate(runs):
-            say(begin + (end - begin) * (0.2 + 0.8 * (number + place / len(runs)) / ROUNDS), "ladder: times")
-            if found[place][0] == "ok":
-                seconds[place] += [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.later)]
+
+    def take(run, _):
+        (scene, *_, values), (status, *_) = run
+        return [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.later)] if status == "ok" else []
+
+    bar = begin + 0.2 * (end - begin), end
+    seconds = in_turn(list(zip(runs, found)), 1 if short else ROUNDS, take, bar, "ladder: times")
     rows = [HEAD]
     for place, ((scene, name, adds, _), (status, message, values)) in enumerate(zip(runs, found)):
         first = place // len(rungs) * len(rungs)
-        low, median, high = np.quantile(seconds[place], [0.25, 0.5, 0.75]).tolist() if seconds[place] else [math.nan] * 3
-        unit, richest = float(np.median(seconds[first])), found[first + len(rungs) - 1][2]
+        median, low, high = quartiles(seconds[place])
+        unit, richest = quartiles(seconds[first])[0], found[first + len(rungs) - 1][2]
         for (quantity, unit_of), value, best in zip(scene.quantities.items(), values, richest):
             rows.append([scene.name, name, adds, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
                          len(seconds[place]), median, low, high, median / unit])

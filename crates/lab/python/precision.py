@@ -14,7 +14,7 @@ import numpy as np
 
 from bevel_differential import DifferentialError
 from bevel_differential.records import read
-from calls import Calls
+from calls import Calls, in_turn, quartiles
 from ladder import TURN, Clunk
 from tools import WORKSPACE, say, write_measured
 
@@ -159,20 +159,22 @@ def measure(fmu, folder, plan, begin, end):
                 status, message, found, counts = "failed", str(why), [math.nan] * 2, ["nan"] * 4
             first = time.process_time() - begun
             runs.append({"case": case, "setting": (method, value), "ends": [status, message], "errors": found, "counts": counts, "first": first,
-                         "seconds": [], "reference": [source, *strays]})
-    for number in range(plan.rounds):
-        for place, run in enumerate(runs):
-            if run["ends"][0] == "ok" and (number == 0 or run["first"] < LONG):
-                case = run["case"]
-                say(begin + (end - begin) * (0.3 + 0.7 * (number + place / len(runs)) / plan.rounds), "measuring times")
-                run["seconds"] += [own for _, own in calls.seconds(fmu, case.with_solver(*run["setting"]), [], case.stretches, RUNS, case.later)]
-    units = {run["case"]: np.median(run["seconds"]) for run in runs if run["setting"] == DEFAULT}
+                         "reference": [source, *strays]})
+
+    def take(run, number):
+        if run["ends"][0] != "ok" or (number and run["first"] > LONG):
+            return []
+        case = run["case"]
+        return [own for _, own in calls.seconds(fmu, case.with_solver(*run["setting"]), [], case.stretches, RUNS, case.later)]
+
+    seconds = in_turn(runs, plan.rounds, take, (begin + 0.3 * (end - begin), end), "measuring times")
+    units = {run["case"]: quartiles(taken)[0] for run, taken in zip(runs, seconds) if run["setting"] == DEFAULT}
     rows = [HEAD]
-    for run in runs:
+    for run, taken in zip(runs, seconds):
         case, (method, value) = run["case"], run["setting"]
-        low, median, high = np.quantile(run["seconds"], [0.25, 0.5, 0.75]).tolist() if run["seconds"] else [math.nan] * 3
+        median, low, high = quartiles(taken)
         rows.append([case.name, case.motion, case.fidelity, method, value, "s" if method == "fixed_step" else "1", *run["ends"],
-                     len(run["seconds"]), median, low, high, float(median / units[case]), *run["errors"], *run["counts"], *run["reference"]])
+                     len(taken), median, low, high, median / units[case], *run["errors"], *run["counts"], *run["reference"]])
     write_measured(folder / "work_precision.csv", [
         "speed_error: largest difference over the largest speed; force_error: over the mean force of a mesh",
         "cost: cpu_s over that of the default, adaptive at 1e-6, in the same case; cpu_s: median, _low and _high quartiles",

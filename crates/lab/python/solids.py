@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from bevel_differential import Differential, Fmu
-from calls import Calls
+from calls import Calls, in_turn, quartiles
 from solids_errors import QUANTITIES, errors, look, order, path_ripple
 from tools import WORKSPACE, say, write_measured
 
@@ -55,7 +55,7 @@ QUICK = Plan((4, 8, 16, 32), 0.02, 0.05, 0.1)
 @dataclass
 class Row:
     """One kind of teeth: exact ones have no facets. `errors`: at the tight tolerance and at the usual one; of exact teeth those of
-    integration. `seconds`: quartiles of the processor's time at the usual one; `counts`: steps and evaluations there."""
+    integration. `seconds`: median and quartiles of the processor's time at the usual one; `counts`: steps and evaluations there."""
 
     facets: int
     smoothing: float
@@ -65,13 +65,13 @@ class Row:
     path_ripple: float
     counts: tuple[int, int]
     close: dict[str, np.ndarray]
-    seconds: np.ndarray
+    seconds: list[float]
     real_time: float = math.nan
 
     @property
     def taken(self):
         """Median of the processor's time [s]."""
-        return self.seconds[1]
+        return self.seconds[0]
 
 
 class Found:
@@ -137,15 +137,14 @@ def measured(fmu, plan, folder):
         own = {name: values[tight["time"] > close] for name, values in tight.items()}
         rows.append(Row(facets, smoothing, arc_height(facets) if facets else math.nan,
                         [errors(tight, exact, close, WILLIS), errors(usual, at_points, close, WILLIS)], look(tight, close),
-                        path_ripple(tight, exact, close, WILLIS), counts, own, np.empty(0)))
-    calls, seconds = Calls(folder), np.empty((RUNS, len(kinds)))
-    # in turn, so that other load of the machine affects all alike
-    for run in range(RUNS):
-        for place, kind in enumerate(kinds):
-            say(0.5 + 0.45 * (run * len(kinds) + place) / seconds.size, "times")
-            [(_, seconds[run, place])] = calls.seconds(fmu, settings(*kind, USUAL), [], [(plan.end, STEP)])
-    for row, own in zip(rows, seconds.T):
-        row.seconds = np.quantile(own, [0.25, 0.5, 0.75])
+                        path_ripple(tight, exact, close, WILLIS), counts, own, []))
+    calls = Calls(folder)
+
+    def take(kind, _):
+        return [own for _, own in calls.seconds(fmu, settings(*kind, USUAL), [], [(plan.end, STEP)])]
+
+    for row, taken in zip(rows, in_turn(kinds, RUNS, take, (0.5, 0.95), "times")):
+        row.seconds = quartiles(taken)
         row.real_time = plan.end / row.taken
     return Found(plan, rows, overlap(fmu))
 
@@ -167,9 +166,8 @@ def write(found, folder):
     lines, cycle = [head], [["teeth", "facets", "smoothing", "time_s", "force_N", "speed_deg_s", "te_um", "tangential_N", "pairs"]]
     for place, row in enumerate(found.rows):
         teeth, before = "solid" if row.facets else "tooth", found.rows[place - 1] if place else found.tooth
-        low, median, high = map(float, row.seconds)
-        line = [teeth, row.facets or "-", row.smoothing, 1e6 * row.arc, *row.counts, median, low, high, float(row.real_time),
-                float(median / found.tooth.taken), *(row.look[name] for name in ("mean", "peak", "ripple", "tangential")),
+        line = [teeth, row.facets or "-", row.smoothing, 1e6 * row.arc, *row.counts, *row.seconds, row.real_time,
+                row.taken / found.tooth.taken, *(row.look[name] for name in ("mean", "peak", "ripple", "tangential")),
                 1e6 * row.look["deflection"]]
         for name in QUANTITIES:
             pairs = [(one.facets, one.errors[0][name]) for one in (before, row)]
