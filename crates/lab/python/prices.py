@@ -15,7 +15,7 @@ from bevel_differential.text import markdown
 
 from calls import TEN, Calls
 from effects_list import effects
-from tools import machine, say
+from tools import machine, say, significant
 
 STEP = 1e-3
 COUNTED = 0.5
@@ -64,11 +64,6 @@ def counts(fmu, values):
     return [float(record[name][-1]) for name in names]
 
 
-def digits(value, number=3):
-    """`value` with so many digits."""
-    return f"{value:#.{number}g}".rstrip(".") if value < 10 ** number else f"{value:.0f}"
-
-
 def within(quartiles):
     low, middle, high = quartiles
     return f"{middle:.2f} ({low:.2f} – {high:.2f})"
@@ -92,8 +87,8 @@ class Prices:
 
     def row(self, name, values):
         (steps, rejected, evaluations), taken, over, of_one = self.of(values)
-        return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", digits(1e6 * taken), within(over),
-                f"{of_one:.2f}", digits(STEP / taken, 2)], of_one, over[1]
+        return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", significant(1e6 * taken, 3), within(over),
+                f"{of_one:.2f}", significant(STEP / taken, 2)], of_one, over[1]
 
 
 def prices(bench, fmu, switches, with_pairs, folder):
@@ -109,7 +104,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
         row, of_one, over = priced.row("nothing" if name == "nothing" else f"`{name}`", values)
         rows.append(row)
         known[name] = of_one
-        data.append([name, digits(of_one, 4), digits(over * priced.evaluations / (COUNTED / STEP), 4)])
+        data.append([name, significant(of_one, 4), significant(over * priced.evaluations / (COUNTED / STEP), 4)])
     every = OF_ALL.copy()
     for name in ALL:
         every = singles[name] | every
@@ -146,7 +141,7 @@ def builds(bench, fmu, other, switches):
             rows.append([name, "", "", "unknown to the other"])
             continue
         (before, now), over = bench.compare((other, values, outputs), (fmu, values, outputs))
-        rows.append([name, digits(1e6 * now), digits(1e6 * before), within(over)])
+        rows.append([name, significant(1e6 * now, 3), significant(1e6 * before, 3), within(over)])
     return markdown(rows)
 
 
