@@ -10,7 +10,7 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 from bevel_differential.text import markdown
@@ -61,19 +61,13 @@ ALL = [
 ]
 
 
-@dataclass
+@dataclass(frozen=True)
 class Scene:
-    """A scene of tests/hosts/scenes."""
+    """A scene of tests/hosts/scenes, and what its file says."""
 
+    name: str
     path: Path
-    known: dict = field(init=False)
-
-    def __post_init__(self):
-        self.known = json.loads(self.path.read_text(encoding="utf-8"))
-
-    @property
-    def name(self):
-        return self.path.stem
+    known: dict
 
 
 class Absent(Exception):
@@ -217,7 +211,8 @@ def page(results, absent, scenes):
 def main():
     fmu, plain, folder = (Path(text).resolve() for text in sys.argv[1:4])
     bench = Bench(fmu, plain, folder, "--with-rust" in sys.argv)
-    scenes = [Scene(path) for path in sorted((HOSTS / "scenes").glob("*.json"))]
+    files = sorted((HOSTS / "scenes").glob("*.json"))
+    scenes = [Scene(file.stem, file, json.loads(file.read_text(encoding="utf-8"))) for file in files]
     results, absent = compared(bench, scenes)
     text = page(results, absent, scenes)
     wrong = [f"{host.name} on {scene.name}: {one.largest:.1e}, {one.place}" for host, (*_, found) in results.items()

@@ -43,11 +43,9 @@ class Turn:
     """The study's turn, one tooth after one to settle. Names and units of what is looked at, times [s] and start values."""
 
     name, settled, end, every = "turn", 0.18, 0.36, 5e-4
+    values, later = TURN, {}
     quantities = {"mean speed, left": "rad/s", "mean mesh force": "N", "peak mesh force": "N", "speed ripple, left": "1",
                   "mean deflection": "m", "deflection, peak to peak": "m", "heat of one tooth": "J"}
-
-    def __init__(self, fmu):
-        self.values, self.later = TURN, {}
 
     @staticmethod
     def looked(points):
@@ -97,7 +95,7 @@ def record(fmu, scene, values):
 def measure(fmu, folder, short, begin, end):
     """Measures, and writes the file; the bar moves from `begin` to `end`."""
     rungs = {name: rung for name, rung in RUNGS.items() if not (short and name in LONG)}
-    scenes, calls, runs = [Turn(fmu), Clunk(fmu)], Calls(folder), []
+    scenes, calls, runs = [Turn(), Clunk(fmu)], Calls(folder), []
     for scene in scenes:
         values = dict(scene.values)
         for name, (adds, more) in RUNGS.items():
