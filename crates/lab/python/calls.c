@@ -13,7 +13,7 @@ int main(int count, char **given) {
     int n_stretches = 0, runs = atoi(given[5]);
     read_start(given[3]);
     for (char *part = strtok(given[4], ","); part && n_stretches < MOST; part = strtok(NULL, ","), ++n_stretches)
-        if (sscanf(part, "%lf:%lf", &ends[n_stretches], &sizes[n_stretches]) != 2) { fprintf(stderr, "%s is no stretch\n", part); return 2; }
+        if (sscanf(part, "%lf:%lf", &ends[n_stretches], &sizes[n_stretches]) != 2) return fprintf(stderr, "%s is no stretch\n", part), 2;
     for (int k = 6; k < count && n_outputs < MOST; ++k) outputs[n_outputs++] = (Reference)atoi(given[k]);
 
     Component it = made(given[1], given[2], 1);

@@ -17,7 +17,10 @@ TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right
 def compiled(folder, name, *libraries):
     """A host in C, built in a folder."""
     program = Path(folder) / name
-    subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name(f"{name}.c"), "-ldl", *libraries], check=True)
+    try:
+        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name(f"{name}.c"), "-ldl", *libraries], check=True)
+    except FileNotFoundError:
+        raise SystemExit("a C compiler builds the hosts that are timed: install one (apt-get install gcc)") from None
     return program
 
 

@@ -21,7 +21,8 @@ ALL = [
     ("torque of a wheel that slips", "limited_slip", "left.shaft_torque:rms", 0.01),
     ("speed of a wheel on ice", "one_wheel_on_ice", "left.wheel_speed:max", 0.01),
 ]
-COLUMNS = ["quantity", "scene", "want", "accuracy", "gears", "effects", "solver", "error", "stray", "real_time", "price", "reference_price"]
+COLUMNS = ["quantity", "scene", "want", "accuracy", "gears", "effects", "solver", "error", "stray", "real_time", "price",
+           "reference_price"]
 HEAD = ["quantity", "within", "gears", "effects", "solver", "error", "× real time", "asked by"]
 TITLE = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy` with the options of its row"
 

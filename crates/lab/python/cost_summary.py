@@ -28,7 +28,8 @@ def summary(folder):
         by_tolerance.append([case, *cells])
         cheapest.append([case, *(_cheapest(own, wanted, unit) for wanted in WANTED)])
     left = range(len(tolerances) + 1)
-    return (f"{OWN}, by solver.relative_tolerance: error of speed, error of force, time × that at 1e-6:\n\n{markdown(by_tolerance, left)}\n"
+    return (f"{OWN}, by solver.relative_tolerance: error of speed, error of force, time × that at 1e-6:\n\n"
+            f"{markdown(by_tolerance, left)}\n"
             "cheapest for an error of speed of at most …: method, tolerance or step, time × the default's:\n\n"
             f"{markdown(cheapest, left)}")
 

@@ -25,9 +25,10 @@ WIDE, NARROW = {}, {"BEVEL_DIFFERENTIAL_VECTORS": "narrow"}
 def stepping(folder, effects, name):
     """Builds the stepping program, with or without effects, and returns a copy of it named `name`."""
     # as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
-    settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1", "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
-    printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench",
-                    "--quiet", *([] if effects else ["--no-default-features"]), "--message-format", "json", "--target-dir", folder],
+    settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
+                "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
+    printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
+                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features"]), "--message-format", "json", "--target-dir", folder],
                    "cargo did not start", settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
              if message.get("executable") and message["target"]["name"] == "steps"]

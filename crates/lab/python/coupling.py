@@ -14,8 +14,8 @@ from calls import compiled, in_turn, library_of, quartiles, write_start
 from precision import COMPARED, FIDELITIES, errors
 from tools import say, write_measured
 
-HEAD = ["coupling", "fidelity", "h_s", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high", "cost", "speed_error", "force_error",
-        "order", "steps", "rhs_calls"]
+HEAD = ["coupling", "fidelity", "h_s", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high", "cost", "speed_error",
+        "force_error", "order", "steps", "rhs_calls"]
 # what is run: a coupling as coupling.c takes it, a fidelity, and its name
 COUPLINGS = [("0", "impact", "plain"), ("1", "impact", "rollback_once"), ("2", "impact", "rollback_twice"),
              ("constant", "impact", "constant_inputs"), ("0", "ideal", "plain"), ("2", "ideal", "rollback_twice")]
@@ -41,7 +41,7 @@ class Host:
         self.references = [str(fmu.variable(name).reference) for name in names]
 
     def run(self, how, fidelity, step, tolerance=TOLERANCE, runs=1):
-        """Samples, shape (times, 4), steps and evaluations, and seconds of the processor of each run; raises `ValueError` where it fails."""
+        """Samples, shape (times, 4), steps and evaluations, and seconds of the processor of each run. Raises `ValueError`."""
         values = {**FIDELITIES[fidelity], "scene.carrier_drive": "torque", "inertia.left_end": WHEEL, "inertia.right_end": WHEEL,
                   "carrier.speed_command": SPEED, "solver.relative_tolerance": tolerance}
         write_start(self.folder / "set", self.fmu, values)

@@ -90,9 +90,9 @@ def page(tallies):
             for name, counts in statuses.items()]
     most = max((tally["longest"] for tally in tallies), key=lambda call: call["seconds"])
     scenes, compared = (sum(tally[name] for tally in tallies) for name in ("scenes", "compared"))
-    text = (f"longest call: {most['function'] or 'none'}, {most['seconds']:.3f} s of the processor (call {most['at']} of the round with seed "
-            f"{most['seed']}); simulations started: {scenes}; communication steps done: {statuses['fmi2DoStep'][0]}; steps completed in "
-            f"model exchange: {statuses['fmi2CompletedIntegratorStep'][0]}; states compared before and after a call: {compared}")
+    text = (f"longest call: {most['function'] or 'none'}, {most['seconds']:.3f} s of the processor (call {most['at']} of the round "
+            f"with seed {most['seed']}); simulations started: {scenes}; communication steps done: {statuses['fmi2DoStep'][0]}; steps "
+            f"completed in model exchange: {statuses['fmi2CompletedIntegratorStep'][0]}; states compared before and after a call: {compared}")
     return f"{markdown([HEAD, *rows])}\n{textwrap.fill(text, 118)}"
 
 

@@ -61,8 +61,10 @@ static void read_start(const char *name) {
            && start.n_reals + start.n_laters + start.n_integers + start.n_booleans < MOST) {
         if (!strcmp(kind, "Real")) { start.reals[start.n_reals] = reference; start.numbers[start.n_reals++] = value; }
         else if (!strcmp(kind, "Later")) { start.laters[start.n_laters] = reference; start.late[start.n_laters++] = value; }
-        else if (!strcmp(kind, "Integer")) { start.integers[start.n_integers] = reference; start.wholes[start.n_integers++] = (int)value; }
-        else { start.booleans[start.n_booleans] = reference; start.truths[start.n_booleans++] = (int)value; }
+        else if (!strcmp(kind, "Integer")) {
+            start.integers[start.n_integers] = reference;
+            start.wholes[start.n_integers++] = (int)value;
+        } else { start.booleans[start.n_booleans] = reference; start.truths[start.n_booleans++] = (int)value; }
     }
     fclose(file);
 }

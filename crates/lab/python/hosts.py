@@ -52,7 +52,8 @@ ALL = [
          "apt install libtbb12", enumerations=False),
     Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "the same; the FMU in a separate process",
          "apt install libtbb12", enumerations=False),
-    Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it", "all types, as Integers; inputs at any point"),
+    Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
+         "all types, as Integers; inputs at any point"),
     Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types; inputs at any point", "cargo must reach crates.io"),
     Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types; inputs at any point",
          "cargo must reach crates.io, and a C compiler is needed"),
@@ -154,7 +155,8 @@ class Bench:
             environment["FMI_SIM"] = str(self._program(FMI_SIM))
         fmu = self.fmu if host.enumerations else self.plain
         # some write logs into the current folder
-        ended = subprocess.run([*command, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True, text=True)
+        ended = subprocess.run([*command, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
+                               text=True)
         if ended.returncode == CANNOT_LOAD:
             raise Absent(f"{last_line(ended.stderr)} ({host.hint})")
         if ended.returncode:
@@ -198,8 +200,10 @@ def page(results, absent, scenes):
     for host, (version, seconds, found) in results.items():
         cells = ["same bits" if not one.different else f"{one.largest:.1e}".replace("e-0", "e-") for one in found]
         deviations.append([host.name, version, host.language, host.loader, *cells, f"{seconds:.2f}"])
-        hosts.append([host.name, host.sets, "yes" if host.enumerations else "no: the FMU with integers", "yes" if host.reads_start else "no"])
-    what = [["scene", "what"], *([f"`{scene.name}`", f"{scene.known['description']}; steps of {scene.known['step']} s"] for scene in scenes)]
+        enumerations = "yes" if host.enumerations else "no: the FMU with integers"
+        hosts.append([host.name, host.sets, enumerations, "yes" if host.reads_start else "no"])
+    told = [f"{scene.known['description']}; steps of {scene.known['step']} s" for scene in scenes]
+    what = [["scene", "what"], *([f"`{scene.name}`", text] for scene, text in zip(scenes, told))]
     every = [one for *_, found in results.values() for one in found]
     text = "\n".join([markdown(deviations, range(4)), markdown(hosts, range(4)), markdown(what, range(2))])
     text += (f"\nDeviations are from {ALL[0].name}, the largest over all outputs and communication points, relative to the value or, where "

@@ -199,7 +199,8 @@ def tables(platforms, scenes):
     text = markdown([["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
                      *map(described, platforms)], left=(0, 3, 5)) + "\n"
     same, columns = True, [platform.name for platform in others]
-    rows, lines = [["scene", "points", "values", *columns]], [["scene", "simulated", first.name, *(f"{name} / that" for name in columns)]]
+    rows = [["scene", "points", "values", *columns]]
+    lines = [["scene", "simulated", first.name, *(f"{name} / that" for name in columns)]]
     for index, (name, values, *rest) in enumerate(scenes):
         say(0.9 * index / len(scenes), name)
         wanted = first.record(values, *rest)

@@ -18,8 +18,8 @@ from calls import Calls, in_turn, quartiles
 from ladder import TURN, Clunk
 from tools import WORKSPACE, say, write_measured
 
-HEAD = ["case", "motion", "fidelity", "method", "setting", "unit", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high", "cost",
-        "speed_error", "force_error", "steps", "rejected", "rhs_calls", "jacobians", "reference", "reference_speed_error",
+HEAD = ["case", "motion", "fidelity", "method", "setting", "unit", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high",
+        "cost", "speed_error", "force_error", "steps", "rejected", "rhs_calls", "jacobians", "reference", "reference_speed_error",
         "reference_force_error"]
 # what is compared: two speeds, two forces
 COMPARED = ["left.speed", "right.speed", "planet[1].left_normal_force", "planet[1].right_normal_force"]
@@ -63,7 +63,8 @@ class Case:
     def __init__(self, fmu, motion, fidelity):
         self.fmu, self.motion, self.fidelity, self.stretches = fmu, motion, fidelity, MOTIONS[motion]
         clunk = Clunk(fmu) if motion == "clunk" else None
-        self.values = {**(clunk.values if clunk else TURN), **({"scene.start": "rolling"} if motion == "blow" else {}), **FIDELITIES[fidelity]}
+        start = {"scene.start": "rolling"} if motion == "blow" else {}
+        self.values = {**(clunk.values if clunk else TURN), **start, **FIDELITIES[fidelity]}
         self.later = clunk.later if clunk else {}
         self.times, begin = [], 0.0
         for end, step in self.stretches:
@@ -76,7 +77,8 @@ class Case:
 
     def with_solver(self, method, value):
         """Its start values with a method at a tolerance, or with fixed steps."""
-        return {**self.values, "solver.method": method, "solver.fixed_step" if method == "fixed_step" else "solver.relative_tolerance": value}
+        name = "solver.fixed_step" if method == "fixed_step" else "solver.relative_tolerance"
+        return {**self.values, "solver.method": method, name: value}
 
     def samples(self, method, value, patience=math.inf):
         """What is compared, shape (times, 4), and steps, rejected ones, evaluations and Jacobians; raises where it does not come to
@@ -158,8 +160,8 @@ def measure(fmu, folder, plan, begin, end):
             except DifferentialError as why:
                 status, message, found, counts = "failed", str(why), [math.nan] * 2, ["nan"] * 4
             first = time.process_time() - begun
-            runs.append({"case": case, "setting": (method, value), "ends": [status, message], "errors": found, "counts": counts, "first": first,
-                         "reference": [source, *strays]})
+            runs.append({"case": case, "setting": (method, value), "ends": [status, message], "errors": found, "counts": counts,
+                         "first": first, "reference": [source, *strays]})
 
     def take(run, number):
         if run["ends"][0] != "ok" or (number and run["first"] > LONG):

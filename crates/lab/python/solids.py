@@ -3,7 +3,7 @@
 usage: solids.py FMU FOLDER [--quick]
 
 Solids of 4 to 128 facets a flank run together with teeth on the path of contact, with the deepest point nearly alone and with the
-patch. Writes solids.csv, solids_cycle.csv, study.md and pictures; prints the page; fails if solids miss the mean force of exact teeth."""
+patch. Writes CSV files, study.md and pictures; prints the page; fails if solids miss the mean force of exact teeth."""
 
 import math
 import sys

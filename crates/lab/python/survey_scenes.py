@@ -66,8 +66,8 @@ def drawn(seed, index):
     fitting = [count for count in (2, 3, 4) if 2 * side % count == 0]
     module = d.between(2.5e-3, 7e-3)
     cone = 0.5 * module * math.hypot(planet, side)
-    values = {"geometry.planet_teeth": planet, "geometry.side_teeth": side, "geometry.planet_count": fitting[d.whole(0, len(fitting) - 1)],
-              "geometry.module": module, "geometry.pressure_angle": f"{d.between(20.0, 24.0):.2f} deg",
+    values = {"geometry.planet_teeth": planet, "geometry.side_teeth": side,
+              "geometry.planet_count": fitting[d.whole(0, len(fitting) - 1)], "geometry.module": module, "geometry.pressure_angle": f"{d.between(20.0, 24.0):.2f} deg",
               "geometry.face_width": cone * d.between(0.2, 0.33), "geometry.backlash": module * d.between(0.01, 0.03)}
     if d.share(0.5):
         values |= {"geometry.planet_bore": module * d.between(2.0, 3.5), "geometry.side_bore": module * d.between(4.0, 7.0)}
@@ -89,7 +89,8 @@ def _drive(d, load, spin, carrier, ratio):
         for side, sign in (("left", 1.0), ("right", -1.0)):
             values |= {f"scene.{side}_drive": "speed", f"{side}.speed_command": f"{carrier + sign * spin * ratio:.1f} deg/s"}
         return values
-    values = {"scene.planet_spin": "imposed", "planet.spin_command": f"{spin:.1f} deg/s", "left.load_torque": load, "right.load_torque": load}
+    values = {"scene.planet_spin": "imposed", "planet.spin_command": f"{spin:.1f} deg/s",
+              "left.load_torque": load, "right.load_torque": load}
     if kind == 2:
         values |= {"inertia.left_end": load * 1e-3, "inertia.right_end": load * 1e-3 * d.between(0.5, 2.0)}
     return values
