@@ -4,10 +4,11 @@
 use std::fs;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::Args;
 
 use crate::tools::scripted::{Document, Script, arguments};
+use fmu_build::fmu::package;
 use fmu_build::tools::paths;
 
 const RANDOM: Document =
@@ -43,11 +44,9 @@ impl SurveyCommand {
         if self.shipped {
             return SHIPPED.make(&script, self.write, |_| Ok(vec!["--shipped".into()]));
         }
-        RANDOM.make(&script, self.write, |_| {
-            let fmu = paths::fmu();
-            if !fmu.is_file() {
-                bail!("{} is not there: make it with cargo run --release -- package", paths::shown(&fmu));
-            }
+        RANDOM.make(&script, self.write, |progress| {
+            progress.stage("packaging the FMU");
+            let fmu = package::package()?;
             if folder.exists() {
                 fs::remove_dir_all(&folder).with_context(|| format!("{} cannot be emptied", paths::shown(&folder)))?;
             }
