@@ -34,19 +34,32 @@ const OUTPUTS: [&str; 10] = [
     "planet[1].spin_speed",
 ];
 
-/// The functions used, with their C types.
-struct Fmu {
-    instantiate:
-        unsafe extern "C" fn(*const c_char, i32, *const c_char, *const c_char, *const c_void, i32, i32) -> Component,
-    free: unsafe extern "C" fn(Component),
-    setup: unsafe extern "C" fn(Component, i32, f64, f64, i32, f64) -> Status,
-    enter: unsafe extern "C" fn(Component) -> Status,
-    exit: unsafe extern "C" fn(Component) -> Status,
-    reset: unsafe extern "C" fn(Component) -> Status,
-    set_real: unsafe extern "C" fn(Component, *const u32, usize, *const f64) -> Status,
-    set_integer: unsafe extern "C" fn(Component, *const u32, usize, *const i32) -> Status,
-    get_real: unsafe extern "C" fn(Component, *const u32, usize, *mut f64) -> Status,
-    do_step: unsafe extern "C" fn(Component, f64, f64, i32) -> Status,
+macro_rules! functions {
+    ($($field:ident = $name:literal: ($($type:ty),*) $(-> $result:ty)?;)+) => {
+        /// The functions used, with their C types.
+        struct Fmu { $($field: unsafe extern "C" fn($($type),*) $(-> $result)?),+ }
+
+        impl Fmu {
+            /// Those that `find` finds by name.
+            fn found(find: impl Fn(&str) -> *mut c_void) -> Self {
+                // SAFETY: the functions have the types that FMI gives them
+                unsafe { Self { $($field: transmute_copy(&find($name))),+ } }
+            }
+        }
+    };
+}
+
+functions! {
+    instantiate = "fmi2Instantiate": (*const c_char, i32, *const c_char, *const c_char, *const c_void, i32, i32) -> Component;
+    free = "fmi2FreeInstance": (Component);
+    setup = "fmi2SetupExperiment": (Component, i32, f64, f64, i32, f64) -> Status;
+    enter = "fmi2EnterInitializationMode": (Component) -> Status;
+    exit = "fmi2ExitInitializationMode": (Component) -> Status;
+    reset = "fmi2Reset": (Component) -> Status;
+    set_real = "fmi2SetReal": (Component, *const u32, usize, *const f64) -> Status;
+    set_integer = "fmi2SetInteger": (Component, *const u32, usize, *const i32) -> Status;
+    get_real = "fmi2GetReal": (Component, *const u32, usize, *mut f64) -> Status;
+    do_step = "fmi2DoStep": (Component, f64, f64, i32) -> Status;
 }
 
 impl Fmu {
@@ -56,31 +69,13 @@ impl Fmu {
         // SAFETY: a path that ends with NUL
         let library = unsafe { libc::dlopen(name.as_ptr(), libc::RTLD_NOW | libc::RTLD_LOCAL) };
         assert!(!library.is_null(), "{} cannot be loaded", path.display());
-        let find = |name: &str| {
-            let name = CString::new(name).unwrap();
+        Self::found(|name| {
+            let text = CString::new(name).unwrap();
             // SAFETY: a loaded library and a name that ends with NUL
-            let address = unsafe { libc::dlsym(library, name.as_ptr()) };
+            let address = unsafe { libc::dlsym(library, text.as_ptr()) };
             assert!(!address.is_null(), "{name:?} is missing");
             address
-        };
-        macro_rules! function {
-            ($name:literal) => {
-                // SAFETY: the function has the type that FMI gives it
-                unsafe { transmute_copy(&find($name)) }
-            };
-        }
-        Self {
-            instantiate: function!("fmi2Instantiate"),
-            free: function!("fmi2FreeInstance"),
-            setup: function!("fmi2SetupExperiment"),
-            enter: function!("fmi2EnterInitializationMode"),
-            exit: function!("fmi2ExitInitializationMode"),
-            reset: function!("fmi2Reset"),
-            set_real: function!("fmi2SetReal"),
-            set_integer: function!("fmi2SetInteger"),
-            get_real: function!("fmi2GetReal"),
-            do_step: function!("fmi2DoStep"),
-        }
+        })
     }
 
     /// An initialised instance on a level: 1 ideal, 2 lumped, 3 tooth, 4 solid.

@@ -2,7 +2,7 @@
 
 import time
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import odeint, solve_ivp
@@ -39,7 +39,6 @@ class Solver:
     integrate: object
     own_method: str = ""
     slow: bool = False
-    costs: dict = field(default_factory=dict)
 
     @property
     def label(self):

@@ -1,6 +1,5 @@
 """The picture of the comparison: what a run of the turn costs, and whether its ripple converges."""
 
-
 from bevel_differential import style
 
 MARKERS = {"this program": "o", "MuJoCo": "s", "Drake": "^"}

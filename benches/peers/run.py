@@ -8,6 +8,7 @@ left out. Lines "progress FRACTION WHAT" on standard error report progress; the 
 `cargo run -p lab --release -- compare-simulators` makes the environment and does all of it.
 """
 
+import contextlib
 import importlib.metadata
 import importlib.util
 import json
@@ -23,7 +24,10 @@ import picture
 import plan
 import table
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).resolve().parent
+sys.path.append(str(HERE.parents[1] / "crates" / "lab" / "python"))
+from tools import machine as computer  # noqa: E402
+
 # names of the tools by the package that has to be there
 TOOLS = {"mujoco": "MuJoCo", "pydrake": "Drake"}
 # a run that takes longer hangs
@@ -83,19 +87,11 @@ def one_run(row, case, fmu):
 
 def machine():
     """Processor, cores and versions."""
-    model = platform.processor() or platform.machine()
-    information = Path("/proc/cpuinfo")
-    if information.is_file():
-        names = [line.split(":", 1)[1].strip() for line in information.read_text().splitlines()
-                 if line.startswith("model name")]
-        model = names[0] if names else model
     versions = [f"Python {platform.python_version()}"]
     for package, name in [("mujoco", "MuJoCo"), ("drake", "Drake"), ("FMPy", "FMPy")]:
-        try:
+        with contextlib.suppress(importlib.metadata.PackageNotFoundError):
             versions.append(f"{name} {importlib.metadata.version(package)}")
-        except importlib.metadata.PackageNotFoundError:
-            pass
-    return f"{model}, {os.cpu_count()} cores, {platform.system()}; {', '.join(versions)}"
+    return f"{computer()}; {', '.join(versions)}"
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 import csv
 
 import numpy as np
+from bevel_differential.text import markdown as aligned
 
 import cases
 import gears
@@ -24,17 +25,12 @@ def markdown(results, machine, missing):
     head = ["tool", "setting", "CPU s per simulated s: straight", "turn", "ripple straight, %", "ripple turn, %",
             "its rms, %", "off the finest, %", "mean speed off the law, %", "slip, °: straight", "turn",
             "ΣF_n, kN: straight", "turn"]
-    lines = [line(head), line(["---"] * 2 + ["---:"] * (len(head) - 2))]
-    lines += [line(cells(result, finest(result, results))) for result in results]
+    lines = aligned([head, *(cells(result, finest(result, results)) for result in results)], left=(0, 1))
     notes = [f"No rows of {name}: it is not installed." for name in missing]
     heel, middle, toe = statics()
     notes.append(f"Statics, T / (R sin δ_b): ΣF_n is {heel:.1f} kN with all of it at the heel, {middle:.1f} kN in the "
                  f"middle, {toe:.1f} kN at the toe.")
-    return "\n".join([*lines, "", *factors(results), "", f"Measured on {machine}.", *notes]) + "\n"
-
-
-def line(texts):
-    return "| " + " | ".join(texts) + " |"
+    return "\n".join([lines, *factors(results), "", f"Measured on {machine}.", *notes]) + "\n"
 
 
 def cells(result, reference):
@@ -91,18 +87,18 @@ def factors(results):
     cost = {case: ours["cases"][case]["cost"] for case in CASES}
     idle = {case: ours["cases"][case]["calls"] for case in CASES}
     head = [f"cost over that of {OURS[0]}, {OURS[1]}", "straight", "turn", "straight, net", "turn, net"]
-    lines = [line(head), line(["---"] + ["---:"] * 4)]
+    lines = [head]
     named = [(f"{r['row'].group}, {r['row'].label}", {case: r["cases"][case]["cost"] for case in CASES})
              for r in results if r["row"].needs and keeps_teeth(r)]
     named.append(("Project Chrono, the same law (cited, see below)", {"straight": CHRONO}))
     for name, others in named:
         gross = [times(others.get(case), cost[case]) for case in CASES]
         net = [times(others.get(case), cost[case] - idle[case]) for case in CASES]
-        lines.append(line([name, *gross, *net]))
+        lines.append([name, *gross, *net])
     remark = (f"Of this program's {1e3 * cost['straight']:.1f} and {1e3 * cost['turn']:.1f} ms per simulated second, "
             f"{1e3 * idle['straight']:.1f} and {1e3 * idle['turn']:.1f} ms are Python's calls: the same loop with "
             "calls that have nothing to do. \"Net\" leaves them out.")
-    return [*lines, "", remark]
+    return [aligned(lines), remark]
 
 
 def keeps_teeth(result):

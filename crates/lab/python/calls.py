@@ -1,32 +1,72 @@
 """The calls of runs without anything around them: calls.c, compiled."""
 
+import math
 import subprocess
 from pathlib import Path
 
+import numpy as np
+
 from bevel_differential.batches import CALLS
+from tools import say
 
 # what a host reads at each communication point, where reading counts
 TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
        "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 
 
+def compiled(folder, name, *libraries):
+    """A host in C, built in a folder."""
+    program = Path(folder) / name
+    try:
+        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name(f"{name}.c"), "-ldl", *libraries], check=True)
+    except FileNotFoundError:
+        raise SystemExit("a C compiler builds the hosts that are timed: install one (apt-get install gcc)") from None
+    return program
+
+
+def library_of(fmu):
+    """The library of this machine."""
+    return next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
+
+
+def write_start(file, fmu, values, later=None):
+    """Writes start values for a host; inputs `later` are set after initialisation."""
+    lines = []
+    for named, kind in ((values, None), (later or {}, "Later")):
+        for name, value in named.items():
+            variable = fmu.variable(name)
+            lines.append(f"{kind or CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
+    file.write_text("\n".join(lines))
+
+
+def in_turn(runs, rounds, take, bar, what):
+    """Rounds of timed runs, each run once in a round, so that other load of the machine affects all alike. `take(run, round)` gives the
+    seconds of a run; the bar moves over the pair `bar`. Returns the seconds of each."""
+    seconds = [[] for _ in runs]
+    for number in range(rounds):
+        for place, run in enumerate(runs):
+            say(bar[0] + (bar[1] - bar[0]) * (number + place / len(runs)) / rounds, what)
+            seconds[place] += take(run, number)
+    return seconds
+
+
+def quartiles(seconds):
+    """Median and quartiles; no numbers without any."""
+    return np.quantile(seconds, [0.5, 0.25, 0.75]).tolist() if len(seconds) else [math.nan] * 3
+
+
 class Calls:
     """The C program; `folder` is where it is built and finds its start values."""
 
     def __init__(self, folder):
-        self.folder = Path(folder)
-        self.program = self.folder / "calls"
-        subprocess.run(["cc", "-O2", "-o", self.program, Path(__file__).with_name("calls.c"), "-ldl"], check=True)
+        self.folder, self.program = Path(folder), compiled(folder, "calls")
 
-    def seconds(self, fmu, values, outputs, stop, step, runs=1):
-        """Seconds of each run of `fmu` to `stop`, and those of the processor that its steps took."""
-        library = next(file for file in Path(fmu.folder, "binaries", "linux64").iterdir() if file.suffix == ".so")
-        lines = []
-        for name, value in values.items():
-            variable = fmu.variable(name)
-            lines.append(f"{CALLS[variable.kind]} {variable.reference} {float(variable.number(value))!r}")
-        (self.folder / "set").write_text("\n".join(lines))
+    def seconds(self, fmu, values, outputs, stretches, runs=1, later=None):
+        """Seconds of each run of `fmu`, and those of the processor that its steps took. `stretches`: pairs of their end and step [s],
+        None for one long step; inputs `later` are set after initialisation."""
+        write_start(self.folder / "set", fmu, values, later)
+        parts = ",".join(f"{end!r}:{step or 0.0!r}" for end, step in stretches)
         references = [str(fmu.variable(name).reference) for name in outputs]
-        command = [self.program, library, fmu.description.guid, self.folder / "set", str(stop), str(step or 0.0), str(runs), *references]
+        command = [self.program, library_of(fmu), fmu.description.guid, self.folder / "set", parts, str(runs), *references]
         printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
         return [tuple(map(float, line.split())) for line in printed.splitlines()]

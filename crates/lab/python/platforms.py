@@ -21,10 +21,12 @@ from fmpy.util import add_remoting
 import binaries
 import platform_scenes
 from bevel_differential import DifferentialError, Fmu
+from bevel_differential.text import markdown
 from effects_list import effects
+from tools import WORKSPACE, say
 
 # where the list of effects is
-FMU = Path(__file__).resolve().parents[3] / "target" / "fmu" / "BevelDifferential.fmu"
+FMU = WORKSPACE / "target" / "fmu" / "BevelDifferential.fmu"
 # keeps a library from wider vector instructions; a platform whose name ends so is kept from them
 VECTORS, NARROW = "BEVEL_DIFFERENTIAL_VECTORS", "narrow"
 # what is timed, each as one step of this length [s], and how often
@@ -177,21 +179,12 @@ def compared(one, other):
     return False, f"{different.sum()} of {different.size} differ, by {apart.max():.1e} at most, first at point {first[0]}"
 
 
-def table(head, rows, right=()):
-    lines = [head, ["---:" if i in right else "---" for i in range(len(head))], *rows]
-    return "".join("| " + " | ".join(line) + " |\n" for line in lines)
-
-
-def progress(fraction, what):
-    print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
-
-
 def main():
     folder, wine, *named = sys.argv[1:]
     platforms = []
     try:
         for name, fmu in (pair.split("=", 1) for pair in named):
-            progress(0.0, f"starting {name}")
+            say(0.0, f"starting {name}")
             platforms.append(Platform(name, fmu, wine))
         text, same = tables(platforms, list(platform_scenes.all_scenes(Path(folder), effects(FMU))))
     finally:
@@ -203,11 +196,13 @@ def main():
 
 def tables(platforms, scenes):
     first, *others = platforms
-    text = table(["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
-                 [described(platform) for platform in platforms], right=(1, 2, 4)) + "\n"
-    same, rows, lines = True, [], []
+    text = markdown([["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
+                     *map(described, platforms)], left=(0, 3, 5)) + "\n"
+    same, columns = True, [platform.name for platform in others]
+    rows = [["scene", "points", "values", *columns]]
+    lines = [["scene", "simulated", first.name, *(f"{name} / that" for name in columns)]]
     for index, (name, values, *rest) in enumerate(scenes):
-        progress(0.9 * index / len(scenes), name)
+        say(0.9 * index / len(scenes), name)
         wanted = first.record(values, *rest)
         row = [name, str(len(wanted)), str(wanted.size)]
         for platform in others:
@@ -215,15 +210,14 @@ def tables(platforms, scenes):
             same &= agrees
             row.append(words)
         rows.append(row)
-    text += table(["scene", "points", "values", *(platform.name for platform in others)], rows, right=(1, 2)) + "\n"
+    text += markdown(rows, left=(0, *range(3, len(rows[0])))) + "\n"
     for index, (name, duration) in enumerate(TIMED.items()):
-        progress(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
+        say(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
         values = next(scene[1] for scene in scenes if scene[0] == name)
         seconds = [platform.seconds(values, duration) for platform in platforms]
         lines.append([name, f"{duration:g} s", f"{1e3 * seconds[0]:.1f} ms",
                       *(f"{one / seconds[0]:.2f}" for one in seconds[1:])])
-    text += table(["scene", "simulated", first.name, *(f"{platform.name} / that" for platform in others)], lines,
-                  right=range(1, len(platforms) + 2)) + "\n"
+    text += markdown(lines) + "\n"
     statuses = {tuple(platform.refuses()) for platform in platforms}
     same &= len(statuses) == 1
     words = "; ".join(", ".join(one) for one in statuses)

@@ -1,19 +1,21 @@
 """What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
 
-usage: prices.py FMU EFFECTS FOLDER MACHINE RUNS PAIRS [OTHER_FMU]
+usage: prices.py FMU FOLDER RUNS PAIRS [OTHER_FMU]
 
 Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
 also writes FOLDER/prices.csv."""
 
 import csv
-import json
 import statistics
 import sys
 from pathlib import Path
 
 from bevel_differential import Differential, Fmu
+from bevel_differential.text import markdown
 
 from calls import TEN, Calls
+from effects_list import effects
+from tools import machine, say, significant
 
 STEP = 1e-3
 COUNTED = 0.5
@@ -28,15 +30,6 @@ ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft"
 OF_ALL = {"tooth_errors.accuracy_grade": 6, "tooth_errors.planet_tip_relief": 0.0}
 
 
-def effects(file):
-    """Start values that switch on each effect, by its name."""
-    found = {}
-    for effect in json.loads(Path(file).read_text(encoding="utf-8")):
-        switch = {effect["switch"]: True} if effect["switch"] else {}
-        found[effect["name"].removeprefix("effects.")] = {**switch, **effect["example"]}
-    return found
-
-
 class Bench:
     """Timed runs."""
 
@@ -44,7 +37,7 @@ class Bench:
         self.calls, self.runs = Calls(folder), runs
 
     def _per_step(self, fmu, values, steps, outputs):
-        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, steps * STEP, STEP)
+        [(_, seconds)] = self.calls.seconds(fmu, TURN | values, outputs, [(steps * STEP, STEP)])
         return seconds / steps
 
     def _steps(self, fmu, values, outputs):
@@ -71,25 +64,9 @@ def counts(fmu, values):
     return [float(record[name][-1]) for name in names]
 
 
-def digits(value, number=3):
-    """`value` with so many digits."""
-    return f"{value:#.{number}g}".rstrip(".") if value < 10 ** number else f"{value:.0f}"
-
-
 def within(quartiles):
     low, middle, high = quartiles
     return f"{middle:.2f} ({low:.2f} – {high:.2f})"
-
-
-def table(rows):
-    """Markdown, the first of the rows the header."""
-    header, *others = rows
-    lines = [header, ["---", *["---:"] * (len(header) - 1)], *others]
-    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
-
-
-def say(fraction, what):
-    print(f"progress {fraction:.3f} {what}", file=sys.stderr, flush=True)
 
 
 class Prices:
@@ -110,8 +87,8 @@ class Prices:
 
     def row(self, name, values):
         (steps, rejected, evaluations), taken, over, of_one = self.of(values)
-        return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", digits(1e6 * taken), within(over),
-                f"{of_one:.2f}", digits(STEP / taken, 2)], of_one, over[1]
+        return [name, f"{steps:.0f}", f"{rejected:.0f}", f"{evaluations:.0f}", significant(1e6 * taken, 3), within(over),
+                f"{of_one:.2f}", significant(STEP / taken, 2)], of_one, over[1]
 
 
 def prices(bench, fmu, switches, with_pairs, folder):
@@ -127,7 +104,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
         row, of_one, over = priced.row("nothing" if name == "nothing" else f"`{name}`", values)
         rows.append(row)
         known[name] = of_one
-        data.append([name, digits(of_one, 4), digits(over * priced.evaluations / (COUNTED / STEP), 4)])
+        data.append([name, significant(of_one, 4), significant(over * priced.evaluations / (COUNTED / STEP), 4)])
     every = OF_ALL.copy()
     for name in ALL:
         every = singles[name] | every
@@ -137,7 +114,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
     with (Path(folder) / "prices.csv").open("w", newline="", encoding="utf-8") as file:
         csv.writer(file, lineterminator="\n").writerows([["on", "evaluation", "communication_step"], *data])
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
-    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{table(rows)}\n"
+    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown(rows)}\n"
             f"All together an evaluation costs {of_all:.1f} times that of plain teeth; 1 and what each adds alone make {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
@@ -145,7 +122,7 @@ def prices(bench, fmu, switches, with_pairs, folder):
             say((2 + len(singles) + done) / stages, f"timing {a}, {b}")
             row, of_one, _ = priced.row(f"`{a}`, `{b}`", singles[a] | singles[b])
             rows.append([*row[:2], *row[3:7], f"{of_one / (known[a] + known[b] - 1.0):.2f}"])
-        text += f"\nEach pair.\n\n{table(rows)}"
+        text += f"\nEach pair.\n\n{markdown(rows)}"
     return text
 
 
@@ -164,15 +141,16 @@ def builds(bench, fmu, other, switches):
             rows.append([name, "", "", "unknown to the other"])
             continue
         (before, now), over = bench.compare((other, values, outputs), (fmu, values, outputs))
-        rows.append([name, digits(1e6 * now), digits(1e6 * before), within(over)])
-    return table(rows)
+        rows.append([name, significant(1e6 * now, 3), significant(1e6 * before, 3), within(over)])
+    return markdown(rows)
 
 
 def main():
-    file, described, folder, machine, runs, with_pairs, *other = sys.argv[1:]
-    bench, fmu, switches = Bench(folder, int(runs)), Fmu.of(file), effects(described)
+    file, folder, runs, with_pairs, *other = sys.argv[1:]
+    bench, fmu = Bench(folder, int(runs)), Fmu.of(file)
+    switches = {effect.name: effect.on for effect in effects(file)}
     text = builds(bench, fmu, Fmu.of(other[0]), switches) if other else prices(bench, fmu, switches, with_pairs == "pairs", folder)
-    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine}.")
+    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
 
 
 if __name__ == "__main__":

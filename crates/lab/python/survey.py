@@ -1,28 +1,203 @@
-"""Runs the FMU with the parameter sets that `lab survey` wrote, and records its outputs.
+"""Whether answers of the command `accuracy` can be trusted: random scenes, three quantities each, at 1 and 5 %. The chosen
+setting runs in the packaged FMU, started from the parameter set that the answer writes, and is compared with a reference
+that the search did not use: the richest model by another method (Radau) at a tenth of the tolerance.
 
-usage: survey.py FMU FOLDER    for each NAME.json reads NAME.ssv, writes NAME.csv
-"""
+usage: survey.py FMU FOLDER SCENES SEED    writes FOLDER/cases.csv, prints the verdict
+       survey.py --shipped                 answers for the shipped scenes, and what that takes"""
 
 import csv
-import json
+import os
+import statistics
 import sys
+import textwrap
+import time
+import warnings
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
-from bevel_differential import Differential
+import numpy as np
 from fmpy.ssp.ssd import read_ssv
 
+from bevel_differential import Differential, DifferentialError, DifferentialWarning, accuracy, shipped_scenes
+from bevel_differential.text import aligned, markdown
+from bevel_differential.want import Want
+from survey_scenes import drawn
+from tools import percent, say, significant
 
-def main(file, folder):
-    runs = sorted(folder.glob("*.json"))
-    for number, path in enumerate(runs):
-        print(f"progress {number / len(runs):.3f} running the FMU, {path.stem}", file=sys.stderr, flush=True)
-        run = json.loads(path.read_text(encoding="utf-8"))
-        parameters = read_ssv(str(path.with_suffix(".ssv"))).parameters
-        with Differential({parameter.name: parameter.value for parameter in parameters}, fmu=file) as differential:
-            record = differential.run(outputs=run["outputs"], stop=run["stop"], step=run["step"])
-        with open(path.with_suffix(".csv"), "w", encoding="utf-8", newline="") as out:
-            csv.writer(out).writerows(record[1:].tolist())
+WITHIN = (0.01, 0.05)
+# the independent reference: a part of the tolerance of the search's own
+FINER = 0.1
+# what is recorded beside the outputs, for orders
+ANGLES = ["planet[1].spin_angle", "carrier.angle"]
+# the part of a run in which the teeth meet, which does not count
+START = 0.15
+# the reference of an answer is not certain where its own error is above this part of the accuracy
+THIRD = 1.0 / 3.0
+# letters in a line
+WIDTH = 118
+
+
+@dataclass(frozen=True)
+class Case:
+    """A question with its answer, and what the FMU showed. `error`: of the chosen setting in the FMU against the independent
+    reference; `promised`: that which the answer gives; `stray`: how far its reference strays; `apart`: difference of both references;
+    `gain`: price of the reference over that of the chosen setting; `spent`: price of the search over that of a reference run."""
+
+    case: str
+    want: str
+    within: float
+    error: float
+    promised: float
+    stray: float
+    apart: float
+    uncertain: bool
+    gain: float
+    spent: float
+
+    @property
+    def is_within(self):
+        return self.error <= self.within
+
+    @property
+    def is_silent(self):
+        """Whether the reference of the answer was wrong by more than a third of the accuracy, and the answer did not say so."""
+        return self.apart > THIRD * self.within and not self.uncertain
+
+
+def error(value, wanted, scale):
+    """As a part of `scale`; what is no more than nothing differs wholly."""
+    by = abs(value - wanted)
+    return float(by if by == 0.0 else np.inf if not np.isfinite(by) else by / scale if scale else 1.0)
+
+
+class Runs:
+    """Runs of the FMU in a drawn scene, and figures of them."""
+
+    def __init__(self, fmu, scene):
+        self.fmu, self.scene = fmu, scene
+        self.outputs = list(dict.fromkeys([*scene.contents()["outputs"], *ANGLES]))
+
+    def record(self, values):
+        """What counts of a run with these start values."""
+        with Differential(values, fmu=self.fmu) as differential:
+            record = differential.run(outputs=self.outputs, stop=self.scene.stop, step=self.scene.step)
+        return record[record["time"] > START * self.scene.stop + 0.5 * self.scene.step]
+
+    def figure(self, want, record):
+        with Differential(fmu=self.fmu) as differential:
+            return Want.parse(differential.fmu, want).of(record, self.scene.values["geometry.planet_teeth"])
+
+
+def cases_of(fmu, folder, seed, index):
+    """All questions about a scene."""
+    scene = drawn(seed, index)
+    runs, independent, found = Runs(fmu, scene), None, []
+    for place, want in enumerate(scene.wants):
+        for within in WITHIN:
+            answer = accuracy(scene, want, within, from_=START * scene.stop, timed=False)
+            if answer.use is None:
+                raise DifferentialError("nothing comes to its end")
+            reference = answer.answer["reference"]
+            if independent is None:
+                # one run for all quantities of a scene, by the finest of the references
+                tolerance = FINER * reference["set"].get("solver.relative_tolerance", 1e-6)
+                variable = Differential(fmu=fmu).fmu.variable("solver.relative_tolerance")
+                independent = runs.record({**reference["set"], "solver.method": "radau",
+                                           "solver.relative_tolerance": max(tolerance, variable.minimum)})
+            name = f"{index:03}_{place}_{100.0 * within:.0f}"
+            file = folder / f"{name}.ssv"
+            file.write_text(answer.answer["ssv"], encoding="utf-8")
+            chosen = runs.record({parameter.name: parameter.value for parameter in read_ssv(str(file)).parameters})
+            value, wanted = runs.figure(want, chosen), runs.figure(want, independent)
+            scale = reference["scales"][0]
+            found.append(Case(name, want, within, error(value, wanted, scale), answer.use.run.error, answer.reference.error,
+                              error(reference["values"][0], wanted, scale), answer.uncertain,
+                              answer.reference.price / answer.use.run.price, answer.answer["spent"]))
+    return found
+
+
+def surveyed(fmu, folder, scenes, seed):
+    """All cases, and scenes that cannot be asked."""
+    failed, cases, done = [], [], iter(range(1, scenes + 1))
+
+    def work(index):
+        try:
+            return cases_of(fmu, folder, seed, index)
+        except DifferentialError as why:
+            failed.append(f"scene {index}: {why}")
+            return []
+        finally:
+            number = next(done)
+            say(number / scenes, f"scene {number} of {scenes}")
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for found in pool.map(work, range(scenes)):
+            cases += found
+    return cases, sorted(failed)
+
+
+def verdict(cases, failed):
+    """Counts in sentences, and tables of misses and of references that were not certain."""
+    certain = [one for one in cases if not one.uncertain]
+    good = sum(one.is_within for one in certain)
+    gain, spent = [one.gain for one in cases], [one.spent for one in cases]
+    middle = [significant(statistics.median(values) if values else np.nan, 2) for values in (gain, spent)]
+    lines = wrapped(f"{len(cases)} questions; in {len(cases) - len(certain)} the answer says that its reference is not certain. Of the "
+                    f"other {len(certain)}, {good} are within the accuracy, {100.0 * good / max(len(certain), 1):.1f} %. In the median the "
+                    f"chosen setting is {middle[0]} times cheaper than the reference, and the search costs {middle[1]} reference runs, "
+                    f"{significant(max(spent, default=0.0), 2)} at most.")
+    for title, some in [
+            ("Misses: the chosen setting in the FMU is off by more than wanted", [one for one in cases if not one.is_within]),
+            ("Silent: the reference was off by more than a third of the accuracy, and the answer did not say so",
+             [one for one in cases if one.is_silent]),
+            ("Said: the answer says that its reference is not certain", [one for one in cases if one.uncertain])]:
+        lines += ["", f"{title}: {len(some)}"]
+        if some:
+            rows = [["case", "quantity", "within", "error in the FMU", "error of the answer", "strays", "references apart"]]
+            rows += [[one.case, one.want, *map(percent, (one.within, one.error, one.promised, one.stray, one.apart))] for one in some]
+            lines += ["", *aligned(rows)]
+    if failed:
+        lines += ["", f"Scenes that cannot be asked: {len(failed)}", *(line for text in failed for line in wrapped(text))]
+    return "\n".join(["", "```text", *lines, "```", ""])
+
+
+def wrapped(text):
+    return textwrap.wrap(text, WIDTH, break_on_hyphens=False)
+
+
+def shipped():
+    """How long the answers for the shipped scenes take: all outputs of each, to 1 %."""
+    rows = [["scene", "one reference run, s", "runs", "as dear as reference runs", "answer, s", "setting"]]
+    scenes = shipped_scenes()
+    for place, scene in enumerate(scenes):
+        begin = time.perf_counter()
+        answer = accuracy(scene, progress=lambda done, what, place=place, scene=scene:
+                          say((place + min(done, 1.0)) / len(scenes), f"{scene}: {what}"))
+        took = time.perf_counter() - begin
+        if answer.use is None:
+            setting = "none but the reference"
+        else:
+            setting = "not certain: two runs of the reference part" if answer.uncertain else answer.use.run.setting
+        rows.append([f"`{scene}`", significant(answer.reference.seconds, 2), str(len(answer.runs) - 1),
+                     significant(answer.answer["spent"], 2), significant(took, 2), setting])
+    return markdown(rows, left=(0, 5))
+
+
+def main():
+    if sys.argv[1:] == ["--shipped"]:
+        print(shipped())
+        return
+    # the richest model has effects that a drawn scene cannot feel
+    warnings.simplefilter("ignore", DifferentialWarning)
+    fmu, folder, scenes, seed = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
+    cases, failed = surveyed(fmu, folder, scenes, seed)
+    with open(folder / "cases.csv", "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(Case.__annotations__)
+        writer.writerows([str(value).lower() if isinstance(value, bool) else value for value in vars(one).values()] for one in cases)
+    print(verdict(cases, failed))
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]))
+    main()

@@ -44,16 +44,6 @@ pub struct AllCommand {
     only: Vec<String>,
 }
 
-/// How a command went.
-struct Outcome {
-    /// It with its options.
-    call: String,
-    seconds: f64,
-    failed: bool,
-    /// The last line it wrote.
-    said: String,
-}
-
 impl AllCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
@@ -66,27 +56,24 @@ impl AllCommand {
         let progress = Progress::start("running all commands");
         let chosen =
             COMMANDS.iter().filter(|words| self.only.is_empty() || self.only.iter().any(|name| name == words[0]));
-        let mut outcomes = Vec::new();
+        let mut table = Table::new(["command", "seconds", "outcome", "last line"]).left([0, 2, 3]);
+        let mut failed = Vec::new();
         for words in chosen {
             progress.stage(&format!("running {}", words.join(" ")));
-            outcomes.push(outcome(words, &folder)?);
+            let (row, held) = outcome(words, &folder)?;
+            failed.extend((!held).then(|| words.join(" ")));
+            table.push(row);
         }
         progress.finish();
-        let mut table = Table::new(["command", "seconds", "outcome", "last line"]).left([0, 2, 3]);
-        for one in &outcomes {
-            let word = if one.failed { "FAILED" } else { "held" };
-            table.push([one.call.clone(), format!("{:.0}", one.seconds), word.to_owned(), one.said.clone()]);
-        }
         print!("{}", for_terminal(&table.markdown()));
         println!("\nwhat each printed: {}", paths::shown(&folder));
-        let failed: Vec<&str> = outcomes.iter().filter(|one| one.failed).map(|one| one.call.as_str()).collect();
         ensure!(failed.is_empty(), "these failed: {}", failed.join(", "));
         Ok(())
     }
 }
 
-/// Runs a command; what it prints goes to a file.
-fn outcome(words: &[&str], folder: &Path) -> Result<Outcome> {
+/// Runs a command, whose print goes to a file: its row of the table, and whether it held.
+fn outcome(words: &[&str], folder: &Path) -> Result<([String; 4], bool)> {
     let file: PathBuf = folder.join(format!("{}.txt", words[0]));
     let printed = File::create(&file).with_context(|| format!("{} cannot be written", paths::shown(&file)))?;
     let begin = Instant::now();
@@ -97,11 +84,11 @@ fn outcome(words: &[&str], folder: &Path) -> Result<Outcome> {
         .stderr(printed)
         .status()
         .with_context(|| format!("{} cannot be run", words[0]))?;
-    let seconds = begin.elapsed().as_secs_f64();
+    let seconds = format!("{:.0}", begin.elapsed().as_secs_f64());
     let text = String::from_utf8_lossy(&fs::read(&file)?).into_owned();
     let said = text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or_default().trim();
-    let said = said.chars().take(LONGEST).collect();
-    Ok(Outcome { call: words.join(" "), seconds, failed: !status.success(), said })
+    let word = if status.success() { "held" } else { "FAILED" };
+    Ok(([words.join(" "), seconds, word.to_owned(), said.chars().take(LONGEST).collect()], status.success()))
 }
 
 /// Letters of a last line that the table shows.

@@ -11,6 +11,28 @@ use crate::all::AllCommand;
 use crate::check::CheckCommand;
 use crate::measure::MeasureCommand;
 
+/// Commands of a room, each of which has a method `run`.
+#[macro_export]
+macro_rules! commands {
+    ($(#[$told:meta])* $name:ident { $($(#[$more:meta])* $variant:ident($command:ty),)+ }) => {
+        $(#[$told])*
+        #[derive(clap::Subcommand)]
+        #[allow(missing_docs)] // each command describes itself
+        pub enum $name {
+            $($(#[$more])* $variant($command)),+
+        }
+
+        impl $name {
+            /// Runs the command.
+            pub fn run(self) -> anyhow::Result<()> {
+                match self {
+                    $(Self::$variant(command) => command.run()),+
+                }
+            }
+        }
+    };
+}
+
 #[derive(Parser)]
 #[command(name = "lab", bin_name = LABORATORY, version, disable_help_subcommand = true)]
 struct CommandLine {

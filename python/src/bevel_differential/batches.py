@@ -3,14 +3,11 @@
 import ctypes
 from collections.abc import Callable, Sequence
 from functools import lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from .values import Number, Variable
-
-if TYPE_CHECKING:
-    from .instance import Instance
 
 # function, component, references, count, address of the first row, bytes of a row
 Reader: TypeAlias = tuple[Callable[..., int], ctypes.c_void_p | None, ctypes.c_void_p, int, int, int]
@@ -22,7 +19,7 @@ CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolea
 class Batches:
     """Variables in groups of their kinds, so that one call sets or gets a group. Order is kept within a kind.
 
-    Values are as the FMU takes them, and nothing but the FMU checks them."""
+    Values are as the FMU takes them, and nothing but the FMU checks them. An `instance` is an `Instance`."""
 
     def __init__(self, variables: Sequence[Variable]):
         self.groups: list[tuple[str, list[int], np.ndarray, type[np.float64 | np.int32]]] = []
@@ -39,14 +36,14 @@ class Batches:
         """Those of these variables, kept: designs of a sweep share them."""
         return Batches(variables)
 
-    def set(self, instance: "Instance", values: Sequence[Number]) -> None:
+    def set(self, instance: Any, values: Sequence[Number]) -> None:
         """Sets all."""
         for call, places, references, dtype in self.groups:
             numbers: np.ndarray = np.array([values[place] for place in places], dtype)
             status = instance._set[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
             instance.check(status, f"setting {call} variables")
 
-    def get(self, instance: "Instance") -> list[Number]:
+    def get(self, instance: Any) -> list[Number]:
         """Gets all, as a list in the order of the variables."""
         values: dict[int, Number] = {}
         for call, places, references, dtype in self.groups:
@@ -60,7 +57,7 @@ class Batches:
         """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""
         return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
 
-    def readers(self, instance: "Instance", record: Sequence[np.ndarray]) -> list[Reader]:
+    def readers(self, instance: Any, record: Sequence[np.ndarray]) -> list[Reader]:
         """For each group a function and its arguments, to which the address of a row is added: (function, component, references,
         count, address of the first row, bytes of a row)."""
         return [(instance._get[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),

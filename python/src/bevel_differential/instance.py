@@ -3,16 +3,13 @@
 import contextlib
 import ctypes
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Self
+from typing import Any, Self
 
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
 
 from .batches import Batches
 from .values import DifferentialError, Number, Value, Variable
-
-if TYPE_CHECKING:
-    from .fmu import Fmu
 
 # what the log is to have
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
@@ -30,10 +27,10 @@ class Instance:
     Values are written as in `Differential` and read in SI. What the FMU refuses is a `DifferentialError` with the FMU's message
     and status.
 
-    Attributes: `fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `events`, what else
+    Attributes: `fmu`, its `Fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `events`, what else
     it has logged; `time` (s), to which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
 
-    def __init__(self, fmu: "Fmu", kind: str = "CoSimulation", name: str = "differential"):
+    def __init__(self, fmu: Any, kind: str = "CoSimulation", name: str = "differential"):
         if kind not in KINDS:
             raise DifferentialError(f"kind = {kind!r}: it is one of {', '.join(KINDS)}")
         self.fmu, self.time = fmu, 0.0

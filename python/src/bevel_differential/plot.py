@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterable
-from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 Panels: TypeAlias = dict[tuple[str, str], list[tuple[str, np.ndarray]]]
 
 # inches
-WIDTH, PANEL, REST = 10.0, 2.3, 1.2
+PANEL, REST = 2.3, 1.2
 
 
 def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file: FileName | None = None) -> "Figure":
@@ -27,26 +26,25 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
 
     Writes `file` (PNG, SVG or PDF) if there is one. Returns the matplotlib figure; it is not one of pyplot's, so that nothing is
     to be closed."""
-    matplotlib = needed("matplotlib", "plot")
-    from matplotlib.figure import Figure
+    needed("matplotlib", "plot")
+    from . import style
 
     names = (record.dtype.names or ())[1:]
     if not names:
         raise DifferentialError("the record has no outputs to draw")
     panels = by_unit(fmu, record, names)
-    with matplotlib.rc_context({"axes.grid": True, "grid.alpha": 0.3, "axes.spines.top": False, "axes.spines.right": False,
-                                "axes.axisbelow": True}):
-        figure = Figure(figsize=(WIDTH, PANEL * len(panels) + REST), layout="constrained")
-        axes = figure.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    with style.styled():
+        figure, axes = style.panels(len(panels), 1, PANEL * len(panels) + REST, sharex=True, squeeze=False)
+        axes = axes[:, 0]
         for panel, ((unit, kind), curves) in zip(axes, panels.items()):
             draw_panel(panel, record["time"], unit, kind, curves)
         axes[-1].set_xlabel("time, s")
         figure.align_ylabels(axes)
         if title:
-            figure.suptitle(title, fontsize=12, fontweight="bold")
-        figure.supxlabel(caption or _caption(record), fontsize=9.5, color="#444444")
+            figure.suptitle(title, fontweight="bold")
+        figure.supxlabel(caption or _caption(record), fontsize=style.SMALL, color=style.TEXT)
         if file is not None:
-            _save(figure, file)
+            style.save(figure, file)
     return figure
 
 
@@ -85,10 +83,3 @@ def _quantity(names, unit):
 
 def _caption(record):
     return f"{len(record)} communication points from {record['time'][0]:g} s to {record['time'][-1]:g} s; one panel for each unit"
-
-
-def _save(figure, file):
-    try:
-        figure.savefig(Path(file), dpi=130)
-    except (OSError, ValueError) as error:
-        raise DifferentialError(f"{file}: {error}") from None

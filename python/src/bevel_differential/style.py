@@ -11,6 +11,8 @@ from cycler import cycler
 from matplotlib.figure import Figure
 from PIL import Image
 
+from .values import DifferentialError
+
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
 PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
 # black of theory, text, and text of less weight
@@ -74,7 +76,10 @@ def note(axes, x, y, text, **options):
 def save(picture, path, shaded=False):
     """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
     `shaded` surfaces keep all."""
-    picture.savefig(path)
+    try:
+        picture.savefig(path)
+    except (OSError, ValueError) as error:
+        raise DifferentialError(f"{path}: {error}") from None
     if shaded or not str(path).lower().endswith(".png"):
         return
     with Image.open(path) as drawn:

@@ -113,6 +113,11 @@ impl AccuracyQuestion {
             "use": place(found.chosen),
             "cheaper": place(found.cheaper),
             "richer": place(found.richer),
+            "reference": {
+                "set": changed(&found.reference.scene),
+                "values": found.reference.values,
+                "scales": found.reference.scales,
+            },
             "seconds": found.seconds,
             "spent": found.spent,
             "effects": found.effects.iter().map(|(switch, role)| effect(&found, switch, role)).collect::<Vec<_>>(),

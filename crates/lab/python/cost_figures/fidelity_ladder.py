@@ -5,7 +5,6 @@ import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 
 from bevel_differential import style
-from cost_figures.cells import draw_cells
 from bevel_differential.readable import percent, ratio, with_unit, wrapped
 from bevel_differential.records import read
 
@@ -66,3 +65,13 @@ def costs(axes, rows):
     axes.xaxis.set_major_locator(plt.LogLocator(numticks=5))
     axes.set_yticklabels([])
     axes.grid(axis="y", visible=False)
+
+
+def draw_cells(axes, values, texts, colors, limits, is_dark, size=style.SMALL):
+    """`texts[i][j]` in the colour of `values[i, j]`; white where `is_dark(value)`."""
+    axes.imshow(np.where(np.isfinite(values), values, 0.0), cmap=colors, norm=limits, aspect="auto")
+    for (i, j), value in np.ndenumerate(values):
+        axes.text(j, i, texts[i][j], ha="center", va="center", fontsize=size, color="white" if is_dark(value) else style.INK)
+    axes.set(xticks=range(values.shape[1]), yticks=range(values.shape[0]))
+    axes.grid(False)
+    axes.tick_params(length=0)

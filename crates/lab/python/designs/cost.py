@@ -6,12 +6,16 @@ Needs the package with its extra [sweep] and the FMU (BEVEL_DIFFERENTIAL_FMU).""
 
 import argparse
 import statistics
+import sys
+from pathlib import Path
 
 from bevel_differential import Fmu, Scene
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
-from bevel_differential.text import aligned
-from page import write
+from bevel_differential.text import aligned, markdown
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from tools import renew  # noqa: E402
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "geometry.face_width": "17 mm"}
@@ -56,7 +60,7 @@ def main():
         rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken), f"{3600.0 / taken[0]:.2g}"))
     print("\n".join(aligned(rows, left=1)))
     if given.write:
-        write("cost", rows)
+        renew("docs/design.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
 
 
 if __name__ == "__main__":

@@ -16,11 +16,11 @@ from bevel_differential import Differential, Fmu, Scene
 from bevel_differential.designs import Farm, Space, Task
 from bevel_differential.designs.cluster import usual_workers
 from bevel_differential.designs.plan import Plan
-from bevel_differential.text import aligned
-from page import write
+from bevel_differential.text import aligned, markdown
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from calls import TEN, Calls  # noqa: E402
+from tools import renew  # noqa: E402
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
@@ -52,7 +52,7 @@ def overhead(calls, fmu, runs):
             package, bare = [], []
             for _ in range(max(1, runs // 20)):
                 # the first run makes what follows from the gears
-                bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, STOP, step, 21)[1:]]
+                bare += [whole for whole, _ in calls.seconds(fmu, TURN, TEN, [(STOP, step)], 21)[1:]]
                 package += [timed(use) for _ in range(20)]
             yield row(what, min(package) * 1e3, min(bare) * 1e3, "ms", limit)
 
@@ -137,8 +137,8 @@ def main():
         by_workers = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
         print("\n".join(aligned(by_workers, left=1)))
     if given.write:
-        write("overhead", rows)
-        write("workers", by_workers)
+        for name, table in (("overhead", rows), ("workers", by_workers)):
+            renew("docs/design.md", (f"<!-- {name} begin -->", f"<!-- {name} end -->"), markdown(table))
 
 
 if __name__ == "__main__":

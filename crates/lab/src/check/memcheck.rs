@@ -4,7 +4,7 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::Instant;
 
 use anyhow::{Context, Result, bail, ensure};
@@ -52,15 +52,6 @@ pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// What a checker reported about a program.
-struct Checked {
-    program: &'static str,
-    checker: &'static str,
-    lost: String,
-    errors: String,
-    seconds: f64,
-}
-
 /// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
 #[derive(Args, Clone, Debug)]
 pub struct MemcheckCommand {
@@ -72,40 +63,31 @@ pub struct MemcheckCommand {
 impl MemcheckCommand {
     /// Runs everything under memcheck and prints a table; fails if there is an error or a leak.
     pub fn run(&self) -> Result<()> {
-        run(self.questions)
+        let progress = Progress::start("building the library and the host");
+        let life = compiled("life", &[])?;
+        let mut host_arguments = arguments(&own::beside_program()?)?;
+        host_arguments.push(CALLS[0].to_string().into());
+        let this = env::current_exe().context("the path of this program is unknown")?;
+        let rounds = ["fuzz", "--worker", "--calls", &CALLS[1].to_string()].map(OsString::from);
+        let questions = ["questions", "--threads", "1", "--count", &self.questions.to_string()].map(OsString::from);
+        let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);
+        for (name, program, arguments) in [
+            ("life of instances, in C", &life, &host_arguments[..]),
+            ("calls at random, in Rust", &this, &rounds),
+            ("questions at random", &this, &questions),
+        ] {
+            progress.stage(&format!("memcheck on {name}"));
+            table.push(memcheck(name, program, arguments)?);
+        }
+        fs::remove_file(&life).context("the host cannot be removed")?;
+        progress.finish();
+        print!("{}", table.terminal());
+        Ok(())
     }
 }
 
-fn run(count: usize) -> Result<()> {
-    let progress = Progress::start("building the library and the host");
-    let library = own::beside_program()?;
-    let life = compiled("life", &[])?;
-    let mut host_arguments = arguments(&library)?;
-    host_arguments.push(CALLS[0].to_string().into());
-    let this = env::current_exe().context("the path of this program is unknown")?;
-    let mut checked = Vec::new();
-    progress.stage("memcheck on the host in C");
-    checked.push(memcheck("life of instances, in C", &life, &host_arguments)?);
-    progress.stage("memcheck on calls at random");
-    checked.push(memcheck("calls at random, in Rust", &this, &rounds(CALLS[1]))?);
-    progress.stage("memcheck on questions at random");
-    let questions = ["questions", "--threads", "1", "--count", &count.to_string()].map(OsString::from);
-    checked.push(memcheck("questions at random", &this, &questions)?);
-    fs::remove_file(&life).context("the host cannot be removed")?;
-    progress.finish();
-    let mut table = Table::new(["program", "checker", "errors", "bytes lost", "time, s"]).left([0, 1]);
-    for c in checked {
-        table.push([c.program.to_owned(), c.checker.to_owned(), c.errors, c.lost, format!("{:.1}", c.seconds)]);
-    }
-    print!("{}", table.terminal());
-    Ok(())
-}
-
-fn rounds(calls: usize) -> Vec<OsString> {
-    ["fuzz", "--worker", "--calls", &calls.to_string()].map(OsString::from).to_vec()
-}
-
-fn memcheck(program: &'static str, path: &Path, arguments: &[OsString]) -> Result<Checked> {
+/// A program under memcheck: a row of the table.
+fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[String; 5]> {
     let start = Instant::now();
     let output = Command::new("valgrind")
         .args(["--leak-check=full", "--error-exitcode=99", "--errors-for-leak-kinds=definite,indirect,possible"])
@@ -116,28 +98,18 @@ fn memcheck(program: &'static str, path: &Path, arguments: &[OsString]) -> Resul
         .env(lanes::VARIABLE, "narrow")
         .output()
         .context("valgrind checks the memory: install it (apt-get install valgrind)")?;
-    let said = success(program, &output)?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        let names = "with CARGO_PROFILE_RELEASE_STRIP=none in the environment, functions have their names";
+        bail!("{program} ({}):\n{}\n{names}", output.status, said.trim_end());
+    }
     let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind reported no count of errors")?;
-    let lost = between(&said, "definitely lost: ", " bytes").unwrap_or("0").to_owned();
-    Ok(Checked {
-        program,
-        checker: "memcheck",
-        lost,
-        errors: errors.to_owned(),
-        seconds: start.elapsed().as_secs_f64(),
-    })
+    let lost = between(&said, "definitely lost: ", " bytes").unwrap_or("0");
+    let seconds = format!("{:.1}", start.elapsed().as_secs_f64());
+    Ok([program, "memcheck", errors, lost, &seconds].map(str::to_owned))
 }
 
 /// Text of `said` between two others.
 fn between<'a>(said: &'a str, before: &str, after: &str) -> Option<&'a str> {
     said.split_once(before)?.1.split_once(after).map(|(text, _)| text)
-}
-
-fn success(program: &str, output: &Output) -> Result<String> {
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    if !output.status.success() {
-        let names = "with CARGO_PROFILE_RELEASE_STRIP=none in the environment, functions have their names";
-        bail!("{program} ({}):\n{}\n{names}", output.status, said.trim_end());
-    }
-    Ok(said)
 }

@@ -1,15 +1,11 @@
 //! Changes of the source that no test notices: drawn by a seed from the rooms with the physics, built in at once, tried one by one.
 
-use std::ffi::OsString;
-use std::path::PathBuf;
-
 use anyhow::Result;
 use clap::Args;
 use fmu_build::tools::paths;
-use fmu_build::tools::progress::Progress;
 
-use crate::tools::scripted::Document;
-use crate::tools::{environments, places};
+use crate::tools::places;
+use crate::tools::scripted::{Document, Script, arguments};
 
 const DOCUMENT: Document =
     Document { file: "docs/mutants.md", marks: ["<!-- mutants:begin -->", "<!-- mutants:end -->"], pictures: &[] };
@@ -31,13 +27,12 @@ pub struct MutantsCommand {
 impl MutantsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        let progress = Progress::start("looking for Python");
-        let environment = environments::parser(|what| progress.stage(what))?;
-        let folder: PathBuf = paths::target().join("mutants").join(format!("{}-{}", self.seed, self.count));
-        let numbers = [self.count as u64, self.seed].map(|number| OsString::from(number.to_string()));
-        let arguments: Vec<OsString> =
-            [paths::workspace().into(), folder.clone().into()].into_iter().chain(numbers).collect();
-        let script = places::script("mutants").join("campaign.py");
-        DOCUMENT.make(progress, "trying changes", (&environment, &script, &arguments), &folder, self.write)
+        let folder = paths::target().join("mutants").join(format!("{}-{}", self.seed, self.count));
+        let script =
+            Script::of(&places::MUTANTS, places::MUTANTS.folder().join("campaign.py"), "trying changes", &folder);
+        let numbers = [self.count as u64, self.seed].map(|number| number.to_string().into());
+        DOCUMENT.make(&script, self.write, |_| {
+            Ok(arguments([paths::workspace(), folder].into_iter().chain(numbers), false))
+        })
     }
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
-use crate::tools::{environments, places};
+use crate::tools::places;
 use answers::text::table::Table;
 use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
@@ -44,7 +44,7 @@ impl TestPageCommand {
             found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
-        let environment = environments::browser(|what| progress.stage(what))?;
+        let environment = places::BROWSER.environment(|what| progress.stage(what))?;
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         progress.stage("testing the page");
@@ -53,7 +53,7 @@ impl TestPageCommand {
         pytest
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "--tb=short", "--table"])
             .arg(&checked)
-            .arg(places::browser_tests())
+            .arg(places::BROWSER.folder())
             .env("PAGE", page.canonicalize()?)
             .env("FMU", &fmu)
             .env("BEVEL_DIFFERENTIAL_FMU", &fmu)

@@ -6,17 +6,17 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use crate::tools::places;
-use answers::text::table::for_terminal;
+use crate::tools::scripted::{Document, Needs, Script};
 use fmu_build::fmu::libraries::{self, Library};
 use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
-use fmu_build::tools::progress::Progress;
-use fmu_build::tools::python::Environment;
-use fmu_build::tools::{paths, script, sections};
+use fmu_build::tools::paths;
 
-/// The document with the tables, and their place.
-const DOCUMENT: &str = "docs/platforms.md";
-const MARKS: [&str; 2] = ["<!-- platforms:begin -->", "<!-- platforms:end -->"];
+const DOCUMENT: Document = Document {
+    file: "docs/platforms.md",
+    marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"],
+    pictures: &[],
+};
 
 /// Checks that the libraries of all platforms give the same bits, Windows under wine
 #[derive(Args, Clone, Debug)]
@@ -29,17 +29,22 @@ pub struct PlatformsCommand {
 impl PlatformsCommand {
     /// Runs it.
     pub fn run(&self) -> Result<()> {
-        run(self.write)
+        let script =
+            Script { file: places::script("platforms.py"), doing: "comparing", needs: Needs::Tests, folder: None };
+        DOCUMENT
+            .make(&script, self.write, |progress| {
+                progress.stage("building the library for each platform");
+                built()
+            })
+            .context("the libraries do not agree, or could not be compared")
     }
 }
 
-fn run(write: bool) -> Result<()> {
-    let progress = Progress::start("looking for Python");
-    let environment = Environment::complete(|what| progress.stage(what))?;
+/// An FMU for each library: the arguments of the script.
+fn built() -> Result<Vec<OsString>> {
     let (Some(_), Some(windows)) = (toolchains::old_linux().found(), WINDOWS.found()) else {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };
-    progress.stage("building the library for each platform");
     let own = libraries::for_this_machine()?;
     let mut named: Vec<(String, Library)> =
         vec![("linux64, plain".into(), own.clone()), ("linux64, vectors narrow".into(), own)];
@@ -48,8 +53,7 @@ fn run(write: bool) -> Result<()> {
         let what = if library.platform == "win64" { "wine".into() } else { format!("glibc {}", toolchains::GLIBC) };
         (format!("{}, {what}", library.platform), library)
     }));
-    let wine = windows.programs().join("wine64");
-    let mut arguments: Vec<OsString> = vec![paths::scenes().into(), wine.into()];
+    let mut arguments: Vec<OsString> = vec![paths::scenes().into(), windows.programs().join("wine64").into()];
     for (index, (name, library)) in named.into_iter().enumerate() {
         let fmu = paths::target().join("platforms").join(format!("{index}.fmu"));
         package::write_archive(&[library], None, Packing::Quick, &fmu)?;
@@ -57,15 +61,5 @@ fn run(write: bool) -> Result<()> {
         pair.push(fmu);
         arguments.push(pair);
     }
-    progress.begin_bar("comparing");
-    let program = places::script("platforms.py");
-    let tables = script::run(&environment, &program, &arguments, &progress)
-        .context("the libraries do not agree, or could not be compared")?;
-    progress.finish();
-    print!("{}", for_terminal(&tables));
-    if write {
-        sections::renew(DOCUMENT, MARKS, &tables)?;
-        println!("\nrenewed: {DOCUMENT}");
-    }
-    Ok(())
+    Ok(arguments)
 }

@@ -23,6 +23,23 @@ const PATIENCE: Duration = Duration::from_millis(20);
 const ODD: [&str; 14] =
     ["0", "-1", "1e308", "-1e-320", "1e999", "nan", "inf", "", "°", "4.5 mm", "3 kg", "true", "line_weber", "a\u{0}b"];
 
+/// Questions, each with what belongs to it.
+const KINDS: [(&str, &[&str]); 13] = [
+    ("scenes", &["scenes"]),
+    ("scene", &["of"]),
+    ("plan", &["of"]),
+    ("run", &["of", "out"]),
+    ("export", &["of", "format"]),
+    ("loads", &["of", "out", "every"]),
+    ("accuracy", &["of", "want", "within", "from", "timed"]),
+    ("pattern", &["ofs"]),
+    ("geometry", &["set", "facets", "thicken", "solids"]),
+    ("study", &["results"]),
+    ("word", &["statistic"]),
+    ("statistics", &["points", "figures"]),
+    ("weather", &["results"]),
+];
+
 /// Asks the library of answers questions at random, from several threads at once
 #[derive(Args, Clone, Debug)]
 pub struct QuestionsCommand {
@@ -124,38 +141,10 @@ fn text(random: &mut Random) -> String {
 }
 
 fn question(random: &mut Random) -> Value {
-    let kinds = [
-        "scenes",
-        "scene",
-        "plan",
-        "run",
-        "export",
-        "loads",
-        "accuracy",
-        "pattern",
-        "geometry",
-        "study",
-        "word",
-        "statistics",
-        "weather",
-    ];
-    let kind = random.pick(&kinds);
+    let (kind, keys) = random.pick(&KINDS);
     let mut question = Map::new();
     question.insert("ask".into(), json!(kind));
-    // what belongs to it mostly, and sometimes what does not
-    let keys: &[&str] = match kind {
-        "scenes" => &["scenes"],
-        "scene" | "plan" => &["of"],
-        "export" => &["of", "format"],
-        "run" => &["of", "out"],
-        "loads" => &["of", "out", "every"],
-        "accuracy" => &["of", "want", "within", "from", "timed"],
-        "pattern" => &["ofs"],
-        "geometry" => &["set", "facets", "thicken", "solids"],
-        "word" => &["statistic"],
-        "statistics" => &["points", "figures"],
-        _ => &["results"],
-    };
+    // mostly; and below what does not belong to it
     for key in keys {
         if !random.chance(12) {
             let name = if *key == "ofs" { "of" } else { *key };

@@ -6,11 +6,15 @@ use anyhow::{Context, Result};
 use clap::Args;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
-use fmu_build::tools::{paths, script, sections};
+use fmu_build::tools::{paths, script};
 
-/// The document and the marks of the findings.
-const DOCUMENT: &str = "docs/pattern.md";
-const MARKS: [&str; 2] = ["<!-- pattern:begin -->", "<!-- pattern:end -->"];
+use crate::tools::scripted::Document;
+
+const DOCUMENT: Document = Document {
+    file: "docs/pattern.md",
+    marks: ["<!-- pattern:begin -->", "<!-- pattern:end -->"],
+    pictures: &["contact_pattern.png", "contact_lines.png"],
+};
 
 /// Shows the contact patterns of docs/pattern.md: aligned teeth, and one thing out of place at a time
 #[derive(Args, Clone, Debug)]
@@ -34,12 +38,7 @@ impl PatternsCommand {
         print!("{told}");
         if self.write {
             let findings = fs::read_to_string(folder.join("findings.md")).context("findings.md cannot be read")?;
-            sections::renew(DOCUMENT, MARKS, &findings)?;
-            for name in ["contact_pattern.png", "contact_lines.png"] {
-                fs::copy(folder.join(name), paths::workspace().join("docs").join("figures").join(name))
-                    .with_context(|| format!("{name} cannot be copied"))?;
-            }
-            println!("renewed: {DOCUMENT}, docs/figures");
+            DOCUMENT.renew(&findings, Some(&folder))?;
         }
         Ok(())
     }

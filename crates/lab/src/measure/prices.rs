@@ -1,19 +1,14 @@
 //! What levels, laws and effects cost in time: each alone, each pair, all together; or how the times of two builds compare.
 
-use std::ffi::OsString;
 use std::fs;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
 
-use crate::tools::machine::machine;
-use crate::tools::places;
-use crate::tools::scripted::Document;
+use crate::tools::scripted::{Document, Script, arguments};
 use fmu_build::fmu::package;
 use fmu_build::tools::paths;
-use fmu_build::tools::progress::Progress;
-use fmu_build::tools::python::Environment;
 
 const DOCUMENT: Document =
     Document { file: "docs/prices.md", marks: ["<!-- prices:begin -->", "<!-- prices:end -->"], pictures: &[] };
@@ -43,19 +38,16 @@ impl PricesCommand {
         if let Some(other) = &self.against {
             ensure!(other.is_file(), "{}: there is no such FMU", other.display());
         }
-        let progress = Progress::start("looking for Python");
-        let environment = Environment::ready(|what| progress.stage(what))?;
-        progress.stage("packaging the FMU");
-        let fmu = package::package()?;
         let folder = paths::target().join("prices");
-        fs::create_dir_all(&folder)?;
-        let described = fmu.with_file_name("effects.json");
-        let mut arguments: Vec<OsString> = vec![fmu.into(), described.into(), folder.clone().into(), machine().into()];
-        arguments.push(if self.quick { FEW } else { RUNS }.to_string().into());
-        arguments.push(if self.quick { "alone" } else { "pairs" }.into());
-        arguments.extend(self.against.iter().map(OsString::from));
-        let script = places::script("prices.py");
-        DOCUMENT.make(progress, "timing", (&environment, &script, &arguments), &folder, self.write)?;
+        let script = Script::own("prices.py", "timing", Some(&folder));
+        DOCUMENT.make(&script, self.write, |progress| {
+            progress.stage("packaging the FMU");
+            let mut given = arguments([package::package()?, folder.clone()], false);
+            given.push(if self.quick { FEW } else { RUNS }.to_string().into());
+            given.push(if self.quick { "alone" } else { "pairs" }.into());
+            given.extend(self.against.iter().map(Into::into));
+            Ok(given)
+        })?;
         if self.write {
             let data = paths::workspace().join("crates").join("answers").join("data").join(DATA);
             fs::copy(folder.join(DATA), &data).with_context(|| format!("{} cannot be written", paths::shown(&data)))?;

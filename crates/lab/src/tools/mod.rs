@@ -1,7 +1,5 @@
 //! Tools that only the laboratory needs, beside those of `fmu_build`.
 
-pub mod environments;
-pub mod machine;
 pub mod places;
 pub mod random;
 pub mod scripted;

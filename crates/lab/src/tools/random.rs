@@ -41,14 +41,4 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + self.fraction() * (high - low)
     }
-
-    /// A whole number from `low` to `high`.
-    pub fn whole(&mut self, low: i32, high: i32) -> i32 {
-        low + self.below((high - low + 1).max(1) as usize) as i32
-    }
-
-    /// True for a `share` of all draws.
-    pub fn share(&mut self, share: f64) -> bool {
-        self.fraction() < share
-    }
 }

@@ -1,14 +1,12 @@
 """Error against cost of all that was tried for an answer."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..extras import needed
 from ..values import FileName
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from .question import Accuracy
 
 # kinds of settings, by what their text begins with: the order is that of the legend
 KINDS = [("ideal", "o"), ("lumped", "s"), ("tooth impact", "^"), ("tooth line +", "P"), ("tooth line_weber +", "D"),
@@ -24,8 +22,8 @@ def kind(setting):
     return next((number for number, (text, _) in enumerate(KINDS) if setting.startswith(text)), len(KINDS) - 1)
 
 
-def picture(found: "Accuracy", file: FileName | None = None) -> "Figure":
-    """Draws all that was tried for an answer; writes `file` if there is one."""
+def picture(found: Any, file: FileName | None = None) -> "Figure":
+    """Draws all that was tried for an answer, an `Accuracy`; writes `file` if there is one."""
     needed("matplotlib", "plot")
     from .. import style
 

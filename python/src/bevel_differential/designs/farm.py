@@ -1,6 +1,5 @@
 """Evaluates designs on many cores or machines."""
 
-import hashlib
 import pickle
 import queue
 import sys
@@ -8,13 +7,14 @@ import time
 from collections import deque
 from collections.abc import Generator, Iterable, Mapping
 from concurrent.futures import CancelledError
-from contextlib import closing, suppress
+from contextlib import closing
 from typing import Any, Protocol, Self, TypeVar
 
 from ..extras import needed
 from ..values import DifferentialError, Number
 from . import cluster
 from .task import Row
+from .worker import evaluated
 
 # time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
 SHORTEST, LONGEST = 0.1, 1.0
@@ -85,18 +85,13 @@ class _Run:
     """Designs of one task on their way through the workers."""
 
     def __init__(self, client, task, designs):
-        from .worker import Delivery
-        self.client, self.left = client, deque(designs)
-        packed = pickle.dumps(task)
-        self.key = hashlib.sha256(packed).hexdigest()
-        self.delivery = Delivery(self.key, packed)
+        self.client, self.left, self.packed = client, deque(designs), pickle.dumps(task)
         self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
         # of chunks whose worker died, to be tried one by one; and what died even so, to be tried alone
         self.singles, self.suspects = deque(), []
 
     def rows(self):
         try:
-            self.client.register_plugin(self.delivery)
             self._fill()
             while self.under_way:
                 future = self._next()
@@ -106,8 +101,6 @@ class _Run:
             raise DifferentialError("the scheduler is gone; start it again and go on") from None
         finally:
             self.client.cancel(list(self.under_way))
-            with suppress(ValueError, OSError):
-                self.client.unregister_worker_plugin(self.delivery.name)
 
     def _next(self):
         """A future that has ended."""
@@ -133,8 +126,7 @@ class _Run:
             self._submit([self.suspects.pop()], alone=True)
 
     def _submit(self, chunk, alone=False):
-        from .worker import evaluated
-        future = self.client.submit(evaluated, self.key, chunk, pure=False)
+        future = self.client.submit(evaluated, self.packed, chunk, pure=False)
         self.under_way[future] = chunk, alone
         future.add_done_callback(self.ended.put)
 

@@ -1,37 +1,20 @@
-"""What happens on a worker of dask: a task is delivered once, kept, and evaluates chunks of designs."""
+"""What happens on a worker of dask: a task comes packed with each chunk of designs, and is kept for the next ones."""
 
 import pickle
 import threading
 from collections.abc import Mapping, Sequence
 
-from distributed import Worker, WorkerPlugin
-
 from ..values import Number
 from .task import Row
 
-# tasks as they were delivered to this process, by key
-_delivered: dict[str, bytes] = {}
-# of this thread, as an instance belongs to one: the last task and its key
+# of this thread, as an instance belongs to one: the last task, and how it was packed
 _own = threading.local()
 
 
-class Delivery(WorkerPlugin):
-    """Brings a pickled task to all workers, also to those that start later."""
-
-    def __init__(self, key: str, packed: bytes):
-        self.name, self.key, self.packed = f"task-{key}", key, packed
-
-    def setup(self, worker: Worker) -> None:
-        _delivered[self.key] = self.packed
-
-    def teardown(self, worker: Worker) -> None:
-        _delivered.pop(self.key, None)
-
-
-def evaluated(key: str, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
+def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
     """Rows of a chunk. The task is kept, and with it the FMU's instance."""
-    if getattr(_own, "key", None) != key:
+    if getattr(_own, "packed", None) != packed:
         if hasattr(_own, "task"):
             _own.task.close()
-        _own.task, _own.key = pickle.loads(_delivered[key]), key
+        _own.task, _own.packed = pickle.loads(packed), packed
     return [_own.task.evaluate(run, values) for run, values in chunk]

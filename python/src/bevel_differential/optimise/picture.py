@@ -13,38 +13,34 @@ from .report import LETTERS
 def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem,
             file: FileName) -> None:
     """Draws the front in panels, with the chosen designs by letter and the compared ones as stars; PNG."""
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    from .. import style
     objectives, catalogue = problem.objectives, Catalogue(problem.scene.fmu)
     across = next((each for each in objectives if each.sign > 0.0), objectives[0])
     others = [each for each in objectives if each is not across]
     compared = {name: row for name, row in compared.items() if all(str(each.want) in row.figures for each in objectives)}
-    figure, panels = pyplot.subplots(1, len(others), figsize=(4.4 * len(others) + 0.4, 4.6), squeeze=False, layout="constrained")
-
     def shown(rows, objective):
         variable = catalogue.variable(objective.want.name)
         return [variable.shown(row.figures[str(objective.want)])[1] for row in rows]
 
     better = _dominating(front, compared, objectives)
     plain = [row for row in front if row not in better]
-    for panel, up in zip(panels[0], others):
-        panel.plot(shown(plain, across), shown(plain, up), "o", ms=3.5, color="0.6", label="front")
-        if better:
-            panel.plot(shown(better, across), shown(better, up), "o", ms=4.5, color="tab:blue",
-                       label="front, better in all than a compared design")
-        for k, (name, row) in enumerate(compared.items()):
-            panel.plot(shown([row], across), shown([row], up), "*", ms=14, color=("tab:red", "tab:green", "tab:brown")[k % 3],
-                       label=name + (" (breaks conditions)" if row.refused else ""))
-        for letter, x, y in zip(LETTERS, shown(chosen, across), shown(chosen, up)):
-            panel.plot([x], [y], "o", ms=8, mfc="none", mec="black")
-            panel.annotate(letter, (x, y), xytext=(5, 5), textcoords="offset points", fontweight="bold")
-        panel.set(xlabel=_label(catalogue, across), ylabel=_label(catalogue, up))
-        panel.grid(alpha=0.3)
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels), frameon=False)
-    pyplot.close(figure)
-    figure.savefig(file, dpi=100)
+    with style.styled():
+        figure, panels = style.panels(1, len(others), 4.8, squeeze=False)
+        for panel, up in zip(panels[0], others):
+            panel.plot(shown(plain, across), shown(plain, up), "o", ms=3.5, color=style.GREY, label="front")
+            if better:
+                panel.plot(shown(better, across), shown(better, up), "o", ms=4.5, color=style.BLUE,
+                           label="front, better in all than a compared design")
+            for k, (name, row) in enumerate(compared.items()):
+                panel.plot(shown([row], across), shown([row], up), "*", ms=14, color=(style.RED, style.GREEN, style.BROWN)[k % 3],
+                           label=name + (" (breaks conditions)" if row.refused else ""))
+            for letter, x, y in zip(LETTERS, shown(chosen, across), shown(chosen, up)):
+                panel.plot([x], [y], "o", ms=8, mfc="none", mec=style.INK)
+                panel.annotate(letter, (x, y), xytext=(5, 5), textcoords="offset points", fontweight="bold")
+            panel.set(xlabel=_label(catalogue, across), ylabel=_label(catalogue, up))
+        handles, labels = panels[0][0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+        style.save(figure, file)
 
 
 def _label(catalogue, objective: Objective) -> str:

@@ -151,10 +151,7 @@ class Catalogue:
 
     def starts(self) -> dict[str, Number]:
         """Start values of all parameters by name, SI, as the FMU declares them."""
-        read: dict[str, Callable[[str], Number]] = {"Real": float, "Integer": int, "Enumeration": int,
-                                                    "Boolean": lambda text: text == "true"}
-        return {each.name: read[each.type](each.start) for each in self.fmu.description.modelVariables
-                if each.causality == "parameter"}
+        return {each.name: each.start for each in self.fmu.variables.values() if each.causality == "parameter" and each.start is not None}
 
     def variable(self, name: str) -> Variable:
         """The variable, or the quantity as an output of its unit."""

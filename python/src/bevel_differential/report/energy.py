@@ -60,11 +60,9 @@ def _bias_caption(run, left, right):
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
              f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right "
              f"{words.quantity(right[k], 'N·m')}")
-    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large dot "
-            "is the end. The "
-            f"FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
-            f"{words.number(bias.max(), 3)} in the run, "
-            f"its locking value {words.number(locked, 3)} at the end.")
+    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large "
+            f"dot is the end. The FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
+            f"{words.number(bias.max(), 3)} in the run, its locking value {words.number(locked, 3)} at the end.")
 
 
 def _heats(run):
@@ -106,8 +104,6 @@ def _power_caption(run):
                          for name, heat in sorted(heats.items(), key=lambda pair: -pair[1]))
     heat = f"Heat by its causes, stacked: {by_cause}." if heats else "No heat arises."
     return (f"Power delivered to the differential and to the wheels; over time {words.quantity(work, 'J')} in and "
-            f"{words.quantity(out, 'J')} out, as the "
-            f"communication points tell. The rest speeds bodies up, winds shafts up or is lost. {heat} Bottom: stored energy "
-            "less work plus "
-            f"heat, {words.quantity(residual, 'J', 2)} at most, "
+            f"{words.quantity(out, 'J')} out, as the communication points tell. The rest speeds bodies up, winds shafts up or "
+            f"is lost. {heat} Bottom: stored energy less work plus heat, {words.quantity(residual, 'J', 2)} at most, "
             f"{words.percent(residual / throughput if throughput else 0.0, 2)} of what went through.")

@@ -58,8 +58,7 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
     highest = min(HIGHEST, int(COARSEST / coarsest))
     if highest < 1:
         raise DifferentialError(f"a period of the mesh has only {2.0 * np.pi / coarsest:.1f} points of the record; the scene's "
-                                "step is too "
-                                "long")
+                                "step is too long")
     orders = np.arange(1, highest + 1)
     return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
 
@@ -86,8 +85,7 @@ def _over_time(run):
     if not len(loaded):
         return f"Approach of the drive flanks: they never touch, {words.number(-error.max(), 3)} µm apart at least."
     return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(float(np.mean(loaded)), 'µm')} on the "
-            "mean while they "
-            f"touch, {words.quantity(error.max(), 'µm')} at most{lifted}.")
+            f"mean while they touch, {words.quantity(error.max(), 'µm')} at most{lifted}.")
 
 
 def _by_order(run, part, orders, sizes):
@@ -98,7 +96,5 @@ def _by_order(run, part, orders, sizes):
     top = int(np.argmax(sizes))
     first = "" if top == 0 else f"; order 1 has {words.quantity(UM * sizes[0], 'µm', 3)}"
     return (f"Right: amplitudes over the last {cycles} whole mesh cycles of the shaded stretch, in which the planets roll one "
-            "way "
-            f"({words.quantity(mesh, 'Hz')} on the mean). The largest is order {orders[top]} with "
-            f"{words.quantity(UM * sizes[top], 'µm', 3)}"
-            f"{first}.")
+            f"way ({words.quantity(mesh, 'Hz')} on the mean). The largest is order {orders[top]} with "
+            f"{words.quantity(UM * sizes[top], 'µm', 3)}{first}.")

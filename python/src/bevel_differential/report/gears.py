@@ -50,20 +50,17 @@ def _section_caption(pair):
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
             ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
-            f"{_mm(pair.face_width)}, "
-            f"{share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes through the root circles, as the "
-            f"FMU has them for masses.")
+            f"{_mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes "
+            "through the root circles, as the FMU has them for masses.")
 
 
 def _teeth_caption(run, pair):
     planet, side = pair.gears
     lands = [_mm(pair.land(i)) for i in (0, 1)]
     return ("Planet 1 (above) in mesh with the left side gear at the heel, seen from outside at the end of the run: spherical "
-            "involutes of "
-            f"the base cones {_deg(planet.base)} and {_deg(side.base)}, on the sphere of {_mm(pair.outer_cone)} unrolled about "
-            "the pitch "
-            f"point. Fillets at the roots are left out. Tip lands {lands[0]} and {lands[1]} wide; lash "
-            f"{words.quantity(1e3 * float(run.value('geometry.backlash')), 'mm')} along the pitch circles; contact ratio "
+            f"involutes of the base cones {_deg(planet.base)} and {_deg(side.base)}, on the sphere of {_mm(pair.outer_cone)} "
+            f"unrolled about the pitch point. Fillets at the roots are left out. Tip lands {lands[0]} and {lands[1]} wide; "
+            f"lash {words.quantity(1e3 * float(run.value('geometry.backlash')), 'mm')} along the pitch circles; contact ratio "
             f"{words.number(run.constant('geometry.contact_ratio'))}. The dashed line is the line of action of one flank.")
 
 

@@ -26,9 +26,8 @@ def verdicts(run: Simulated) -> list[Text]:
     """Whether energy balances, whether the gears are strong enough, and how the torque is split."""
     residual, throughput = energy_balance(run)
     share = residual / throughput if throughput else 0.0
-    found = [Text(f"Energy balances to {words.quantity(residual, 'J', 2)} of the {words.quantity(throughput, 'J', 3)} that went "
-                  "through "
-                  f"({words.percent(share, 2)}).", "verdict", share <= BALANCED)]
+    found = [Text(f"Energy balances to {words.quantity(residual, 'J', 2)} of the {words.quantity(throughput, 'J', 3)} that "
+                  f"went through ({words.percent(share, 2)}).", "verdict", share <= BALANCED)]
     if "effects.strength" in run.refused:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:

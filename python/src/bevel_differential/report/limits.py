@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..spectrum.damage import pushed_along
 from .simulated import Simulated
 
 BENDING, CONTACT = "strength.bending_strength", "strength.contact_strength"
@@ -37,12 +38,8 @@ def limits(run: Simulated) -> tuple[Limited, Limited, Limited]:
 
 def rolls(run: Simulated) -> np.ndarray:
     """At each point, whether a planet has rolled on since the one before: a tooth pitch of play is no rolling."""
-    half = math.pi / float(run.value("geometry.planet_teeth"))
+    pitch = 2.0 * math.pi / float(run.value("geometry.planet_teeth"))
     found = np.zeros(len(run.time), dtype=bool)
     for planet in range(1, int(run.value("geometry.planet_count")) + 1):
-        place = 0.0
-        for k, turned in enumerate(np.diff(run.series(f"planet[{planet}].spin_angle")), 1):
-            wanted = place + turned
-            place = min(max(wanted, -half), half)
-            found[k] |= wanted != place
+        found[1:] |= pushed_along(run.series(f"planet[{planet}].spin_angle"), pitch) > 0.0
     return found

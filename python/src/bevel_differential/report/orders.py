@@ -79,8 +79,7 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
     coarsest = float(np.abs(np.diff(angle)).max()) / TURN
     if coarsest * highest * PER_PERIOD > 1.0:
         raise DifferentialError(f"a period of order {highest:.4g} has only {1.0 / (coarsest * highest):.2g} points of the "
-                                "record, and needs "
-                                f"{PER_PERIOD}: take shorter steps")
+                                f"record, and needs {PER_PERIOD}: take shorter steps")
     per_turn = int(2 ** np.ceil(np.log2(FINER * highest)))
     even, resampled = over_angle(angle, values, per_turn)
     ordered = np.argsort(angle)

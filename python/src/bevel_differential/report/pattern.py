@@ -157,8 +157,7 @@ def _caption(name, contacts):
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
     widest = 2.0 * MM * contacts.half_width.max()
     peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
-            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch "
-            f"line, {words.quantity(contacts.time[k], 's')})")
+            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch line, {words.quantity(contacts.time[k], 's')})")
     teeth = len(np.unique(contacts.tooth))
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
@@ -180,7 +179,5 @@ def _reading(pair, loaded):
             f"gives up to {words.quantity(highest / MPA, 'MPa')}, which has no further meaning."
             if highest > max(contacts.most() for _, contacts in loaded) else "")
     return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all "
-            "teeth laid on one "
-            f"flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact runs along a ray "
-            "through the apex. Right: "
-            f"how much one pair carries at which height.{thin}{seam}")
+            f"teeth laid on one flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact "
+            f"runs along a ray through the apex. Right: how much one pair carries at which height.{thin}{seam}")

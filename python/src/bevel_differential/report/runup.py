@@ -79,8 +79,7 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
     if min(abs(mean) for mean in means) >= LEAST_LOAD and means[0] * means[1] > 0.0:
         return (means[0], means[1]), []
     return (USUAL_LOAD, USUAL_LOAD), [f"each half-shaft carries {USUAL_LOAD:g} N·m, as in the scene at least one of them has "
-                                      "next to no "
-                                      "load on the mean and its teeth would lift"]
+                                      "next to no load on the mean and its teeth would lift"]
 
 
 def _values(run, ratio, loads):

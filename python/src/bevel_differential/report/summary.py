@@ -29,8 +29,7 @@ def section(run: Simulated) -> Section:
     span = f"{words.number(run.time[0])} to {words.quantity(run.time[-1], 's')}"
     found.add(Table(("output", "unit", *(word.replace("_", " ") for word in STATISTICS)), rows,
                     f"Outputs of the scene and the main ones of every scene, over the whole run from {span}, the start "
-                    "included. Means "
-                    "are over time.", left=2))
+                    "included. Means are over time.", left=2))
     return found
 
 

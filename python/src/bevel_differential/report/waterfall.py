@@ -25,8 +25,7 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
     found = Section("waterfall", "Waterfall of a run-up")
     if not run.has_pairs:
         found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
-                  "nothing is excited "
-                  "at mesh orders, at any speed.")
+                  "nothing is excited at mesh orders, at any speed.")
         return found
     try:
         up = run_up(run, progress)
@@ -48,13 +47,11 @@ def _highest(expected):
 def _how(up: RunUp):
     told = f" Unlike in the scene, {words.listed(up.changed)}." if up.changed else ""
     return (f"A second simulation of the same gears, law and effects. The carrier is driven from {words.number(SLOWEST * RPM)} "
-            "to "
-            f"{words.quantity(FASTEST * RPM, 'rpm')} in {words.quantity(up.seconds, 's', 3)}; planets spin at "
+            f"to {words.quantity(FASTEST * RPM, 'rpm')} in {words.quantity(up.seconds, 's', 3)}; planets spin at "
             f"{words.number(up.ratio, 3)} of its speed, as imposed. Half-shafts carry {words.number(up.loads[0])} (left) and "
             f"{words.quantity(up.loads[1], 'N·m')} (right).{told} The signal is the transmission error of planet 1 with the "
-            "left side gear: "
-            "loads are imposed, which leaves little to see in the forces of the mesh, while the deflection shows every change of "
-            "stiffness. It is resampled over the planet's angle, so that orders stand upright.")
+            "left side gear: loads are imposed, which leaves little to see in the forces of the mesh, while the deflection "
+            "shows every change of stiffness. It is resampled over the planet's angle, so that orders stand upright.")
 
 
 def _draw(run, spectra: Waterfall, expected):
@@ -97,13 +94,11 @@ def _caption(run, up, spectra, expected):
     k = int(np.argmax(course))
     marks = "on top and red, multiples of the mesh order" + (
         "; green, the teeth of the ring gear" if run.value("effects.final_drive") else "")
-    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; lines "
-            "are "
-            f"{words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
+    return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; "
+            f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
-            f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}. Theory has "
-            "no free "
-            f"constant: {marks}.")
+            f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}. Theory "
+            f"has no free constant: {marks}.")
 
 
 def _table(run, spectra, expected):
@@ -120,9 +115,8 @@ def _table(run, spectra, expected):
                f"not all within one line of it: the farthest is {words.number(farthest, 3)} lines away")
     return Table(("found, order", "rms, µm", "theory", "order", "apart"), rows,
                  f"The strongest lines down to {words.percent(FLOOR)} of the highest, and the nearest order of theory: "
-                 f"{verdict}. A line is "
-                 f"{words.number(spectra.resolution)} of an order wide, and the window spreads a pure tone over two on either "
-                 "side.", left=0)
+                 f"{verdict}. A line is {words.number(spectra.resolution)} of an order wide, and the window spreads a pure "
+                 "tone over two on either side.", left=0)
 
 
 def _named(run, expected, side, order):

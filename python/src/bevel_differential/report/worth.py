@@ -122,12 +122,10 @@ def _named(run, switches, off):
     question = [name.removeprefix(PREFIX) for name in PART_OF_THE_QUESTION if name in off]
     return (f"On in the scene: {words.listed(on) or 'nothing'}. " + (
         f"Not tried: {words.listed(question)}, as what is built in, broken or driven is part of the question and not of how "
-        "closely it is "
-        "looked at. " if question else "") +
-        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is that "
-        "of the whole "
-        "run, start included. The first run only halves the solver's tolerance: where that changes something, as where teeth strike "
-        "again and again, changes of this size by an effect tell nothing.")
+        "closely it is looked at. " if question else "") +
+        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is "
+        "that of the whole run, start included. The first run only halves the solver's tolerance: where that changes "
+        "something, as where teeth strike again and again, changes of this size by an effect tell nothing.")
 
 
 def _draw(tried):
@@ -169,10 +167,8 @@ def _caption(tried):
               key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
     what, change = _largest(one)[0]
     return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
-            "has in the "
-            "scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than 0.01 %. The "
-            "largest change by "
-            f"one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
+            "has in the scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than "
+            f"0.01 %. The largest change by one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
 
 
 def _largest(one):

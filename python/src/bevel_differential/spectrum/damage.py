@@ -87,7 +87,7 @@ def _history(differential, event, teeth):
     record = differential.run(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
     # of the planets, whose place does not change as teeth bend under a load, as that of the side gears does
     angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
-    pushed = _pushed(angle, pitch)
+    pushed = pushed_along(angle, pitch)
     rolls = _rolls(pushed, pitch)
     meshing = np.sum(np.diff(_damage(record), axis=0) * rolls[:, None], axis=0)
     moves = _with_approach(np.diff(angle), rolls)
@@ -96,7 +96,7 @@ def _history(differential, event, teeth):
     return _result(event, record, meshing, standing, float(np.sum(pushed * rolls)) / (2.0 * pi), tuple(differential.warnings))
 
 
-def _pushed(angle, pitch):
+def pushed_along(angle: np.ndarray, pitch: float) -> np.ndarray:
     """Angles by which a gear pushes a window of one pitch along, from row to row: what the FMU counts as rolling."""
     place, found = 0.0, []
     for step in np.diff(angle):

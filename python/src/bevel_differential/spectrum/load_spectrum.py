@@ -1,16 +1,15 @@
-"""The load spectrum of what a duty cycle damages most: stresses, how often they occur, and the S–N curves that limit them."""
+"""The load spectrum of what a duty cycle damages most: stresses, how often they occur, and the S–N curves that limit them.
 
-from typing import TYPE_CHECKING
+A `result` is a `SpectrumResult`."""
+
+from typing import Any
 
 import numpy as np
 
 from .sn import SnCurve
 
-if TYPE_CHECKING:
-    from .result import SpectrumResult
 
-
-def curves(result: "SpectrumResult") -> tuple[SnCurve, SnCurve]:
+def curves(result: Any) -> tuple[SnCurve, SnCurve]:
     """S–N curves of the critical mode: of teeth that roll, and of teeth that stand in mesh."""
     strength = result.strength
     if result.is_flank:
@@ -18,7 +17,7 @@ def curves(result: "SpectrumResult") -> tuple[SnCurve, SnCurve]:
     return (strength.bending if result.critical else strength.idler), strength.bending
 
 
-def rolling_spectrum(result: "SpectrumResult") -> tuple[np.ndarray, np.ndarray]:
+def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty
     cycle; shapes (events that roll,). Of flanks it is the rated contact pressure."""
     rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
@@ -32,7 +31,7 @@ def rolling_spectrum(result: "SpectrumResult") -> tuple[np.ndarray, np.ndarray]:
     return np.array(stresses), np.array([one.event.count * one.turns * per_turn for one in rolling])
 
 
-def standing_spectrum(result: "SpectrumResult") -> tuple[np.ndarray, np.ndarray]:
+def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     """Pulsating root stress [Pa] of the slow cycles at the worse fillet of the critical gear, and their counts in a duty cycle;
     empty for flanks, which they do not damage."""
     if result.is_flank:

@@ -1,42 +1,34 @@
 """The picture of a duty cycle: damage by event, and the load spectrum of the critical mode."""
 
 from pathlib import Path
-from textwrap import fill
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
-from ..values import DifferentialError, FileName
+from ..extras import needed
+from ..values import FileName
 from .load_spectrum import curves, rolling_spectrum, standing_spectrum
 
-if TYPE_CHECKING:
-    from .result import SpectrumResult
-
 MPA = 1e6
-ROLLING, STANDING = "tab:blue", "tab:orange"
 # events that are drawn by name, if they do this part of the damage; the others are one bar
 MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 
-def draw(result: "SpectrumResult", file: FileName) -> Path:
-    """Draws `result` into `file`; returns its path."""
-    try:
-        from matplotlib.figure import Figure
-    except ImportError:
-        raise DifferentialError(f"{file}: a picture needs matplotlib; install it") from None
-    figure = Figure(figsize=(11.0, 4.8), layout="constrained")
-    bars, spectrum = figure.subplots(1, 2)
-    _draw_events(bars, result)
-    _draw_spectrum(spectrum, result)
-    figure.supxlabel(fill(_caption(result), 150), x=0.01, ha="left", fontsize=9)
-    try:
-        figure.savefig(file, dpi=120)
-    except ValueError as failure:
-        raise DifferentialError(f"{file}: {failure}") from None
+def draw(result: Any, file: FileName) -> Path:
+    """Draws a `SpectrumResult` into `file`; returns its path."""
+    needed("matplotlib", "plot")
+    from .. import style
+
+    with style.styled():
+        figure, (bars, spectrum) = style.panels(1, 2, 6.0)
+        _draw_events(bars, result, style.BLUE)
+        _draw_spectrum(spectrum, result, (style.BLUE, style.OCHRE))
+        style.caption(figure, _caption(result))
+        style.save(figure, file)
     return Path(file)
 
 
-def _draw_events(axes, result):
+def _draw_events(axes, result, colour):
     """Bars of the critical mode, the worst event on top, and what they add up to."""
     table = result.table()
     named = max(1, min(MOST_BARS, np.count_nonzero(table["share"] >= LEAST_SHARE)))
@@ -45,23 +37,23 @@ def _draw_events(axes, result):
         names.append(f"{len(table) - named} others")
         shares = np.append(shares, 100.0 * table["share"][named:].sum())
     places = np.arange(len(names))
-    axes.barh(places, shares, color=ROLLING, label="of the event")
+    axes.barh(places, shares, color=colour, label="of the event")
     axes.plot(np.cumsum(shares), places, "o-", color="black", markersize=3, linewidth=1, label="cumulative")
-    axes.set_yticks(places, names, fontsize=8)
+    axes.set_yticks(places, names)
     axes.invert_yaxis()
     axes.set_xlim(0.0, 105.0)
     axes.set_xlabel("share of the damage per duty cycle [%]")
-    axes.set_title(f"Damage by event: {result.critical_name}", fontsize=10)
-    axes.legend(loc="center", fontsize=8)
-    axes.grid(axis="x", alpha=0.3)
+    axes.set_title(f"Damage by event: {result.critical_name}")
+    axes.legend(loc="center")
+    axes.grid(visible=False, axis="y")
 
 
-def _draw_spectrum(axes, result):
+def _draw_spectrum(axes, result, colours):
     """Stress over the cycles that reach it in one life, with the S–N curves."""
     lives = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
     of_rolling, of_standing = curves(result)
-    parts = [("of teeth that roll", ROLLING, rolling_spectrum(result), of_rolling),
-             ("of teeth that stand in mesh", STANDING, standing_spectrum(result), of_standing)]
+    parts = [("of teeth that roll", colours[0], rolling_spectrum(result), of_rolling),
+             ("of teeth that stand in mesh", colours[1], standing_spectrum(result), of_standing)]
     parts = [part for part in parts if len(part[2][0])]
     highest = max((part[2][0].max() for part in parts), default=1e9)
     stresses = np.linspace(0.02, 1.3, 300) * highest
@@ -77,9 +69,8 @@ def _draw_spectrum(axes, result):
     axes.set_ylim(0.0, 1.3 * highest / MPA)
     axes.set_xlabel("cycles at this stress or above, in one life")
     axes.set_ylabel("rated contact pressure [MPa]" if result.is_flank else "root stress, from 0 to its peak [MPa]")
-    axes.set_title(f"Load spectrum: {result.critical_name}", fontsize=10)
-    axes.legend(fontsize=8)
-    axes.grid(alpha=0.3)
+    axes.set_title(f"Load spectrum: {result.critical_name}")
+    axes.legend()
 
 
 def _caption(result):

@@ -2,7 +2,7 @@
 //! every result is checked against what the FMU promises.
 //!
 //! Rounds are independent: the round with the seed S is what `fuzz --seed S --calls 500` runs. Workers are separate
-//! processes, so that a crash or a hang is reported with its seed.
+//! processes of this program, started by python/fuzz.py, so that a crash or a hang is reported with its seed.
 
 mod arguments;
 mod call_result;
@@ -14,20 +14,18 @@ mod scenes;
 mod states;
 mod tally;
 mod unit;
-mod worker;
 
 pub use functions::Function;
 pub use round::{BrokenPromise, CALLS, run};
 pub use tally::Tally;
 
-use std::thread;
-use std::time::{Duration, Instant};
+use std::env;
 
-use anyhow::{Result, bail};
+use anyhow::{Context, Result, bail};
 use clap::Args;
 use fmu_build::command_line::LABORATORY;
 
-use fmu_build::tools::progress::Progress;
+use crate::tools::scripted::Script;
 
 /// Number of calls by default.
 const MANY: usize = 1_000_000;
@@ -50,48 +48,28 @@ impl FuzzCommand {
     /// Calls at random and prints the table; fails with the seed if a promise is not kept.
     pub fn run(self) -> Result<()> {
         if self.is_worker {
-            return worker::work(self.seed, self.calls);
+            return work(self.seed, self.calls);
         }
-        let progress = Progress::start("starting");
-        progress.begin_bar("calling");
-        let rounds = self.calls.div_ceil(CALLS);
-        let crew = thread::available_parallelism().map_or(1, usize::from).min(rounds.max(1));
-        let start = Instant::now();
-        let mut parts = Vec::new();
-        let mut first = self.seed;
-        for k in 0..crew {
-            let share = rounds / crew + usize::from(k < rounds % crew);
-            parts.push(worker::Worker::start(first, share * CALLS)?);
-            first = first.wrapping_add(share as u64);
-        }
-        loop {
-            let done: usize = parts.iter_mut().map(worker::Worker::done).sum();
-            let left = parts.iter().filter(|part| !part.is_over()).count();
-            progress.advance(done as f64 / rounds.max(1) as f64, &format!("{} calls", done * CALLS));
-            if left == 0 {
-                break;
-            }
-            if parts.iter().any(worker::Worker::has_failed) {
-                parts.iter_mut().for_each(worker::Worker::stop);
-            }
-            thread::sleep(Duration::from_millis(200));
-        }
-        progress.finish();
-        let (mut tally, mut failures) = (Tally::default(), Vec::new());
-        for part in parts {
-            match part.end() {
-                Ok(Some(part)) => tally.add(&part),
-                Ok(None) => {}
-                Err(failure) => failures.push(failure.to_string()),
-            }
-        }
-        if !failures.is_empty() {
-            bail!("{}", failures.join("\n\n"));
-        }
-        print!("{}", tally.table());
-        println!("every promise kept in {} rounds, {:.0} s", rounds, start.elapsed().as_secs_f64());
-        Ok(())
+        let script = Script::own("fuzz.py", "calling", None);
+        let numbers = [self.calls.div_ceil(CALLS), CALLS].map(|number| number.to_string());
+        let program = env::current_exe().context("the path of this program is unknown")?;
+        let words = numbers.into_iter().chain([self.seed.to_string(), LABORATORY.to_owned()]);
+        script.run(|_| Ok([program.into()].into_iter().chain(words.map(Into::into)).collect())).map(|_| ())
     }
+}
+
+/// Works off rounds from `seed` on, and reports each before it begins, so that a crash can be reproduced.
+fn work(seed: u64, calls: usize) -> Result<()> {
+    let mut tally = Tally::default();
+    for k in 0..calls.div_ceil(CALLS) {
+        let seed = seed.wrapping_add(k as u64);
+        println!("round {seed}");
+        if let Err(broken) = round::run(seed, CALLS, &mut tally) {
+            bail!("call {}, {}: {}\nagain: {}", broken.at, broken.function, broken.what, again(seed));
+        }
+    }
+    println!("{}", tally.json());
+    Ok(())
 }
 
 /// How to run the round of `seed` again.

@@ -5,7 +5,6 @@ use anyhow::{Result, anyhow};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Parameters};
 
-use super::summary::TitledTable;
 use answers::accuracy::gears::Gears;
 use answers::accuracy::record::{Record, in_one_line};
 use answers::accuracy::want::{self, Want};
@@ -40,7 +39,7 @@ const LAWS: [(ContactLaw, bool); 4] =
 const START: f64 = 0.1;
 
 /// Errors of each law for all pairs and loads, smallest and largest.
-pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<TitledTable> {
+pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<String> {
     let turn = scene::find("study_turning", &fmu_build::tools::paths::scenes())?;
     let texts: Vec<String> = WANTS.iter().map(|(_, text)| (*text).to_owned()).collect();
     let (turn, wants) = want::parse(&turn, &texts).map_err(|why| anyhow!("{why}"))?;
@@ -78,7 +77,7 @@ pub fn measure(report: &mut dyn FnMut(f64, &str)) -> Result<TitledTable> {
     }
     let title = "Errors of each law against `line_weber` + gear bodies, least and largest over four gear pairs (10/16, 12/20 and 14/18 \
                  teeth, modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's for the size";
-    Ok(TitledTable::new(title, table))
+    Ok(format!("{title}:\n\n{}", table.markdown()))
 }
 
 fn error(want: &Want, scene: &Scene, found: &Record, reference: &Record) -> Result<f64, String> {

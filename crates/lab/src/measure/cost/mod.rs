@@ -1,46 +1,29 @@
-//! What accuracy costs, measured on this machine.
-//!
-//! 1. Work and precision: all methods and fidelities over tolerances and steps ([`work_precision`]).
-//! 2. The ladder of fidelities: what each gets right, and what it costs ([`fidelity`]).
-//! 3. Decisions: the cheapest setting for a quantity and an accuracy ([`decisions`]), and the laws over gears and loads
-//!    ([`laws`]).
-//! 4. The communication step of a coupled run, with and without rollback ([`communication`]).
-//!
-//! Each is a CSV file of what was measured, and a picture drawn from it by python/cost.py.
+//! What accuracy costs, measured on this machine by python/cost.py: methods over tolerances and steps, the communication step of a
+//! coupled run, decisions, and the ladder of fidelities; each is a CSV file and a picture. The laws over gears and loads are
+//! compared here ([`laws`]).
 
-pub mod cases;
-pub mod communication;
-pub mod coupling;
-pub mod decisions;
-pub mod fidelity;
 pub mod laws;
-pub mod measure;
-pub mod reference;
-pub mod summary;
-pub mod vehicle;
-pub mod work_precision;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::Args;
 
-use crate::tools::machine::machine;
 use crate::tools::places;
-use answers::text::csv_file::CsvFile;
+use crate::tools::scripted::arguments;
+use answers::text::table::for_terminal;
+use fmu_build::fmu::package;
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::Environment;
 use fmu_build::tools::{paths, script, sections};
-use summary::TitledTable;
 
-/// The document or the marks of the summary.
+/// The document, and the marks of the summary and of the decisions.
 const DOCUMENT: &str = "docs/cost.md";
 const MARKS: [&str; 2] = ["<!-- cost:begin -->", "<!-- cost:end -->"];
 const DECISIONS: [&str; 2] = ["<!-- decisions:begin -->", "<!-- decisions:end -->"];
-/// Share of the bar that belongs to each figure, and to drawing.
-const SHARES: [f64; 5] = [0.5, 0.15, 0.1, 0.2, 0.05];
+/// Share of the bar that belongs to the laws; the rest is that of cost.py.
+const LAWS: f64 = 0.1;
 
 /// Measures what accuracy costs: methods, fidelities, settings and communication steps
 #[derive(Args, Clone, Debug)]
@@ -59,97 +42,37 @@ pub struct CostCommand {
     out: Option<PathBuf>,
 }
 
-/// How much is measured.
-pub struct CostPlan {
-    /// Relative tolerances.
-    pub tolerances: &'static [f64],
-    /// Steps of the method with fixed ones [s].
-    pub fixed_steps: &'static [f64],
-    /// Communication steps, each an exact part of 0.1 s [s].
-    pub communication_steps: &'static [f64],
-    /// Questions that are answered.
-    pub decisions: usize,
-    /// Runs of each setting.
-    pub runs: usize,
-    /// Seconds on the processor after which a run is given up.
-    pub patience: f64,
-    /// Whether the ladder leaves out rungs between others.
-    pub short: bool,
-}
-
-const FULL: CostPlan = CostPlan {
-    tolerances: &[1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10],
-    fixed_steps: &[1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6],
-    communication_steps: &[1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1],
-    decisions: decisions::ALL.len(),
-    runs: 15,
-    patience: 10.0,
-    short: false,
-};
-
-const QUICK: CostPlan = CostPlan {
-    tolerances: &[1e-3, 1e-6, 1e-9],
-    fixed_steps: &[1e-4, 1e-5],
-    communication_steps: &[1e-4, 1e-3, 1e-2, 1e-1],
-    decisions: 1,
-    runs: 5,
-    patience: 0.5,
-    short: true,
-};
-
 impl CostCommand {
     /// Measures, draws and prints the summary.
     pub fn run(&self) -> Result<()> {
-        let form = if self.quick { QUICK } else { FULL };
         let folder = self.out.clone().unwrap_or_else(|| paths::target().join("cost"));
-        let begun = Instant::now();
         let progress = Progress::start("looking for Python");
-        let report = |part: usize, done: f64, what: &str| {
-            let done = SHARES[..part].iter().sum::<f64>() + SHARES[part] * done;
-            progress.advance(done, &format!("{what}{}", left(begun.elapsed().as_secs_f64(), done)));
-        };
-        if self.decisions {
-            paths::create_folder(&folder)?;
-            progress.begin_bar("measuring");
-            let tables = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
-            progress.finish();
-            return self.conclude(&tables, &[], &folder);
-        }
         // Python first: what the user has to install should not come out after minutes of measuring
         let environment = Environment::ready(|what| progress.stage(what))?;
         paths::create_folder(&folder)?;
-        progress.begin_bar("measuring");
-        let found = work_precision::measure(&form, &mut |done, what| report(0, done, what))?;
-        save(&folder, "work_precision.csv", &found.csv()?)?;
-        save(
-            &folder,
-            "communication_step.csv",
-            &communication::measure(&form, &mut |done, what| report(1, done, what))?,
-        )?;
-        save(&folder, "fidelity_ladder.csv", &fidelity::measure(&form, &mut |done, what| report(2, done, what))?)?;
-        let decisions = decide(&form, &folder, &mut |done, what| report(3, done, what))?;
-        report(4, 0.0, "drawing");
-        let script = places::script("cost.py");
-        script::run(&environment, &script, &[&folder], &progress)?;
-        progress.finish();
-        self.conclude(&decisions, &summary::tables(&found), &folder)
-    }
-
-    /// Prints what was found, and renews the document.
-    fn conclude(&self, decisions: &[TitledTable], tables: &[TitledTable], folder: &Path) -> Result<()> {
-        for table in decisions.iter().chain(tables) {
-            println!("{}", table.terminal());
+        let mut given = vec![folder.clone()];
+        if !self.decisions {
+            progress.stage("packaging the FMU");
+            given.insert(0, package::package()?);
         }
-        let mut files = files(folder)?;
-        files.sort();
-        println!("machine: {}\nfiles:", machine());
+        progress.begin_bar("measuring");
+        let mut decisions = String::new();
+        if !self.quick {
+            decisions = laws::measure(&mut |done, what| progress.advance(LAWS * done, what))?;
+        }
+        let given = arguments(given, self.quick);
+        let summary = script::run(&environment, &places::script("cost.py"), &given, &progress)?;
+        progress.finish();
+        let table = fs::read_to_string(folder.join("decisions.md")).context("decisions.md cannot be read")?;
+        decisions = table.replacen("LAWS\n", &decisions, 1);
+        println!("{}\n{}", for_terminal(&decisions), for_terminal(&summary));
+        let files = files(&folder)?;
+        println!("files:");
         files.iter().for_each(|file| println!("  {}", paths::shown(file)));
         if self.write {
-            for (tables, marks) in [(decisions, DECISIONS), (tables, MARKS)] {
-                if !tables.is_empty() {
-                    let text: Vec<String> = tables.iter().map(TitledTable::markdown).collect();
-                    let text = format!("{}\nMeasured on {}.\n", text.join("\n"), machine());
-                    sections::renew(DOCUMENT, marks, &text)?;
+            for (text, marks) in [(&decisions, DECISIONS), (&summary, MARKS)] {
+                if !text.trim().is_empty() {
+                    sections::renew(DOCUMENT, marks, text)?;
                 }
             }
             copy_pictures(&files)?;
@@ -159,46 +82,17 @@ impl CostCommand {
     }
 }
 
-/// The table of decisions, and that of the laws unless the plan is short.
-fn decide(form: &CostPlan, folder: &Path, report: &mut dyn FnMut(f64, &str)) -> Result<Vec<TitledTable>> {
-    let (csv, table) = decisions::measure(form.decisions, !form.short, &mut |done, what| report(0.7 * done, what))?;
-    save(folder, "decisions.csv", &csv)?;
-    let mut tables = vec![table];
-    if !form.short {
-        tables.push(laws::measure(&mut |done, what| report(0.7 + 0.3 * done, what))?);
-    }
-    Ok(tables)
-}
-
-/// The time left, once it can be estimated.
-fn left(seconds: f64, done: f64) -> String {
-    if seconds < 2.0 || done < 0.01 {
-        return String::new();
-    }
-    let left = seconds * (1.0 - done) / done;
-    if left < 60.0 { format!(", {left:.0} s left") } else { format!(", {:.0} min left", (left / 60.0).ceil()) }
-}
-
-/// A CSV file of what was measured on this machine.
-pub fn measured_here(columns: &str, comments: &[&str]) -> Result<CsvFile> {
-    let machine = format!("machine: {}", machine());
-    CsvFile::new(columns, &[&[machine.as_str()], comments].concat())
-}
-
-fn save(folder: &Path, name: &str, text: &str) -> Result<()> {
-    fs::write(folder.join(name), text).with_context(|| format!("{} cannot be written", folder.join(name).display()))
-}
-
+/// Tables and pictures of a folder, by name.
 fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let entries = fs::read_dir(folder).with_context(|| format!("{} cannot be read", folder.display()))?;
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
     let known = |path: &PathBuf| path.extension().is_some_and(|ending| ending == "png" || ending == "csv");
-    Ok(paths.filter(known).collect())
+    let mut files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).filter(known).collect();
+    files.sort();
+    Ok(files)
 }
 
 fn copy_pictures(files: &[PathBuf]) -> Result<()> {
     let figures = paths::workspace().join("docs").join("figures");
-    fs::create_dir_all(&figures).context("docs/figures cannot be made")?;
     for path in files.iter().filter(|path| path.extension().is_some_and(|ending| ending == "png")) {
         let name = path.file_name().unwrap_or_default();
         fs::copy(path, figures.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;

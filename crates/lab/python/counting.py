@@ -1,0 +1,133 @@
+"""Instructions of the program that takes communication steps and nothing else, benches/steps.rs, counted by callgrind.
+
+Two builds of the same arithmetic differ in the order of their blocks and in what they keep in registers. A count of all
+instructions moves by a per cent with that. Work does not: arithmetic, comparisons, branches and calls."""
+
+import json
+import os
+import shutil
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+from tools import WORKSPACE
+
+# communication steps of the two runs whose difference is counted: starting up cancels
+COUNTED = (100, 300)
+# kinds of instructions: conditional jumps, calls and returns; arithmetic and comparisons of floating-point numbers; moves and copies
+# of memory, jumps that are always taken, padding, and integer arithmetic, most of it for addresses
+BRANCH, FLOAT, ARRANGED = "branches and calls", "floating-point operations", "arranged"
+MOVES = ("mov", "xor", "broadcast", "unpck", "perm", "insert", "extract", "shuf", "blend")
+# keeps a program from wider vectors, of which old valgrinds do not know all instructions
+WIDE, NARROW = {}, {"BEVEL_DIFFERENTIAL_VECTORS": "narrow"}
+
+
+def stepping(folder, effects, name):
+    """Builds the stepping program, with or without effects, and returns a copy of it named `name`."""
+    # as the FMU's library, whatever the rest is built with, and with the names of functions for callgrind
+    settings = {"CARGO_PROFILE_BENCH_CODEGEN_UNITS": "1", "CARGO_PROFILE_RELEASE_CODEGEN_UNITS": "1",
+                "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
+    printed = said([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps",
+                    "--profile", "bench", "--quiet", *([] if effects else ["--no-default-features"]), "--message-format", "json", "--target-dir", folder],
+                   "cargo did not start", settings, cwd=WORKSPACE).stdout
+    built = [message["executable"] for message in map(json.loads, printed.splitlines())
+             if message.get("executable") and message["target"]["name"] == "steps"]
+    if not built:
+        raise SystemExit("cargo named no executable")
+    # the next build takes the place of this one; names are of one length, as they move the stack and with it what filling memory costs
+    return Path(shutil.copy(built[0], Path(folder, name)))
+
+
+def said(command, missing, settings=None, **options):
+    """What a program prints; ends where it fails, with `missing` if it is not there."""
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(settings or {})}, **options)
+    except FileNotFoundError:
+        raise SystemExit(missing) from None
+    if done.returncode:
+        raise SystemExit(f"{' '.join(map(str, command))}: {done.stderr}")
+    return done
+
+
+def callgrind(program, vectors, arguments, options=(), out="/dev/null"):
+    """Runs a program under callgrind, and returns what callgrind reported."""
+    command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
+    return said(command, "valgrind counts the instructions: install it (apt-get install valgrind)", vectors).stderr
+
+
+def per_step(count, arguments):
+    """What `count(arguments)` returns, of a communication step of a scene with options."""
+    scene, *options = arguments
+    few, many = (count([scene, str(steps), "unread", *options]) for steps in COUNTED)
+    return {kind: (many[kind] - few.get(kind, 0)) / (COUNTED[1] - COUNTED[0]) for kind in many}
+
+
+def instructions(program, vectors, *arguments):
+    """Instructions per communication step in a scene with options."""
+    def count(words):
+        report = callgrind(program, vectors, words)
+        found = [line.partition("Collected :")[2] for line in report.splitlines() if "Collected :" in line]
+        if not found:
+            raise SystemExit("valgrind reported no count")
+        return {"all": float(found[0])}
+
+    return per_step(count, arguments)["all"]
+
+
+def executed(program, vectors, *arguments):
+    """The same by kind of instruction, {kind: number}."""
+    named = mnemonics(program)
+
+    def count(words):
+        out = program.with_name("executed.callgrind")
+        callgrind(program, vectors, words, ["--dump-instr=yes", "--compress-pos=no", "--compress-strings=no"], out)
+        found = of_profile(out.read_text(encoding="utf-8"), str(program), named)
+        out.unlink()
+        if not found[FLOAT]:
+            raise SystemExit(f"{words}: callgrind named no instruction of the program itself")
+        return found
+
+    return per_step(count, arguments)
+
+
+def of_profile(profile, program, named):
+    """Reads what callgrind wrote, see its manual, "Callgrind Format Specification"."""
+    counts, inside, is_of_call = Counter(), False, False
+    for line in profile.splitlines():
+        if line.startswith("ob="):
+            inside = line[3:] == program
+        elif line.startswith("calls="):
+            # the line after it has what the called function executed, which is counted there
+            is_of_call = True
+        elif line.startswith("0x"):
+            if not is_of_call:
+                address, _, count = line.split()[:3]
+                # other libraries copy memory: what that costs hangs on where it lies
+                counts[kind_of(named.get(int(address, 16), "")) if inside else ARRANGED] += int(count)
+            is_of_call = False
+    return counts
+
+
+def kind_of(mnemonic):
+    """The kind of an instruction of the program itself."""
+    # v marks the encoding of wide registers
+    plain = mnemonic.removeprefix("v")
+    if plain.startswith(("call", "ret")) or (plain.startswith("j") and plain != "jmp"):
+        return BRANCH
+    return FLOAT if plain.endswith(("sd", "pd", "ss", "ps")) and not plain.startswith(MOVES) else ARRANGED
+
+
+def mnemonics(program):
+    """Name of the instruction at each address of a program."""
+    listing = said(["objdump", "--disassemble", "--no-show-raw-insn", program],
+                   "objdump names the instructions: install it (apt-get install binutils)").stdout
+    return dict(filter(None, map(disassembled, listing.splitlines())))
+
+
+def disassembled(line):
+    """Address and name in a line such as `4a10: vaddsd %xmm0,%xmm1,%xmm2`; None of another line."""
+    address, _, rest = line.partition(":")
+    try:
+        return int(address, 16), rest.split()[0]
+    except (ValueError, IndexError):
+        return None

@@ -1,0 +1,108 @@
+"""The communication step: error of a coupled run against the host's step, with and without rollback, by the host in coupling.c.
+Writes communication_step.csv.
+
+Held as they are at the begin of a step, inputs are late by half a step on average: the run is of order 1. A host that can take the
+step back repeats it with the mean of the inputs at both ends: order 2."""
+
+import math
+import subprocess
+from pathlib import Path
+
+import numpy as np
+
+from calls import compiled, in_turn, library_of, quartiles, write_start
+from precision import COMPARED, FIDELITIES, errors
+from tools import say, write_measured
+
+HEAD = ["coupling", "fidelity", "h_s", "status", "message", "runs", "cpu_s", "cpu_s_low", "cpu_s_high", "cost", "speed_error",
+        "force_error", "order", "steps", "rhs_calls"]
+# what is run: a coupling as coupling.c takes it, a fidelity, and its name
+COUPLINGS = [("0", "impact", "plain"), ("1", "impact", "rollback_once"), ("2", "impact", "rollback_twice"),
+             ("constant", "impact", "constant_inputs"), ("0", "ideal", "plain"), ("2", "ideal", "rollback_twice")]
+# inertia of a wheel [kg·m²], speed of the wheels at the start [rad/s], stiffness of a tyre [N], its radius [m], as in coupling.c
+WHEEL, SPEED, STIFFNESS, RADIUS, FORCE = 1.0, 70.0, 6e4, 0.3, 0.5 * 50.0 / 0.3
+# the step whose cost, in plain stepping with teeth, is the unit [s]
+UNIT = 1e-3
+# tolerance of the differential: small enough for the errors of coupling to show; and of the reference without coupling
+TOLERANCE, FINEST = 1e-9, 1e-11
+# step of the run in one piece [s]: an explicit method has to resolve the damping of teeth
+IN_ONE_PIECE = {"ideal": 1e-4, "impact": 1e-6}
+FULL = (1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 5e-2, 1e-1)
+QUICK = (1e-4, 1e-3, 1e-2, 1e-1)
+RUNS = 5
+
+
+class Host:
+    """The host in C on an FMU; `folder` is where it is built and finds its start values."""
+
+    def __init__(self, fmu, folder):
+        self.fmu, self.folder, self.program = fmu, Path(folder), compiled(folder, "coupling", "-lm")
+        names = ["carrier.torque_command", "left.load_torque", "right.load_torque", *COMPARED, "solver.steps", "solver.rhs_calls"]
+        self.references = [str(fmu.variable(name).reference) for name in names]
+
+    def run(self, how, fidelity, step, tolerance=TOLERANCE, runs=1):
+        """Samples, shape (times, 4), steps and evaluations, and seconds of the processor of each run. Raises `ValueError`."""
+        values = {**FIDELITIES[fidelity], "scene.carrier_drive": "torque", "inertia.left_end": WHEEL, "inertia.right_end": WHEEL,
+                  "carrier.speed_command": SPEED, "solver.relative_tolerance": tolerance}
+        write_start(self.folder / "set", self.fmu, values)
+        command = [self.program, library_of(self.fmu), self.fmu.description.guid, self.folder / "set", how, repr(step), str(runs),
+                   str(self.fmu.description.numberOfContinuousStates), *self.references]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode:
+            raise ValueError(done.stderr.strip())
+        lines = [line.split() for line in done.stdout.splitlines()]
+        told = [list(map(float, line[1:])) for line in lines if line[0] == "run"]
+        samples = np.array([line for line in lines if line[0] != "run"], float)
+        return samples, [int(count) for count in told[0][:2]] if told else [], [seconds for *_, seconds in told]
+
+    def reference(self, how, fidelity):
+        """What a run is compared with."""
+        if how == "constant":
+            return self.run(how, fidelity, 0.1, FINEST)[0]
+        return self.run("whole", fidelity, IN_ONE_PIECE[fidelity], 1e-6)[0]
+
+
+def longest_stable_step():
+    """Communication step at which a tyre that grips makes plain stepping unstable [s]: 2 J v/(C r²)."""
+    return 2.0 * WHEEL * RADIUS * SPEED / (1.0 + FORCE / STIFFNESS) / (STIFFNESS * RADIUS**2)
+
+
+def measure(fmu, folder, steps, rounds, begin, end):
+    """Measures, and writes the file; the bar moves from `begin` to `end`."""
+    host, runs, exact = Host(fmu, folder), [], {}
+    for done, (how, fidelity, name) in enumerate(COUPLINGS):
+        say(begin + 0.4 * (end - begin) * done / len(COUPLINGS), "coupled runs: errors")
+        kind = ("constant" if how == "constant" else "whole", fidelity)
+        if kind not in exact:
+            exact[kind] = host.reference(how, fidelity)
+        for step in steps:
+            run = {"of": (how, fidelity, name), "step": step, "ends": ["ok", ""]}
+            try:
+                samples, run["counts"], _ = host.run(how, fidelity, step)
+                run["errors"] = errors(exact[kind], samples)
+                if not all(map(math.isfinite, run["errors"])):
+                    raise ValueError("results are no numbers")
+            except ValueError as why:
+                run |= {"ends": ["failed", str(why)], "errors": [math.nan] * 2, "counts": ["nan"] * 2}
+            runs.append(run)
+
+    def take(run, _):
+        return host.run(*run["of"][:2], run["step"], runs=RUNS)[2] if run["ends"][0] == "ok" else []
+
+    seconds = in_turn(runs, rounds, take, (begin + 0.4 * (end - begin), end), "coupled runs: times")
+    unit = next(quartiles(taken)[0] for run, taken in zip(runs, seconds) if run["of"] == COUPLINGS[0] and run["step"] == UNIT)
+    rows = [HEAD]
+    for before, run, taken in zip([None, *runs], runs, seconds):
+        median, low, high = quartiles(taken)
+        order = math.nan
+        if before and before["of"] == run["of"]:
+            order = float(np.log(run["errors"][0] / before["errors"][0]) / np.log(run["step"] / before["step"]))
+        _, fidelity, name = run["of"]
+        rows.append([name, fidelity, run["step"], *run["ends"], len(taken), median, low, high, median / unit, *run["errors"],
+                     order, *run["counts"]])
+    write_measured(folder / "communication_step.csv", [
+        "a car accelerates with its left wheel on ice; tyres and car in the host, differential and wheels in the FMU",
+        "errors against the whole in one piece (classical Runge-Kutta), of constant_inputs against tolerance 1e-11",
+        "cost: cpu_s over that of plain stepping with teeth at 1e-3 s; order: between this step and the next smaller",
+        "steps, rhs_calls: of steps that were kept; those taken back are in the times only",
+        f"longest stable plain step by the tyre's slope, s: {longest_stable_step():.6e}"], rows)

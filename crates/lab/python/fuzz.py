@@ -1,0 +1,112 @@
+"""Calls at random in several processes of the laboratory's program, so that a crash or a hang is reported with its seed.
+
+usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND    CALLS: of a round; COMMAND: how users call the program"""
+
+import json
+import os
+import queue
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+from collections import Counter
+
+from bevel_differential.text import markdown
+from tools import say
+
+# a round takes some seconds, half a minute at most, and a busy machine some times that; one that takes so long hangs
+PATIENCE = 600.0
+HEAD = ["function", "calls", "OK", "warning", "discard", "error", "mean, µs", "longest, ms"]
+
+
+class Worker:
+    """A process that works off rounds from a seed on. `round`: the seed of the present one; `rounds`: how many were begun; `told`: what
+    it counted; `why`: what went wrong."""
+
+    def __init__(self, program, seed, rounds, calls, command):
+        self.again = f"{command} fuzz --calls {calls} --seed "
+        self.round, self.rounds, self.told, self.why, self.since = seed, 0, None, None, time.monotonic()
+        self.process = subprocess.Popen([program, "fuzz", "--worker", "--seed", str(seed), "--calls", str(rounds * calls)], text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+
+    def follow(self, ended):
+        """Listens to its end, which is told to the queue `ended`."""
+        for line in self.process.stdout:
+            self.since = time.monotonic()
+            if line.startswith("round "):
+                self.round, self.rounds = int(line.split()[1]), self.rounds + 1
+            else:
+                self.told = json.loads(line)
+        messages = self.process.stderr.read().rstrip().removeprefix("error: ")
+        status = self.process.wait()
+        if self.told is None and self.why is None:
+            crash = f"crashed (signal {-status})\nagain: {self.again}{self.round}\n" if status < 0 else ""
+            self.why = f"{crash}{messages}" or "a worker reported no counts"
+        ended.put(self)
+
+    def stop(self, why):
+        """Ends it, unless it has ended; `why` may be empty."""
+        if self.process.poll() is None:
+            self.why = why
+            self.process.kill()
+
+
+def worked(workers, rounds, calls):
+    """Waits for all; those left are stopped where one fails."""
+    ended, left = queue.Queue(), set(workers)
+    for worker in workers:
+        threading.Thread(target=worker.follow, args=[ended], daemon=True).start()
+    while left:
+        try:
+            last = ended.get(timeout=0.2)
+            left.discard(last)
+            if last.why:
+                for worker in left:
+                    worker.stop("")
+        except queue.Empty:
+            for worker in left:
+                if time.monotonic() - worker.since > PATIENCE:
+                    worker.stop(f"a round took more than {PATIENCE:g} s\nagain: {worker.again}{worker.round}")
+        done = sum(worker.rounds - (worker.told is None) for worker in workers)
+        say(max(done, 0) / max(rounds, 1), f"{max(done, 0) * calls} calls")
+    failures = [worker.why for worker in workers if worker.why]
+    if failures:
+        raise SystemExit("\n\n".join(failures))
+    return [worker.told for worker in workers]
+
+
+def page(tallies):
+    """The table of calls, and what else was counted."""
+    statuses, seconds, longest = {}, Counter(), Counter()
+    for row in (row for tally in tallies for row in tally["rows"]):
+        name = row["function"]
+        statuses[name] = [a + b for a, b in zip(statuses.get(name, [0] * 4), row["statuses"])]
+        for place in (name, "all"):
+            seconds[place] += row["seconds"]
+            longest[place] = max(longest[place], row["longest"])
+    statuses["all"] = [sum(column) for column in zip(*statuses.values())]
+    rows = [[name, *map(str, (sum(counts), *counts)), f"{1e6 * seconds[name] / max(sum(counts), 1):.1f}", f"{1e3 * longest[name]:.1f}"]
+            for name, counts in statuses.items()]
+    most = max((tally["longest"] for tally in tallies), key=lambda call: call["seconds"])
+    scenes, compared = (sum(tally[name] for tally in tallies) for name in ("scenes", "compared"))
+    text = (f"longest call: {most['function'] or 'none'}, {most['seconds']:.3f} s of the processor (call {most['at']} of the round "
+            f"with seed {most['seed']}); simulations started: {scenes}; communication steps done: {statuses['fmi2DoStep'][0]}; steps "
+            f"completed in model exchange: {statuses['fmi2CompletedIntegratorStep'][0]}; states compared before and after a call: {compared}")
+    return f"{markdown([HEAD, *rows])}\n{textwrap.fill(text, 118)}"
+
+
+def main():
+    program, rounds, calls, seed, command = sys.argv[1], *map(int, sys.argv[2:5]), sys.argv[5]
+    begin, first, workers = time.monotonic(), seed, []
+    crew = min(os.cpu_count() or 1, max(rounds, 1))
+    for k in range(crew):
+        share = rounds // crew + (k < rounds % crew)
+        workers.append(Worker(program, first, share, calls, command))
+        first += share
+    print(page(worked(workers, rounds, calls)))
+    print(f"every promise kept in {rounds} rounds, {time.monotonic() - begin:.0f} s")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,233 @@
+"""The packaged FMU in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the tables.
+
+usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-rust]
+
+PLAIN_FMU is the FMU described with Integers, for hosts that set no Enumerations. Fails if hosts differ, or with --require if one
+cannot be loaded."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+from bevel_differential.text import markdown
+from tools import WORKSPACE, say
+
+HOSTS = WORKSPACE / "tests" / "hosts"
+# largest deviation between two hosts
+MOST = 1e-9
+# status of a script whose host cannot be loaded; common.py has the same
+CANNOT_LOAD = 3
+# the crate fmi-sim, which is a separate program
+FMI_SIM, FMI_SIM_VERSION = "fmi-sim", "0.7.0"
+PACKAGES = "pip install -r tests/hosts/requirements.txt"
+
+
+@dataclass(frozen=True)
+class Host:
+    """A host. `call`: a script of tests/hosts with its arguments, or the name of a host in the program of tests/hosts/rust;
+    `language` it is used from, and the one it is written in; `loader`: what imports the FMU; `sets`: what it sets before
+    initialisation and at communication points; `hint`: what to do if it cannot be loaded."""
+
+    name: str
+    call: tuple[str, ...]
+    language: str
+    loader: str
+    sets: str
+    hint: str = PACKAGES
+    enumerations: bool = True
+    reads_start: bool = True
+
+
+# the others are compared with the first one
+ALL = [
+    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types; inputs at any point"),
+    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference; inputs at any point"),
+    Host("libcosim", ("with_libcosim.py",), "Python, C++", "FMI Library", "initial values but no Enumerations; inputs by manipulator",
+         enumerations=False, reads_start=False),
+    Host("ecos", ("with_ecos.py",), "Python, C++", "fmi4c", "a parameter set but no Enumerations; inputs at any point",
+         "apt install libtbb12", enumerations=False),
+    Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "the same; the FMU in a separate process",
+         "apt install libtbb12", enumerations=False),
+    Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
+         "all types, as Integers; inputs at any point"),
+    Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types; inputs at any point", "cargo must reach crates.io"),
+    Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types; inputs at any point",
+         "cargo must reach crates.io, and a C compiler is needed"),
+    Host(FMI_SIM, ("with_fmi_sim.py",), "Rust", "fmi", "Reals, Integers, Booleans by --init-values; inputs by file",
+         "cargo must reach crates.io, and libclang is needed"),
+]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene of tests/hosts/scenes, and what its file says."""
+
+    name: str
+    path: Path
+    known: dict
+
+
+class Absent(Exception):
+    """A host that cannot be loaded here."""
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The largest deviation over all outputs and communication points, relative to the value, or to the output's natural scale where
+    that is larger; output and point where it is; how many values have other bits, of how many."""
+
+    largest: float
+    place: str
+    different: int
+    compared: int
+
+
+def read(file):
+    """Outputs by communication point, as a host's script wrote them."""
+    with open(file, encoding="utf-8") as lines:
+        return {int(row.pop("point")): {name: float(value) for name, value in row.items()} for row in csv.DictReader(lines)}
+
+
+def deviation(own, other, without_start, scales):
+    """How far `other` is from `own`. It must have the same outputs at the same points, but for the start if `without_start`."""
+    points = [point for point in own if point > 0 or not without_start]
+    if points != [point for point in other if point > 0 or not without_start]:
+        raise SystemExit(f"{len(other)} communication points were recorded in place of {len(points)}")
+    found, different = (0.0, ""), 0
+    for point in points:
+        if own[point].keys() != other[point].keys():
+            raise SystemExit(f"other outputs were recorded: {', '.join(other[point])}")
+        for name, value in own[point].items():
+            if name not in scales:
+                raise SystemExit(f"the scene states no natural scale of {name}")
+            apart = abs(other[point][name] - value) / max(abs(value), scales[name])
+            if apart != apart:
+                raise SystemExit(f"{name} at point {point} is {other[point][name]} in place of {value}")
+            # hexadecimal, as 0 and −0 are equal and have other bits
+            different += other[point][name].hex() != value.hex()
+            found = max(found, (apart, f"{name} at point {point}"), key=lambda pair: pair[0])
+    return Deviation(*found, different, sum(len(own[point]) for point in points))
+
+
+class Bench:
+    """What hosts need before they run."""
+
+    def __init__(self, fmu, plain, folder, with_rust):
+        self.fmu, self.plain, self.folder, self.with_rust = fmu, plain, folder, with_rust
+        self.programs = {}
+        if with_rust:
+            say(0.0, "building fmu-runner and fmi-rs")
+            self._built("rust", folder / "rust" / "release" / "rust-hosts", "build", "--release", "--manifest-path",
+                        HOSTS / "rust" / "Cargo.toml", "--target-dir", folder / "rust")
+            say(0.0, "building fmi-sim (many minutes)")
+            self._built(FMI_SIM, folder / FMI_SIM / "bin" / FMI_SIM, "install", FMI_SIM, "--version", FMI_SIM_VERSION, "--root",
+                        folder / FMI_SIM)
+
+    def _built(self, name, program, *arguments):
+        done = subprocess.run([os.environ.get("CARGO", "cargo"), *arguments, "--locked", "--quiet"], capture_output=True, text=True)
+        self.programs[name] = program if done.returncode == 0 else f"it does not build: {last_line(done.stderr)}"
+
+    def _program(self, name):
+        """The path of a program in Rust."""
+        found = self.programs.get(name, "left out without --with-fmi-sim, as its build takes minutes")
+        if isinstance(found, str):
+            raise Absent(found)
+        return found
+
+    def leaves_out(self, host):
+        """Whether it was left out on demand."""
+        return not self.with_rust and host.language == "Rust"
+
+    def run(self, host, scene):
+        """Runs a host on a scene: its record, its version and the seconds that it took. Raises `Absent`."""
+        out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}.csv"
+        program, *arguments = host.call
+        environment = dict(os.environ)
+        if program.endswith(".py"):
+            command = [sys.executable, HOSTS / program]
+        else:
+            command = [self._program("rust"), program]
+        if host.name == FMI_SIM:
+            environment["FMI_SIM"] = str(self._program(FMI_SIM))
+        fmu = self.fmu if host.enumerations else self.plain
+        # some write logs into the current folder
+        ended = subprocess.run([*command, fmu, scene.path, out, *arguments], cwd=self.folder, env=environment, capture_output=True,
+                               text=True)
+        if ended.returncode == CANNOT_LOAD:
+            raise Absent(f"{last_line(ended.stderr)} ({host.hint})")
+        if ended.returncode:
+            raise SystemExit(f"{host.name} fails on {scene.name} ({ended.returncode}):\n{ended.stderr.rstrip()}")
+        report = json.loads(last_line(ended.stdout))
+        return read(out), report["version"], report["seconds"]
+
+
+def last_line(text):
+    return (text.rstrip().splitlines() or [""])[-1]
+
+
+def compared(bench, scenes):
+    """By host its version, seconds and deviations by scene; and why others are absent."""
+    results, absent, own = {}, {}, []
+    for done, host in enumerate(ALL):
+        say(done / len(ALL), host.name)
+        ran = []
+        try:
+            for place, scene in enumerate(scenes):
+                record, version, seconds = bench.run(host, scene)
+                if host is ALL[0]:
+                    own.append(record)
+                try:
+                    ran.append((version, seconds, deviation(own[place], record, not host.reads_start, scene.known["outputs"])))
+                except SystemExit as wrong:
+                    raise SystemExit(f"{host.name} on {scene.name}: {wrong}") from None
+        except Absent as why:
+            if host is ALL[0]:
+                raise SystemExit(f"{host.name}, which the others are compared with, cannot be loaded: {why}") from None
+            absent[host] = why
+            continue
+        results[host] = (version, sum(seconds for _, seconds, _ in ran), [found for *_, found in ran])
+    return results, absent
+
+
+def page(results, absent, scenes):
+    """What is written into docs/hosts.md."""
+    deviations = [["host", "version", "language", "import", *(scene.name for scene in scenes), "time, s"]]
+    hosts = [["host", "sets", "enumerations", "outputs at the start"]]
+    for host, (version, seconds, found) in results.items():
+        cells = ["same bits" if not one.different else f"{one.largest:.1e}".replace("e-0", "e-") for one in found]
+        deviations.append([host.name, version, host.language, host.loader, *cells, f"{seconds:.2f}"])
+        enumerations = "yes" if host.enumerations else "no: the FMU with integers"
+        hosts.append([host.name, host.sets, enumerations, "yes" if host.reads_start else "no"])
+    told = [f"{scene.known['description']}; steps of {scene.known['step']} s" for scene in scenes]
+    what = [["scene", "what"], *([f"`{scene.name}`", text] for scene, text in zip(scenes, told))]
+    every = [one for *_, found in results.values() for one in found]
+    text = "\n".join([markdown(deviations, range(4)), markdown(hosts, range(4)), markdown(what, range(2))])
+    text += (f"\nDeviations are from {ALL[0].name}, the largest over all outputs and communication points, relative to the value or, where "
+             f"that is smaller, to the output's natural scale, which the scene states. {sum(one.compared for one in every)} values were "
+             f"compared, {sum(one.different for one in every)} of them have other bits.\n")
+    return text + "".join(f"\n{host.name}: not run: {why}\n" for host, why in absent.items())
+
+
+def main():
+    fmu, plain, folder = (Path(text).resolve() for text in sys.argv[1:4])
+    bench = Bench(fmu, plain, folder, "--with-rust" in sys.argv)
+    files = sorted((HOSTS / "scenes").glob("*.json"))
+    scenes = [Scene(file.stem, file, json.loads(file.read_text(encoding="utf-8"))) for file in files]
+    results, absent = compared(bench, scenes)
+    text = page(results, absent, scenes)
+    wrong = [f"{host.name} on {scene.name}: {one.largest:.1e}, {one.place}" for host, (*_, found) in results.items()
+             for one, scene in zip(found, scenes) if one.largest > MOST]
+    if wrong:
+        raise SystemExit(f"{text}\nhosts differ by more than {MOST:g}:\n" + "\n".join(wrong))
+    missing = [host.name for host in absent if not bench.leaves_out(host)]
+    if "--require" in sys.argv and missing:
+        raise SystemExit(f"{text}\nnot run here, though required: {'; '.join(missing)}")
+    print(text, end="")
+
+
+if __name__ == "__main__":
+    main()

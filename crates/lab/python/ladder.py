@@ -1,0 +1,129 @@
+"""The ladder of fidelities: the error of each rung against the richest, and what it costs. Writes fidelity_ladder.csv."""
+
+import math
+
+import numpy as np
+
+from bevel_differential import DifferentialError, Scene
+from calls import Calls, in_turn, quartiles
+from tools import say, write_measured
+
+HEAD = ["scene", "rung", "adds", "status", "message", "quantity", "unit", "value", "richest", "error", "runs", "cpu_s", "cpu_s_low",
+        "cpu_s_high", "cost"]
+SOLID, TOOTH = {"scene.gear_contact": "solid"}, {"scene.gear_contact": "tooth"}
+# all rungs, the plainest first: what each adds, in words, and how it follows from the rung before; solids are as exact teeth with the
+# same law become if they are cut into facets
+RUNGS = {
+    "ideal": ("no teeth: Willis' equation", {"scene.gear_contact": "ideal"}),
+    "lumped": ("a spring with play per mesh", {"scene.gear_contact": "lumped"}),
+    "solid, 4 facets": ("IMPACT on facets: no hand-over left", {**SOLID, "solid.facets": 4}),
+    "solid, 8 facets": ("hand-over washed out", {"solid.facets": 8}),
+    "solid, 16 facets": ("hand-over late", {"solid.facets": 16}),
+    "solid, 32 facets": ("deflection of exact teeth to 3 %", {"solid.facets": 32}),
+    "solid, 64 facets": ("to 1 %", {"solid.facets": 64}),
+    "solid, 128 facets": ("to 0.3 %", {"solid.facets": 128}),
+    "tooth, impact": ("tooth pairs, Adams' IMPACT", TOOTH),
+    "tooth, line": ("stiffness from the teeth's shape", {"contact.law": "line"}),
+    "tooth, line_weber": ("Hertz part by load", {"contact.law": "line_weber"}),
+    "+ friction": ("flanks, washers and pins rub", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
+    "+ pins and case": ("give way; slices over the face", {"effects.pin_compliance": True}),
+    "+ gear bodies": ("turn, tilt and couple their teeth", {"effects.body_compliance": True}),
+}
+# of solid teeth the short form has two
+LONG = ("solid, 4 facets", "solid, 16 facets", "solid, 64 facets", "solid, 128 facets")
+# communication step while times are measured [s], and runs of each in a round: all rungs take turns
+STEP, RUNS, ROUNDS = 1e-3, 5, 3
+OUTPUTS = ["left.speed", "carrier.speed", "planet[1].left_normal_force", "left.shaft_torque", "planet[1].left_transmission_error"]
+# the study's turn with inertias as the references in tests/data have them
+TURN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5, "scene.planet_spin": "imposed",
+        "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
+
+
+class Turn:
+    """The study's turn, one tooth after one to settle. Names and units of what is looked at, times [s] and start values."""
+
+    name, settled, end, every = "turn", 0.18, 0.36, 5e-4
+    values, later = TURN, {}
+    quantities = {"mean speed, left": "rad/s", "mean mesh force": "N", "peak mesh force": "N", "speed ripple, left": "1",
+                  "mean deflection": "m", "deflection, peak to peak": "m", "heat of one tooth": "J"}
+
+    @staticmethod
+    def looked(points):
+        """Values of the quantities in a record."""
+        speed, force, deflection = (points[name] for name in (OUTPUTS[0], OUTPUTS[2], OUTPUTS[4]))
+        return [np.mean(speed), np.mean(force), np.max(force), np.ptp(speed) / np.mean(speed), np.mean(deflection), np.ptp(deflection),
+                points["heat"][-1] - points["heat"][0]]
+
+
+class Clunk:
+    """The scene clunk with the study's gears, damped by restitution, and with its inputs from the start on: with gears as light and
+    undamped as the scene has them, teeth rattle on and solutions that differ by rounding part."""
+
+    name, settled, end, every = "clunk", 0.0, 0.02, 1e-5
+    quantities = {"speed of the carrier at the end": "rad/s", "peak shaft torque": "N.m", "time of the peak": "s",
+                  "speed of the left gear, rms": "rad/s", "peak mesh force": "N", "heat": "J"}
+
+    def __init__(self, fmu):
+        study = {name: fmu.variable(name).start for name in ("inertia.side_gear", "inertia.planet")}
+        with Scene.load("clunk", fmu=fmu) as scene:
+            self.values = {**scene.values, **study, "contact.damping_model": "restitution"}
+            self.later = {name: value for _, values in scene.changes for name, value in values.items()}
+
+    @staticmethod
+    def looked(points):
+        """Values of the quantities in a record."""
+        torque = points[OUTPUTS[3]]
+        return [points[OUTPUTS[1]][-1], np.max(torque), points["time"][np.argmax(torque)], math.sqrt(np.mean(points[OUTPUTS[0]] ** 2)),
+                np.max(points[OUTPUTS[2]]), points["heat"][-1] - points["heat"][0]]
+
+
+def record(fmu, scene, values):
+    """A record from the settled state on, a dict of arrays."""
+    heats = [name for name in fmu.variables if name.startswith("heat.")]
+    rows = []
+    with fmu.open() as instance:
+        instance.initialise(values).set(scene.later)
+        for k in range(round(scene.end / scene.every)):
+            time = (k + 1) * scene.every
+            instance.do_step(k * scene.every, time - k * scene.every)
+            if time >= scene.settled - 0.5 * scene.every:
+                read = instance.read([*OUTPUTS, *heats])
+                rows.append([time, *read[:len(OUTPUTS)], sum(read[len(OUTPUTS):])])
+    return dict(zip(["time", *OUTPUTS, "heat"], np.array(rows).T))
+
+
+def measure(fmu, folder, short, begin, end):
+    """Measures, and writes the file; the bar moves from `begin` to `end`."""
+    rungs = {name: rung for name, rung in RUNGS.items() if not (short and name in LONG)}
+    scenes, calls, runs = [Turn(), Clunk(fmu)], Calls(folder), []
+    for scene in scenes:
+        values = dict(scene.values)
+        for name, (adds, more) in RUNGS.items():
+            values |= more
+            if name in rungs:
+                runs.append((scene, name, adds, dict(values)))
+    found = []
+    for done, (scene, name, _, values) in enumerate(runs):
+        say(begin + 0.2 * (end - begin) * done / len(runs), f"ladder: {scene.name}, {name}")
+        try:
+            found.append(("ok", "", list(map(float, scene.looked(record(fmu, scene, values))))))
+        except DifferentialError as why:
+            found.append(("failed", str(why), [math.nan] * len(scene.quantities)))
+
+    def take(run, _):
+        (scene, *_, values), (status, *_) = run
+        return [own for _, own in calls.seconds(fmu, values, [], [(scene.end, STEP)], RUNS, scene.later)] if status == "ok" else []
+
+    bar = begin + 0.2 * (end - begin), end
+    seconds = in_turn(list(zip(runs, found)), 1 if short else ROUNDS, take, bar, "ladder: times")
+    rows = [HEAD]
+    for place, ((scene, name, adds, _), (status, message, values)) in enumerate(zip(runs, found)):
+        first = place // len(rungs) * len(rungs)
+        median, low, high = quartiles(seconds[place])
+        unit, richest = quartiles(seconds[first])[0], found[first + len(rungs) - 1][2]
+        for (quantity, unit_of), value, best in zip(scene.quantities.items(), values, richest):
+            rows.append([scene.name, name, adds, status, message, quantity, unit_of, value, best, abs(value / best - 1.0),
+                         len(seconds[place]), median, low, high, median / unit])
+    write_measured(folder / "fidelity_ladder.csv", [
+        "error: difference from the richest rung over its value; cost: cpu_s over that of the ideal rung",
+        "turn: the study's, one tooth after one to settle; clunk: the scene with the study's gears and restitution"], rows)

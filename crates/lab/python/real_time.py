@@ -1,0 +1,61 @@
+"""The costliest communication step of the fixed-step method compared with the median one, in instructions.
+
+usage: real_time.py FOLDER BUILD    FOLDER is emptied; the program is built in BUILD"""
+
+import shutil
+import statistics
+import sys
+from pathlib import Path
+
+from bevel_differential.text import markdown
+from counting import NARROW, callgrind, stepping
+from tools import say
+
+# scenes, by the names that the stepping program knows
+SCENES = (("straight",), ("turn",), ("straight", "rolling"), ("turn", "rolling", "reversal"))
+# steps of the method [s], and communication steps of 1 ms
+SIZES, STEPS = ("1e-3", "1e-4", "1e-5"), "300"
+# most that the costliest step may cost over the median one
+MOST = 2.0
+
+
+def counts(folder):
+    """Instructions of each step: callgrind writes a file after every one, `count.1`, `count.2`, …; the first holds the start of
+    the program as well, and `count` its end."""
+    found = []
+    for file in folder.iterdir():
+        if file.suffix[1:].isdigit() and int(file.suffix[1:]) > 1:
+            summary = [line for line in file.read_text(encoding="utf-8").splitlines() if line.startswith("summary:")]
+            if not summary:
+                raise SystemExit(f"{file} has no count")
+            found.append(int(summary[0].split()[1]))
+    if len(found) < 2:
+        raise SystemExit("callgrind found no separate steps: does the stepping program have its symbols?")
+    return found
+
+
+def main():
+    folder, build = map(Path, sys.argv[1:])
+    build.mkdir(parents=True, exist_ok=True)
+    program, worst = stepping(build, True, "full"), 0.0
+    rows = [["scene", "`solver.fixed_step`, s", "median", "costliest", "costliest / median"]]
+    for scene, *options in SCENES:
+        for size in SIZES:
+            name = ", ".join([scene, *options])
+            say((len(rows) - 1) / (len(SCENES) * len(SIZES)), f"counting {name}, steps of {size} s")
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
+            callgrind(program, NARROW, [scene, STEPS, "unread", f"fixed_step={size}", *options],
+                      ["--dump-after=*one_communication_step*"], folder / "count")
+            found = counts(folder)
+            median, most = statistics.median(found), max(found)
+            worst = max(worst, most / median)
+            rows.append([name, size, f"{median:.0f}", str(most), f"{most / median:.2f}"])
+    text = f"{markdown(rows)}\nInstructions of a communication step of 1 ms, {STEPS} steps each.\n"
+    if worst > MOST:
+        raise SystemExit(f"{text}\nthe costliest step costs {worst:.2f} times the median one, more than {MOST:g}")
+    print(text, end="")
+
+
+if __name__ == "__main__":
+    main()

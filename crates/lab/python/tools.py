@@ -1,0 +1,71 @@
+"""What scripts of the laboratory share: progress, files of what was measured, numbers as people read them, sections of documents."""
+
+import csv
+import math
+import os
+import platform
+import sys
+from pathlib import Path
+
+WORKSPACE = Path(__file__).resolve().parents[3]
+# below this a number is shown with a power of ten
+SMALL = 1e-3
+# from here on a fraction is shown as a multiple
+MANY = 10.0
+
+
+def say(fraction, what):
+    """Moves the bar of the command that runs the script."""
+    print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
+
+
+def machine():
+    """Processor, cores and system, in a line."""
+    known = Path("/proc/cpuinfo")
+    lines = known.read_text(encoding="utf-8").splitlines() if known.is_file() else []
+    model = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "processor not named")
+    return f"{model}, {os.cpu_count()} cores, {sys.platform} {platform.machine()}"
+
+
+def write_measured(path, comments, rows):
+    """A CSV file of what was measured on this machine: comments, then rows, the first of them the head."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        file.writelines(f"# {comment}\n" for comment in [f"machine: {machine()}", *comments])
+        csv.writer(file, lineterminator="\n").writerows([cell_of(value) for value in row] for row in rows)
+
+
+def cell_of(value):
+    """A number with seven digits; texts on one line, never empty."""
+    return f"{value:.6e}" if isinstance(value, float) else str(value).replace("\n", " ") or "-"
+
+
+def significant(value, digits):
+    """With so many significant digits; whole numbers keep all of theirs."""
+    if not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    if abs(value) < SMALL:
+        return f"{value:.{max(digits - 2, 0)}e}".replace("e-0", "e-")
+    return f"{value:.{max(digits - 1 - math.floor(math.log10(abs(value))), 0)}f}"
+
+
+def renew(document, marks, text):
+    """Puts `text` between two lines of a document of the repository."""
+    file = WORKSPACE / document
+    old = file.read_text(encoding="utf-8")
+    before, begin, rest = old.partition(marks[0])
+    _, end, after = rest.partition(marks[1])
+    if not (begin and end):
+        raise SystemExit(f"{document} has no marked section; add the lines \"{marks[0]}\" and \"{marks[1]}\"")
+    file.write_text(f"{before}{begin}\n{text}{end}{after}", encoding="utf-8")
+
+
+def percent(fraction):
+    """A fraction in per cent with two significant digits; large ones as a multiple."""
+    if not math.isfinite(fraction):
+        return "no number"
+    if fraction >= MANY:
+        return f"{fraction:.0f} x"
+    decimals = max(1 - math.floor(math.log10(100.0 * abs(fraction))), 0) if fraction else 0
+    return f"{100.0 * fraction:.0e} %".replace("e-0", "e-") if decimals > 5 else f"{100.0 * fraction:.{decimals}f} %"
