@@ -39,7 +39,8 @@ def main():
     repository, folder, count, seed = Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
     changes, programs = built(repository, folder, count, seed)
-    usual = {name: trial(program, 0, None, folder) for name, program in programs.items()}
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        usual = dict(zip(programs, pool.map(lambda program: trial(program, 0, None, folder), programs.values())))
     failed = [name for name, (fate, _) in usual.items() if fate != "survived"]
     if failed:
         raise SystemExit(f"the tests fail without any change: {', '.join(failed)}")
