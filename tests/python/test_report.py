@@ -78,9 +78,9 @@ def test_report_and_accuracy_agree_on_the_kinds_of_effects():
 
 
 @pytest.mark.parametrize("arguments, status, said", [
-    ([], 2, "--scene"),
-    (["--scene", "study_turnin"], 1, "did you mean study_turning"),
-    (["--scene", "study_turning", "--out", "nowhere/report.html"], 1, "there is no folder"),
+    ([], 2, "name a scene"),
+    (["study_turnin"], 1, "did you mean study_turning"),
+    (["study_turning", "--out", "nowhere/report.html"], 1, "there is no folder"),
     (["--scene", "study_turning", "--set", "left.load_torque"], 2, "write NAME=VALUE"),
     (["--scene", "study_turning", "--set", "geometry.module=0"], 1, "geometry.module"),
 ])
