@@ -1,5 +1,6 @@
 """What scripts of the laboratory calculate: errors of facets, deviations of hosts, counts of instructions, figures of the ladder."""
 
+import os
 import math
 import sys
 from pathlib import Path
@@ -20,6 +21,19 @@ import precision  # noqa: E402
 import solids_errors  # noqa: E402
 import survey_scenes  # noqa: E402
 import tools  # noqa: E402
+
+
+@pytest.fixture(autouse=True, scope="module")
+def usual_fmu(fmu_file):
+    """The FMU under test is the usual one."""
+    before = os.environ.get("BEVEL_DIFFERENTIAL_FMU")
+    os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(fmu_file)
+    yield
+    if before is None:
+        del os.environ["BEVEL_DIFFERENTIAL_FMU"]
+    else:
+        os.environ["BEVEL_DIFFERENTIAL_FMU"] = before
+
 
 
 def record(values):
