@@ -20,8 +20,11 @@ from pathlib import Path
 from changes import build_in, drawn
 
 ROOMS = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
-# in the order in which they are run: the quick ones notice most
-PROGRAMS = ["geometry", "strength", "integrator", "contact", "fmi2", "model"]
+# quick ones first
+PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
+# the program that is nearest to a room, and runs before all others
+NEAREST = {"src/contact": "contact", "src/geometry": "geometry", "src/friction": "contact", "src/strength": "strength",
+           "src/integrate": "integrator", "src/model/dynamics": "model", "src/model/effects": "model"}
 # a program that takes so many times as long as without a change does not come to its end
 PATIENCE = 5.0
 SWITCH = '''//! Which change acts.
@@ -50,8 +53,8 @@ def main():
     def tried(number, change):
         key = f"{change.file}: {change.name} in byte {change.begin}"
         if key not in done:
-            for name, program in programs.items():
-                fate, test = trial(program, number, PATIENCE * usual[name][1] + 10.0, folder)
+            for name in sorted(programs, key=lambda name: name != NEAREST[change.room]):
+                fate, test = trial(programs[name], number, PATIENCE * usual[name][1] + 10.0, folder)
                 if fate != "survived":
                     break
             with lock:
