@@ -9,9 +9,9 @@ use crate::model::{ATTACHED, BODIES, Body, STATES};
 
 /// A state and its derivative.
 struct State {
-    name: &'static str,
-    derivative: &'static str,
-    description: &'static str,
+    name: String,
+    derivative: String,
+    description: String,
     /// Magnitude that errors are to be measured by.
     nominal: f64,
     unit: Unit,
@@ -66,9 +66,9 @@ fn states(body: Body) -> [State; 2] {
         Body::Attached(k) => (&TURNS, ATTACHED[k].what, ATTACHED[k].states, [TWIST, SPEED]),
     };
     [(0, "position"), (1, "velocity")].map(|(i, part)| State {
-        name: format!("{of}.{}", names[i]).leak(),
-        derivative: format!("der({of}.{})", names[i]).leak(),
-        description: format!("{what}: {part}").leak(),
+        name: format!("{of}.{}", names[i]),
+        derivative: format!("der({of}.{})", names[i]),
+        description: format!("{what}: {part}"),
         nominal: nominal[i],
         unit: kind.units[i],
         display: kind.display[i],
@@ -93,14 +93,21 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
     for &(k, ref state) in &numbered {
         let found = rows.iter().position(|row| row.name == state.name);
         indices[k] = found.unwrap_or_else(|| {
-            let row = local(state.name, state.unit, OutputSource::State(k), state.description);
+            // the table lives as long as the process
+            let [name, description] = [&state.name, &state.description].map(|text| text.clone().leak());
+            let row = local(name, state.unit, OutputSource::State(k), description);
             rows.push(Variable { display: state.display, ..row });
             rows.len() - 1
         });
         rows[indices[k]].nominal = Some(state.nominal);
     }
     for &(k, ref state) in &numbered {
-        let row = local(state.derivative, state.rate_unit, OutputSource::Rate(k), "Time derivative of the state");
+        let row = local(
+            state.derivative.clone().leak(),
+            state.rate_unit,
+            OutputSource::Rate(k),
+            "Time derivative of the state",
+        );
         derivatives[k] = rows.len();
         rows.push(Variable { derivative_of: Some(indices[k]), ..row });
     }
