@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from fmpy import read_model_description, simulate_fmu
 
-FOLDERS = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python/src",)]
+FOLDERS = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python/src", "fmu-build/python")]
 sys.path[:0] = FOLDERS
 # for processes that tests start
 os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)

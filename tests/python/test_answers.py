@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from interrupts import with_interrupts
 
 from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
@@ -64,7 +65,8 @@ def test_an_error_in_the_progress_stops_the_work_and_is_raised():
 
 def test_ctrl_c_stops_the_command():
     command = subprocess.Popen([sys.executable, "-m", "bevel_differential", "accuracy", "torque_bias", "--within", "1%", "--progress",
-                                "lines", "--set", "stop_time=20 s"], stderr=subprocess.PIPE, text=True)
+                                "lines", "--set", "stop_time=20 s"], stderr=subprocess.PIPE, text=True,
+                               preexec_fn=with_interrupts)
     assert "reference" in command.stderr.readline()
     begin = time.monotonic()
     command.send_signal(signal.SIGINT)
