@@ -92,10 +92,10 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
         return Err(Stop::Wrong(format!("{name} is in the laboratory: {LABORATORY} {name}")));
     }
     if let Some(name) = named.and_then(|word| IN_THE_PACKAGE.iter().find(|name| word == *name)) {
-        let there = if *name == "scene" { "plan and run" } else { name };
+        let there = if *name == "scene" { "plan" } else { name };
         return Err(Stop::Wrong(format!(
-            "{name} is in the Python package: {PACKAGE} {there}, where its wheel is installed; in this checkout, after \
-             {PROGRAM_ALONE}, target/python/bin/{PACKAGE} {there}"
+            "{name} is a command of the Python package now: {PACKAGE} {there}. In this checkout run {PROGRAM_ALONE} once, then \
+             target/python/bin/{PACKAGE} {there}"
         )));
     }
     let program = program();

@@ -23,6 +23,8 @@ mod solid_contact;
 mod stiffness_pairs;
 mod tooth_bodies;
 mod tooth_corner_stiffness;
+#[path = "../common/tooth_errors.rs"]
+mod tooth_errors;
 mod tooth_finite_elements;
 mod tooth_laws;
 mod tooth_load_places;

@@ -15,3 +15,5 @@ mod rainflow;
 mod safety;
 mod slices;
 mod standing;
+#[path = "../common/tooth_errors.rs"]
+mod tooth_errors;

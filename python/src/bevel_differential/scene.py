@@ -149,8 +149,8 @@ class Scene:
         """Draws a record; see `plot.plot`."""
         return plot(self.fmu, record, self.name, self.description, file)
 
-    def contents(self) -> dict[str, Any]:
-        """The contents of a scene file with the same meaning."""
+    def contents(self, values: Mapping[str, Value] | None = None) -> dict[str, Any]:
+        """The contents of a scene file with the same meaning; `values` at the start instead of the scene's own."""
         def plain(values):
             return {name: self.fmu.variable(name).written(value) for name, value in values.items()}
 
@@ -158,7 +158,8 @@ class Scene:
                    "value": [self.fmu.variable(name).number(value) for value in values], **({"period": period} if period else {})}
                   for name, times, values, period in self.tables]
         return {"description": self.description, "stop_time": self.stop, "step": self.step, "outputs": self.outputs,
-                "set": plain(self.values), "at": [{"time": time, **plain(values)} for time, values in self.changes], "table": tables}
+                "set": plain(self.values if values is None else values),
+                "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables}
 
     def close(self) -> None:
         """Frees all instances."""

@@ -1,5 +1,6 @@
 //! Gaps of tooth pairs with all errors, against what each error is.
 
+use crate::tooth_errors::every_kind;
 use bevel_differential::contact::errors::pitch::Tolerances;
 use bevel_differential::contact::errors::*;
 use bevel_differential::contact::pairs::Flank;
@@ -20,23 +21,6 @@ fn id(flank: Flank) -> PairId {
     PairId { planet_tooth: 4, side_tooth: 7, flank }
 }
 
-/// Everything at once.
-fn all() -> ToothErrorSpec {
-    ToothErrorSpec {
-        accuracy_grade: 7,
-        seed: 11,
-        runout_by_grade: true,
-        planet_tip_relief: 15e-6,
-        side_tip_relief: 10e-6,
-        crowning: 6e-6,
-        shaft_angle_error: 2e-4,
-        planet_axial_offset: 20e-6,
-        side_axial_offset: -30e-6,
-        axis_offset: 15e-6,
-        ..ToothErrorSpec::default()
-    }
-}
-
 #[test]
 fn error_free_teeth_have_no_gap() {
     let perfect = errors(ToothErrorSpec::default(), 2);
@@ -49,7 +33,7 @@ fn error_free_teeth_have_no_gap() {
 #[test]
 fn errors_add_up_and_report_whether_they_are_uniform_or_individual() {
     let none = ToothErrorSpec::default();
-    let a = all();
+    let a = every_kind();
     let parts = [
         (ToothErrorSpec { accuracy_grade: 7, seed: 11, ..none }, true, true),
         (
@@ -181,7 +165,7 @@ fn two_pairs_in_contact_at_once_see_nearly_the_same_runout() {
 
 #[test]
 fn openings_carry_the_exact_derivatives_by_s() {
-    let whole = errors(all(), 4);
+    let whole = errors(every_kind(), 4);
     for planet in 0..4 {
         for side in 0..2 {
             for flank in [Flank::Drive, Flank::Coast] {
@@ -199,7 +183,7 @@ fn openings_carry_the_exact_derivatives_by_s() {
 
 #[test]
 fn any_index_and_place_gives_a_finite_gap() {
-    let whole = errors(all(), 3);
+    let whole = errors(every_kind(), 3);
     for k in [0, 1, 17, 1_000_003, usize::MAX] {
         let mesh = MeshId { planet: k, side: k };
         for s in [-1e6, -1.0, 0.0, 1.0, 1e6] {
@@ -207,5 +191,5 @@ fn any_index_and_place_gives_a_finite_gap() {
             assert!(whole.gap(mesh, pair, 0.03, s).is_finite());
         }
     }
-    assert!(ToothErrors::new(&all(), &pair(), 0).is_err());
+    assert!(ToothErrors::new(&every_kind(), &pair(), 0).is_err());
 }

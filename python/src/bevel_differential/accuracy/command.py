@@ -50,13 +50,12 @@ def run(arguments: argparse.Namespace) -> int:
     print(found.text)
     print(f"{len(found.runs) - 1} runs as dear as {found.answer['spent']:.2g} of the reference, which takes "
           f"{found.reference.seconds:.2g} s: {time.monotonic() - begin:.2g} s in all")
-    if arguments.plot:
-        found.plot(arguments.plot)
-    texts = [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]
-    for file, key in texts:
+    for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
+        # without a setting that is accurate enough there is none to write
         if file and found.answer[key]:
             Path(file).write_text(found.answer[key], encoding="utf-8")
-    for file, key in [*texts, (arguments.plot, "text")]:
-        if file and found.answer[key]:
             print(f"written: {file}")
+    if arguments.plot:
+        found.plot(arguments.plot)
+        print(f"written: {arguments.plot}")
     return 0

@@ -1,5 +1,7 @@
 """A chosen design for other programs: a scene file, and the gears."""
 
+import json
+
 from .. import cad
 from ..answers import ask, assignments
 from ..values import FileName
@@ -9,17 +11,13 @@ from .problem import Problem
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
     """The problem's scene with the design in it, as a scene file."""
-    scene, fmu = problem.scene, problem.scene.fmu
-    values = {**scene.values, **problem.complete(row.values)}
-    lines = [f"description = {_text(description)}", f"stop_time = {scene.stop!r}", f"step = {scene.step!r}",
-             f"outputs = [{', '.join(map(_text, scene.outputs))}]", "", "[set]"]
-    lines += [f"{name} = {_toml(fmu.variable(name), value)}" for name, value in values.items()]
-    for time, changes in scene.changes:
-        lines += ["", "[[at]]", f"time = {time!r}"]
-        lines += [f"{name} = {_toml(fmu.variable(name), fmu.variable(name).number(value))}" for name, value in changes.items()]
-    for name, times, numbers, period in scene.tables:
-        lines += ["", "[[table]]", f"input = {_text(name)}", f"time = {list(times)!r}", f"value = {list(numbers)!r}"]
-        lines += [f"period = {period!r}"] if period else []
+    scene = problem.scene
+    held = scene.contents({**scene.values, **problem.complete(row.values)})
+    lines = [*_entries({**held, "description": description}, "description", "stop_time", "step", "outputs"), "", "[set]",
+             *_entries(held["set"])]
+    for kind in ("at", "table"):
+        for entry in held[kind]:
+            lines += ["", f"[[{kind}]]", *_entries(entry)]
     return "\n".join(lines) + "\n"
 
 
@@ -41,11 +39,6 @@ def settings(problem: Problem, row: DesignRow) -> list[str]:
     return assignments({name: fmu.variable(name).written(value) for name, value in changed.items()})
 
 
-def _toml(variable, value) -> str:
-    if variable.literals:
-        return _text(next(literal for literal, number in variable.literals.items() if number == value))
-    return str(value).lower() if variable.kind == "Boolean" else repr(value)
-
-
-def _text(text: str) -> str:
-    return '"' + text.replace("\\", "\\\\").replace('"', '\\"') + '"'
+def _entries(table, *names):
+    """Lines of a table: what JSON writes of numbers, texts, truths and lists is TOML as well."""
+    return [f"{name} = {json.dumps(table[name], ensure_ascii=False)}" for name in names or table]
