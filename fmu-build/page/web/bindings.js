@@ -1,6 +1,7 @@
 // What the elements of the page call.
 import { MODES } from "./colouring.js";
 import { listenToKeys } from "./keys.js";
+import { SPEEDS, unitText } from "./table.js";
 import { followTheme } from "./theme.js";
 
 const $ = (id) => document.getElementById(id);
@@ -9,8 +10,11 @@ export function bind(page) {
   const on = (id, event, call) => $(id).addEventListener(event, () => call($(id)));
   for (const { name } of page.table.scenes) $("scene").append(new Option(name.replaceAll("_", " "), name));
   for (const [name, { label }] of Object.entries(MODES)) $("colour").append(new Option(label, name));
+  for (const unit of Object.keys(SPEEDS)) $("speeds").append(new Option(unitText(unit), unit));
   on("scene", "change", ({ value }) => { location.hash = page.setup.fragmentOf(value); });
   on("colour", "change", ({ value }) => page.colour(value));
+  on("speeds", "change", ({ value }) => page.speeds(value));
+  on("save", "click", () => page.save());
   on("walk-open", "click", () => page.walk.show(0));
   on("copy", "click", () => copy(page.notice));
   on("reset", "click", () => { location.hash = page.setup.fragmentOf(page.setup.scene.name); });

@@ -1,13 +1,15 @@
 // Which outputs are drawn.
 import { MOST_TRACES } from "./setup.js";
+import { isThere } from "./wanted.js";
+import { words } from "./table.js";
 
 export class TraceChoice {
   // `chosen(names)` is called when the reader has changed the choice.
   constructor(host, table, chosen) {
     this.boxes = table.outputs().map(({ name, description }) => {
       const box = Object.assign(document.createElement("input"), { type: "checkbox", value: name });
-      const label = Object.assign(document.createElement("label"), { title: description });
-      label.append(box, name);
+      const label = Object.assign(document.createElement("label"), { title: `${name}: ${description}` });
+      label.append(box, words(name));
       host.append(label);
       box.addEventListener("change", () => chosen(this.names()));
       return box;
@@ -18,8 +20,10 @@ export class TraceChoice {
     return this.boxes.filter((box) => box.checked).map((box) => box.value);
   }
 
-  show(names) {
+  // These are drawn; of the outputs those of `planets` planets are offered.
+  show(names, planets) {
     for (const box of this.boxes) {
+      box.parentElement.hidden = !isThere(box.value, planets);
       box.checked = names.includes(box.value);
       box.disabled = !box.checked && names.length >= MOST_TRACES;
     }

@@ -2,6 +2,7 @@
 import { element } from "./element.js";
 import { range, readable, unitText } from "./table.js";
 import { readValue } from "./value.js";
+import { isThere } from "./wanted.js";
 
 const EFFECTS = "effects";
 const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
@@ -36,11 +37,10 @@ export class Controls {
     fault.setAttribute("role", "alert");
     const price = this.table.prices.get(name);
     const label = element("label", { htmlFor: id, title: name }, name.slice(name.indexOf(".") + 1).replaceAll("_", " "));
-    const unit = element("span", { className: "unit", textContent: unitText(variable.shown) });
-    if (price) unit.textContent = `× ${readable(price, 3)}`;
-    if (price) unit.title = `time of a simulation with this effect over that without it: ${readable(price, 3)}`;
+    const unit = element("span", { className: "unit", textContent: price && `× ${readable(price, 3)}` });
     const warning = element("p", { className: "warning" });
-    const what = element("p", { className: "what", textContent: range(variable) ? `${description} (${range(variable)})` : description });
+    const what = element("p", { className: "what", textContent: price
+      && `${description}. With it a simulation of plain teeth takes ${readable(price, 3)} times as long.` });
     const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, warning, fault);
     frame.dataset.words = `${name} ${description}`.toLowerCase().replaceAll("_", " ");
     body.append(frame);
@@ -50,9 +50,23 @@ export class Controls {
       this.done(name);
       input.focus();
     });
-    const row = { variable, frame, input, warning, fault };
+    const row = { variable, frame, input, warning, fault, unit, what };
+    if (!price) this.say(row);
     this.rows.set(name, row);
     return row;
+  }
+
+  // Says a variable's unit, what it is and which values it takes.
+  say({ variable, unit, what }) {
+    const { description } = variable;
+    unit.textContent = unitText(variable.shown);
+    what.textContent = range(variable) ? `${description} (${range(variable)})` : description;
+  }
+
+  // Units have changed.
+  relabel() {
+    for (const row of this.rows.values()) if (!this.table.prices.has(row.variable.name)) this.say(row);
+    this.show();
   }
 
   take(variable, input) {
@@ -90,6 +104,7 @@ export class Controls {
       fault.hidden = true;
       input.removeAttribute("aria-invalid");
     }
+    this.filter(this.searched ?? "");
     this.count();
   }
 
@@ -122,12 +137,14 @@ export class Controls {
     row.frame.scrollIntoView({ block: "nearest" });
   }
 
-  // Leaves what has all these words in its name or description.
+  // Leaves what has all these words in its name or description, and is not of a planet that is not there.
   filter(text) {
+    this.searched = text;
+    const planets = this.setup.value("geometry.planet_count");
     const words = text.toLowerCase().replaceAll("_", " ").split(/[\s.]+/).filter(Boolean);
     for (const { details, rows } of this.groups) {
-      const fits = rows.filter(({ frame }) => {
-        frame.hidden = !words.every((word) => frame.dataset.words.includes(word));
+      const fits = rows.filter(({ frame, variable }) => {
+        frame.hidden = !words.every((word) => frame.dataset.words.includes(word)) || !isThere(variable.name, planets);
         return !frame.hidden;
       });
       details.hidden = fits.length === 0;

@@ -1,12 +1,11 @@
 // The panel beside the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
 import { gradient, shade } from "./scale.js";
-import { hasPairs, pairNames, pairs } from "./pairs.js";
+import { hasPairs, hasTeeth, pairNames, pairs } from "./pairs.js";
 import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
 import { colour } from "./panel.js";
 import { contactOf, isInSeam } from "./seam.js";
 import { readable, shown } from "./table.js";
 
-const TEETH = ["tooth", "solid"]; // literals of scene.gear_contact with teeth
 const FLANKS = [[1, "drive flank"], [-1, "coast flank"]];
 const ROOM = { left: 38, right: 12, top: 16, bottom: 18 }; // pixels around a flank
 
@@ -30,6 +29,7 @@ export class Flank {
   begin(record, setup) {
     this.record = record;
     this.contact = setup.value("scene.gear_contact");
+    this.hasTeeth = hasTeeth(setup, this.table);
     this.elastic = contactOf(setup);
     this.forget();
   }
@@ -48,7 +48,7 @@ export class Flank {
     if (this.host.hidden || !this.cones) return;
     this.scale = most;
     const literal = shown(this.table.find("scene.gear_contact"), this.contact);
-    const hasTeeth = TEETH.includes(literal) && hasPairs(this.record, true);
+    const hasTeeth = this.hasTeeth && hasPairs(this.record, true);
     for (const canvas of this.canvases) canvas.hidden = !hasTeeth;
     if (!hasTeeth) {
       this.say([`No teeth are in contact: scene.gear_contact is ${literal}, a joint without tooth pairs. `

@@ -7,7 +7,8 @@ import { Controls } from "./controls.js";
 import { Flank } from "./flank.js";
 import { Legend } from "./legend.js";
 import { Notice } from "./notice.js";
-import { hasPairs } from "./pairs.js";
+import { save } from "./csv.js";
+import { hasPairs, hasTeeth } from "./pairs.js";
 import { Player } from "./player.js";
 import { showFigures, showTransport, toothTime } from "./readings.js";
 import { Record } from "./record.js";
@@ -87,11 +88,13 @@ export class Page {
   }
 
   changed() {
-    this.controls.show();
+    this.table.showSpeedsIn(this.setup.speeds);
+    this.controls.relabel();
     $("scene").value = this.setup.scene.name;
     $("about").textContent = this.setup.scene.description;
     $("duration").value = String(this.setup.stop);
     $("colour").value = this.setup.colour;
+    $("speeds").value = this.setup.speeds;
     this.keep();
     this.notice.say("");
     this.simulate();
@@ -129,7 +132,7 @@ export class Page {
     this.mostPressure = 0;
     this.player.begin(stop);
     this.traces.begin(shown, this.record, stop);
-    this.choice.show(shown);
+    this.choice.show(shown, this.setup.value("geometry.planet_count"));
     this.flank.begin(this.record, this.setup);
     $("time").max = stop;
     this.scroll();
@@ -184,6 +187,21 @@ export class Page {
   colour(mode) {
     this.setup.colour = mode;
     this.again();
+  }
+
+  // Speeds in another unit: nothing is simulated anew.
+  speeds(unit) {
+    this.setup.speeds = unit;
+    this.table.showSpeedsIn(unit);
+    this.controls.relabel();
+    this.traces.build();
+    this.moved = true;
+    this.keep();
+  }
+
+  // The traces that are drawn, as a file.
+  save() {
+    save(`${this.setup.scene.name}.csv`, this.record, this.setup.shown());
   }
 
   again() {
@@ -259,9 +277,27 @@ export class Page {
     }
   }
 
+  // Each frame asks for the next one before it draws: what fails in one does not end them all.
   frame(now) {
+    requestAnimationFrame((next) => this.frame(next));
     const seconds = Math.min((now - this.last) / 1e3, 0.1);
     this.last = now;
+    try {
+      this.advance(now, seconds);
+    } catch (error) {
+      this.fail(error);
+    }
+  }
+
+  // A fault of the page's own is said once.
+  fail(error) {
+    if (this.failure === error.message) return;
+    this.failure = error.message;
+    console.error(error);
+    this.notice.say(`A part of the picture cannot be drawn (${error.message}). Another view or scene may help.`, true);
+  }
+
+  advance(now, seconds) {
     const { player, record } = this;
     if (this.isFresh && !(now - this.refreshed < REFRESH)) this.refresh();
     const before = player.time;
@@ -269,7 +305,6 @@ export class Page {
     if (player.time !== before || this.moved || this.view.hold !== this.held) this.show();
     this.view.draw();
     showTransport(player, this.tooth);
-    requestAnimationFrame((next) => this.frame(next));
   }
 
   // The picture, the figures and the traces at the player's time.
@@ -278,7 +313,7 @@ export class Page {
     this.moved = false;
     this.held = this.view.hold;
     record.seek(player.time);
-    const colours = coloured(setup.colour, { table, setup, record, most, mostHeat, hasPairs: hasPairs(record) });
+    const colours = coloured(setup.colour, { table, setup, record, most, mostHeat, hasPairs: hasTeeth(setup, table) && hasPairs(record) });
     this.view.pose(record, most, colours, (pressure) => scaled(pressure / this.mostPressure));
     if (record.count === 0) return;
     this.legend.show(setup.colour, colours.legend);

@@ -1,5 +1,7 @@
 // The tooth pairs in the mesh of planet 1 with the left side gear, which the library lists one by one.
+import { shown } from "./table.js";
 
+const TEETH = ["tooth", "solid"]; // literals of scene.gear_contact with teeth
 const MOST = 3;
 const at = (k, part) => `planet[1].left_pair[${k}].${part}`;
 const PLACE = ["tooth", "force", "height"];
@@ -10,6 +12,12 @@ export const pairNames = (withPressures) => {
   const parts = withPressures ? [...PLACE, ...PRESSURES] : PLACE;
   return each.flatMap((k) => parts.map((part) => at(k, part)));
 };
+
+// Whether gears have teeth that touch one by one.
+export function hasTeeth(setup, table) {
+  const name = "scene.gear_contact";
+  return TEETH.includes(shown(table.find(name), setup.value(name)));
+}
 
 // Whether the record lists pairs at all, and with their pressures.
 export const hasPairs = (record, withPressures = false) => pairNames(withPressures).every((name) => record.has(name));

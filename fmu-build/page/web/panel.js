@@ -1,6 +1,6 @@
 // A plot of some outputs with the same unit, and its legend.
 import uPlot from "uplot";
-import { readable, unitText } from "./table.js";
+import { readable, unitText, words } from "./table.js";
 
 export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
@@ -12,7 +12,8 @@ export function panel(host, { unit, series, range, after, draw }) {
   const values = series.map(({ name, stroke }) => {
     const item = document.createElement("span");
     item.style.setProperty("--own", stroke);
-    item.append(name, " ", document.createElement("b"));
+    item.title = name;
+    item.append(words(name), " ", document.createElement("b"));
     legend.append(item);
     return item.lastChild;
   });

@@ -1,7 +1,7 @@
 // What is simulated and how it is looked at: a scene, what differs from it, view and colours. The fragment of the page's address
 // holds all of it.
 import { MODES } from "./colouring.js";
-import { readable } from "./table.js";
+import { readable, SPEEDS } from "./table.js";
 import { readValue } from "./value.js";
 import { PRESETS } from "./view.js";
 
@@ -10,8 +10,8 @@ const FIRST = "study_turning";
 const MOST_POINTS = 2e5; // of a run
 export const MOST_TRACES = 6; // as many as there are colours for them
 // words of the address that are no variables, and what they are when it has none
-const PLAIN = { view: "whole", colour: "load" };
-const KNOWN = { view: PRESETS, colour: MODES };
+const PLAIN = { view: "whole", colour: "load", speeds: "deg/s" };
+const KNOWN = { view: PRESETS, colour: MODES, speeds: SPEEDS };
 
 export class Setup {
   constructor(table) {

@@ -2,6 +2,9 @@
 
 const NAMES = /[\w.[\]]+(?=:)/g;
 
+// Units that speeds are shown in, with their number for 1 rad/s.
+export const SPEEDS = { "deg/s": 180 / Math.PI, "rad/s": 1, rpm: 30 / Math.PI };
+
 export class Table {
   constructor({ variables, scenes, prices, version }) {
     Object.assign(this, { variables, scenes, version });
@@ -11,6 +14,12 @@ export class Table {
 
   find(name) {
     return this.byName.get(name);
+  }
+
+  // Speeds are shown in another unit.
+  showSpeedsIn(unit) {
+    const speeds = this.variables.filter((variable) => variable.unit === "rad/s");
+    for (const variable of speeds) Object.assign(variable, { shown: unit, factor: SPEEDS[unit] });
   }
 
   scene(name) {
@@ -55,6 +64,9 @@ export function readable(value, digits = 5) {
   const text = isPlain ? String(Number(value.toPrecision(digits))) : value.toExponential(digits - 1);
   return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
 }
+
+// A variable's name in words.
+export const words = (name) => name.replaceAll("]", "").replaceAll(/[[._]/g, " ");
 
 // A unit for reading.
 export function unitText(unit) {

@@ -6,6 +6,8 @@ import { studio } from "./studio.js";
 
 const MARGIN = 44; // pixels from a label's middle to the window's edge
 const ANGLE = 26; // deg of view, upright
+const FINEST = 2; // pixels of the picture to one of the page, in a line
+const COARSE = 6e4; // pixels of a picture that the processor draws
 
 // From the rear of a vehicle: +x, its left, is at the left.
 // `from` is where the eye is, in axes of the scene or, with `at`, of the left mesh of planet 1: along its pitch line, forward,
@@ -20,7 +22,8 @@ export const PRESETS = {
 export class View {
   constructor(canvas, labels) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.isCoarse = isDrawnByProcessor();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.isCoarse, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;
     this.scene = new Scene();
@@ -96,7 +99,8 @@ export class View {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
     const before = this.camera.aspect;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    const finest = this.isCoarse ? Math.min(Math.sqrt(COARSE / (clientWidth * clientHeight)), 1) : FINEST;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, finest));
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     const [x, y] = this.aside ?? [0, 0];
@@ -146,4 +150,13 @@ export class View {
       }
     }
   }
+}
+
+// Whether there is no graphics unit: browsers draw by a program then, of one of these names.
+function isDrawnByProcessor() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  const extension = context?.getExtension("WEBGL_debug_renderer_info");
+  const name = context?.getParameter(extension ? extension.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|basic render|software/i.test(name ?? "");
 }

@@ -4,6 +4,9 @@ import { pairNames } from "./pairs.js";
 const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
 const SIDES = ["left", "right"];
 
+// Whether a variable is not of a planet that is not there.
+export const isThere = (name, planets) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > planets);
+
 export const planets = (setup) => Array.from({ length: setup.value("geometry.planet_count") }, (_, i) => `planet[${i + 1}]`);
 
 export const forces = (setup) => planets(setup).flatMap((planet) => SIDES.map((side) => `${planet}.${side}_normal_force`));

@@ -4,6 +4,7 @@ usage: campaign.py REPOSITORY FOLDER COUNT SEED
 
 Results are in FOLDER, where a run that was stopped goes on. Prints the report as Markdown."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -20,53 +21,102 @@ from pathlib import Path
 from changes import build_in, drawn
 
 ROOMS = ["src/contact", "src/geometry", "src/friction", "src/strength", "src/integrate", "src/model/dynamics", "src/model/effects"]
-# quick ones first
 PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
-# the program that is nearest to a room, and runs before all others
-NEAREST = {"src/contact": "contact", "src/geometry": "geometry", "src/friction": "contact", "src/strength": "strength",
-           "src/integrate": "integrator", "src/model/dynamics": "model", "src/model/effects": "model"}
-# a program that takes so many times as long as without a change does not come to its end
-PATIENCE = 5.0
-SWITCH = '''//! Which change acts.
+# a test that takes so many times as long as without a change, and so many seconds more, does not come to its end
+PATIENCE, GRACE = 5.0, 10.0
+SWITCH = '''//! Which change acts, and which ones a test comes by.
+use std::io::Write;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 static CHOSEN: OnceLock<u32> = OnceLock::new();
+static REACHED: [AtomicBool; 4096] = [const { AtomicBool::new(false) }; 4096];
+/// Number of the change that acts; 4096 writes those that are come by to a file.
+const WATCH: u32 = 4096;
 /// Whether change `k` acts.
 #[inline]
 pub fn on(k: u32) -> bool {
-    k == *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0))
+    let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
+    if chosen == WATCH {
+        come_by(k);
+    }
+    k == chosen
+}
+#[cold]
+fn come_by(k: u32) {
+    if !REACHED[k as usize].load(Ordering::Relaxed) && !REACHED[k as usize].swap(true, Ordering::Relaxed) {
+        let file = std::env::var("MUTANTS_REACHED").expect("a file");
+        let mut file = std::fs::OpenOptions::new().append(true).create(true).open(file).expect("can be written");
+        writeln!(file, "{k}").expect("can be written");
+    }
 }
 '''
+WATCH = 4096
 
 
 def main():
     repository, folder, count, seed = Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
     changes, programs = built(repository, folder, count, seed)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        usual = dict(zip(programs, pool.map(lambda program: trial(program, 0, None, folder), programs.values())))
-    failed = [name for name, (fate, _) in usual.items() if fate != "survived"]
-    if failed:
-        raise SystemExit(f"the tests fail without any change: {', '.join(failed)}")
+    tests = watched(programs, folder, len(changes))
     done = known(folder)
     lock = threading.Lock()
 
     def tried(number, change):
         key = f"{change.file}: {change.name} in byte {change.begin}"
         if key not in done:
-            for name in sorted(programs, key=lambda name: name != NEAREST[change.room]):
-                fate, test = trial(programs[name], number, PATIENCE * usual[name][1] + 10.0, folder)
+            reaching = sorted((test for test in tests if number in test["reached"]), key=lambda test: test["seconds"])
+            fate, by = "survived", f"{len(reaching)} tests"
+            for test in reaching:
+                fate, _ = trial(programs[test["program"]], test["name"], number, PATIENCE * test["seconds"] + GRACE, folder)
                 if fate != "survived":
+                    by = f"{test['program']}: {test['name']}"
                     break
             with lock:
-                done[key] = {"fate": fate, "by": f"{name}: {test}" if fate == "noticed" else name}
+                done[key] = {"fate": fate, "by": by}
                 with (folder / "outcomes.jsonl").open("a", encoding="utf-8") as file:
                     file.write(json.dumps({"key": key, **done[key]}) + "\n")
-                print(f"progress {len(done) / len(changes):.4f} {done[key]['fate']}: {key}", file=sys.stderr, flush=True)
+                print(f"progress {len(done) / len(changes):.4f} {fate}: {key}", file=sys.stderr, flush=True)
         return done[key]
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         fates = list(pool.map(tried, range(1, len(changes) + 1), changes))
     print(report(changes, fates, seed, repository))
+
+
+def watched(programs, folder, count):
+    """Each test without a change: its seconds, and which changes it comes by."""
+    store = folder / "tests.json"
+    names = [(program, line.removesuffix(": test")) for program, path in programs.items()
+             for line in subprocess.run([path, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()
+             if line.endswith(": test")]
+    digests = {program: hashlib.sha256(Path(path).read_bytes()).hexdigest() for program, path in programs.items()}
+    before = json.loads(store.read_text(encoding="utf-8")) if store.is_file() else {}
+    if before.get("programs") == digests:
+        return before["tests"]
+
+    def watch(each):
+        number, (program, name) = each
+        file = folder / f"reached{number}.txt"
+        file.unlink(missing_ok=True)
+        fate, seconds = trial(programs[program], name, WATCH, None, folder, {"MUTANTS_REACHED": str(file)})
+        reached = [int(line) for line in file.read_text().split()] if file.is_file() else []
+        if fate != "survived":  # as a test that counts allocations, and so counts those of being watched
+            reached = list(range(1, count + 1))
+            fate, seconds = trial(programs[program], name, 0, None, folder)
+        if fate != "survived":  # as a test of a small stack, whose frames hold all changes
+            print(f"progress 0.0 left out, as it fails without any change: {name} of {program}", file=sys.stderr, flush=True)
+            return None
+        file.unlink(missing_ok=True)
+        if number % 20 == 0:
+            print(f"progress 0.0 tests watched: {number} of {len(names)}", file=sys.stderr, flush=True)
+        return {"program": program, "name": name, "seconds": seconds, "reached": reached}
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        tests = [test for test in pool.map(watch, enumerate(names)) if test]
+    if len(tests) < 0.99 * len(names):
+        raise SystemExit(f"{len(names) - len(tests)} of {len(names)} tests fail without any change")
+    store.write_text(json.dumps({"programs": digests, "tests": tests}), encoding="utf-8")
+    return tests
 
 
 def built(repository, folder, count, seed):
@@ -110,29 +160,16 @@ def compiled(source, folder):
     return messages, {name: programs[name] for name in PROGRAMS if name in programs}
 
 
-def trial(program, number, patience, folder):
-    """What a test program makes of a change: its fate, and the test that fails or the seconds that it took."""
+def trial(program, test, number, patience, folder, more={}):
+    """What a test makes of a change: its fate, and the seconds that it took."""
     begin = time.monotonic()
-    child = subprocess.Popen([program, "--test-threads", "1"], cwd=folder / "source", stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                             text=True, env={**os.environ, "MUTANT": str(number), "RUST_BACKTRACE": "0"})
-    alarm = threading.Timer(patience, child.kill) if patience else None
-    if alarm:
-        alarm.start()
-    failed = None
-    for line in child.stdout:
-        if line.startswith("test ") and line.rstrip().endswith("FAILED"):
-            failed = line.split()[1]
-            child.kill()
-            break
-    status = child.wait()
-    if alarm:
-        late = not alarm.is_alive()
-        alarm.cancel()
-        if late:
-            return "no end", None
-    if failed or status:
-        return "noticed", failed or f"ended by {status}"
-    return "survived", time.monotonic() - begin
+    surroundings = {**os.environ, "MUTANT": str(number), "RUST_BACKTRACE": "0", **more}
+    try:
+        done = subprocess.run([program, "--exact", test], cwd=folder / "source", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                              env=surroundings, timeout=patience)
+    except subprocess.TimeoutExpired:
+        return "no end", patience
+    return "noticed" if done.returncode else "survived", time.monotonic() - begin
 
 
 def known(folder):
