@@ -85,6 +85,8 @@ pub const N_PER_MM_UM: DisplayUnit = shown("N/(mm.um)", 1e-9);
 pub const MPA_S: DisplayUnit = shown("mPa.s", 1e3);
 /// Kilonewton.
 pub const KN: DisplayUnit = shown("kN", 1e-3);
+/// Kilonewton-metre.
+pub const KNM: DisplayUnit = shown("kN.m", 1e-3);
 
 macro_rules! units {
     ($($(#[$doc:meta])* $id:ident = $name:literal, $base:expr, $display:expr;)*) => {
@@ -120,7 +122,7 @@ units! {
     /// Force.
     NEWTON = "N", base(1, 1, -2, 0), [KN];
     /// Torque.
-    NEWTON_METRE = "N.m", base(1, 2, -2, 0), [];
+    NEWTON_METRE = "N.m", base(1, 2, -2, 0), [KNM];
     /// Frequency.
     HERTZ = "Hz", base(0, 0, -1, 0), [];
     /// Power.

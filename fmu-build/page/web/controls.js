@@ -40,7 +40,7 @@ export class Controls {
     const unit = element("span", { className: "unit", textContent: price && `× ${readable(price, 3)}` });
     const warning = element("p", { className: "warning" });
     const what = element("p", { className: "what", textContent: price
-      && `${description}. With it a simulation of plain teeth takes ${readable(price, 3)} times as long.` });
+      && `${description}. It takes ${readable(price, 3)} times the time of plain teeth.` });
     const frame = element("div", { className: `row ${kind.toLowerCase()}` }, label, input, unit, back, what, warning, fault);
     frame.dataset.words = `${name} ${description}`.toLowerCase().replaceAll("_", " ");
     body.append(frame);

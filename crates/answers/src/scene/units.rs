@@ -64,7 +64,8 @@ fn split(text: &str) -> Result<(f64, String), String> {
     let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
     let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
-    let replaced = [("·", "."), ("*", "."), ("°", "deg"), ("µ", "u"), ("μ", "u"), ("²", "2"), ("Nm", "N.m")];
+    let replaced =
+        [("·", "."), ("*", "."), ("°", "deg"), ("µ", "u"), ("μ", "u"), ("²", "2"), ("Nm", "N.m"), ("1/min", "rpm")];
     let name = replaced.iter().fold(text[end..].trim().to_owned(), |name, (from, to)| name.replace(from, to));
     Ok((number, name))
 }
@@ -112,6 +113,8 @@ mod tests {
         close("geometry.module", "4.5e-3m", 4.5e-3);
         close("carrier.speed_command", "2861 °/s", 2861f64.to_radians());
         close("carrier.speed_command", "60 rpm", std::f64::consts::TAU);
+        close("carrier.speed_command", "60 1/min", std::f64::consts::TAU);
+        close("left.load_torque", "0.8 kN·m", 800.0);
         close("left.load_torque", "835 N·m", 835.0);
         close("inertia.carrier", "0.02 kg·m²", 0.02);
         close("contact.stiffness", "5.77e5 N/mm^1.5", 5.77e5 * 1e3f64.powf(1.5));

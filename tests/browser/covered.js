@@ -1,0 +1,24 @@
+// Which controls a reader cannot press, as something else lies over them, and which boxes over the picture overlap.
+window.covered = () => {
+  const found = [];
+  const isSeen = (part) => part.checkVisibility({ visibilityProperty: true }) && part.getBoundingClientRect().width > 0;
+  for (const control of document.querySelectorAll("button, input, select, summary")) {
+    if (!isSeen(control) || control.closest("#groups, #trace-list")) continue;
+    control.scrollIntoView({ block: "center" });
+    const { left, top, width, height } = control.getBoundingClientRect();
+    for (const [x, y] of [[0.5, 0.5], [0.1, 0.5], [0.9, 0.5], [0.5, 0.15], [0.5, 0.85]]) {
+      const over = document.elementFromPoint(left + x * width, top + y * height);
+      if (over && (over === control || control.contains(over) || over.closest("label")?.contains(control))) continue;
+      found.push(`${control.id || control.textContent} is under ${over?.id || over?.parentElement.id}`);
+      break;
+    }
+  }
+  scrollTo(0, 0);
+  const boxes = ["cameras", "figures", "meaning", "flank", "walk", "message"].map((id) => document.getElementById(id)).filter(isSeen);
+  boxes.forEach((box, i) => boxes.slice(0, i).forEach((other) => {
+    const [a, b] = [box, other].map((each) => each.getBoundingClientRect());
+    const isApart = a.left >= b.right - 1 || b.left >= a.right - 1 || a.top >= b.bottom - 1 || b.top >= a.bottom - 1;
+    if (!isApart) found.push(`${box.id} overlaps ${other.id}`);
+  }));
+  return found;
+};
