@@ -31,6 +31,9 @@ pub struct WheelCommand {
     /// Platforms that the FMU in the wheel is for
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Platform::Linux64, Platform::Win64])]
     platforms: Vec<Platform>,
+    /// Write what the wheel holds beside Python's files to this folder, and no wheel; `pip install ./python` asks for it
+    #[arg(long, value_name = "FOLDER")]
+    parts: Option<PathBuf>,
 }
 
 impl WheelCommand {
@@ -38,6 +41,14 @@ impl WheelCommand {
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("building the library");
         let libraries = platforms::build(&self.platforms)?;
+        if let Some(folder) = &self.parts {
+            remove(folder)?;
+            paths::create_folder(folder)?;
+            write_parts(&libraries, Packing::Quick, folder)?;
+            progress.finish();
+            println!("{}", paths::shown(folder));
+            return Ok(());
+        }
         progress.stage("building the wheel");
         let environment = Environment::complete(|what| progress.stage(what))?;
         let wheel = write(&libraries, &environment, &paths::wheel())?;
@@ -59,11 +70,8 @@ impl WheelCommand {
 /// Builds the wheel around `libraries` in `folder` and returns its path.
 pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) -> Result<PathBuf> {
     let (source, built) = (folder.join("source"), folder.join("built"));
-    for old in [&source, &built] {
-        if old.exists() {
-            fs::remove_dir_all(old).with_context(|| format!("{} cannot be removed", paths::shown(old)))?;
-        }
-    }
+    remove(&source)?;
+    remove(&built)?;
     stage(libraries, &source)?;
     let mut pip = environment.command();
     pip.args(["-m", "pip", "wheel", "--quiet", "--no-input", "--disable-pip-version-check"])
@@ -79,17 +87,32 @@ pub fn write(libraries: &[Library], environment: &Environment, folder: &Path) ->
     Ok(target)
 }
 
+fn remove(folder: &Path) -> Result<()> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).with_context(|| format!("{} cannot be removed", paths::shown(folder)))?;
+    }
+    Ok(())
+}
+
 /// Copies into `source` what the wheel is built from, so that nothing is written where the sources are.
 fn stage(libraries: &[Library], source: &Path) -> Result<()> {
     let (from, to) = (paths::workspace(), source.join("python"));
     let package = to.join("src").join("bevel_differential");
     copy_folder(&from.join("python").join("src").join("bevel_differential"), &package, "__pycache__")?;
-    copy_file(&from.join("python").join("pyproject.toml"), &to)?;
+    for file in ["pyproject.toml", "hatch_build.py"] {
+        copy_file(&from.join("python").join(file), &to)?;
+    }
     // with the version
     copy_file(&from.join("Cargo.toml"), source)?;
     for licence in LICENCES {
         copy_file(&from.join(licence), &to)?;
     }
+    write_parts(libraries, Packing::Small, &package)
+}
+
+/// Writes what the package holds beside Python's files.
+fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Result<()> {
+    let from = paths::workspace();
     for scene in scene::files(&paths::scenes())? {
         copy_file(&scene, &package.join("scenes"))?;
     }
@@ -112,5 +135,5 @@ fn stage(libraries: &[Library], source: &Path) -> Result<()> {
         paths::create_folder(file.parent().unwrap_or(&file))?;
         fs::write(&file, &licence.text).context("a licence cannot be written")?;
     }
-    package::write_archive(libraries, None, Packing::Small, &package.join(format!("{MODEL_NAME}.fmu")))
+    package::write_archive(libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
 }
