@@ -4,10 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..command.arguments import add_fmu
+from ..command.arguments import add_farm, add_fmu, farm
 
-HELP = "optimise gears by several objectives at once"
-EXTRA = "design"
 # effort of --quick: enough for a front, not for a good one
 QUICK = {"population": 32, "generations": 12, "starts": 1}
 
@@ -22,8 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
     parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
-    parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
-    parser.add_argument("--scheduler", help="address of a dask scheduler")
+    add_farm(parser)
     add_fmu(parser)
 
 
@@ -40,15 +37,15 @@ def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
     try:
-        with Farm(arguments.workers, scheduler=arguments.scheduler) as farm:
-            _optimise(arguments, problem, out, store, farm)
+        with Farm(**farm(arguments)) as workers:
+            _optimise(arguments, problem, out, store, workers)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
                                 f"{out / 'front.csv'}; go on by --resume") from None
     return 0
 
 
-def _optimise(arguments, problem, out, store, farm):
+def _optimise(arguments, problem, out, store, workers):
     from .confirm import Confirmed, confirm
     from .design_task import DesignTask
     from .front import choice, thinned
@@ -64,11 +61,11 @@ def _optimise(arguments, problem, out, store, farm):
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 
     compared = _compared(problem, DesignTask(problem, thorough=True))
-    best = search(problem, farm, store, each)
+    best = search(problem, workers, store, each)
     rows = thinned(best, problem.objectives, problem.front)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
-    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, farm)}
+    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, workers)}
     to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
     told = [standing(name, row, best, problem) for name, row in compared.items()]

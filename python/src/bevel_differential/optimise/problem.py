@@ -164,7 +164,7 @@ class _Reader:
     def __init__(self, file: Path, fmu):
         self.file, self.fmu, self.catalogue = file, fmu, Catalogue(fmu)
         self.found = read_toml(file)
-        self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in self.found.keys() - KEYS]
+        self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(self.found.keys() - KEYS)]
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
 
     def problem(self) -> Problem:
