@@ -28,7 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Optimises. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
-    from .store import Store
+    from .search import Store
+
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
@@ -46,11 +47,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _optimise(arguments, problem, out, store, workers):
-    from .confirm import Confirmed, confirm
-    from .design_task import DesignTask
+    from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
-    from .picture import picture
-    from .report import choice_table, standing, to_csv
+    from .report import LETTERS, choice_table, picture, scene_text, standing, to_csv, write_gears
     from .search import search
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
@@ -60,7 +59,9 @@ def _optimise(arguments, problem, out, store, workers):
               flush=True)
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 
-    compared = _compared(problem, DesignTask(problem, thorough=True))
+    task = DesignTask(problem, thorough=True)
+    with task.scene:
+        compared = {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
     best = search(problem, workers, store, each)
     rows = thinned(best, problem.objectives, problem.front)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
@@ -73,13 +74,10 @@ def _optimise(arguments, problem, out, store, workers):
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *told]))
-    _for_cad(problem, out, reasons)
-
-
-def _compared(problem, task):
-    """Rows of the designs that are shown beside the front."""
-    with task.scene:
-        return {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
+    for letter, (reason, row) in zip(LETTERS, reasons):
+        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
+        free = write_gears(problem, row, out / letter)
+        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
 
 
 def _held(confirmed, problem):
@@ -93,13 +91,3 @@ def _held(confirmed, problem):
             spans.append(f"{objective.want} by {min(changes):+.1f} to {max(changes):+.1f} %")
         yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
                f"{', '.join(spans)}")
-
-
-def _for_cad(problem, out, reasons):
-    """Scene files of the chosen designs, and their gears."""
-    from .cad import scene_text, write_gears
-    from .report import LETTERS
-    for letter, (reason, row) in zip(LETTERS, reasons):
-        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
-        free = write_gears(problem, row, out / letter)
-        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")

@@ -128,7 +128,8 @@ def _named(run, switches, off):
         "something, as where teeth strike again and again, changes of this size by an effect tell nothing.")
 
 
-def _draw(tried):
+@style.drawn("worth")
+def _draw(picture, tried):
     rows = [one for one in tried if not one.refused]
     outputs = list(rows[0].mean)
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
@@ -136,24 +137,22 @@ def _draw(tried):
     # clear in the middle, so that the page's colour shows
     scale = [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)]
     colours = LinearSegmentedColormap.from_list("change", scale)
-    with style.styled():
-        picture = style.figure(0.34 * len(outputs) + 1.9)
-        panels = picture.subplots(1, 2, sharey=True)
-        tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
-        labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
-        for panel, (title, table) in zip(panels, tables):
-            values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
-            reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
-            panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
-            for (row, column), value in np.ndenumerate(values):
-                panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
-            panel.set_xticks(range(len(rows)), labels, fontsize=8)
-            panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
-            panel.set_title(f"change of the {title}, %")
-            panel.grid(False)
-            panel.tick_params(length=0)
-            panel.spines[:].set_visible(False)
-        return style.svg(picture, "worth")
+    picture.set_figheight(0.34 * len(outputs) + 1.9)
+    panels = picture.subplots(1, 2, sharey=True)
+    tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
+    labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
+    for panel, (title, table) in zip(panels, tables):
+        values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
+        reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
+        panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
+        for (row, column), value in np.ndenumerate(values):
+            panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
+        panel.set_xticks(range(len(rows)), labels, fontsize=8)
+        panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
+        panel.set_title(f"change of the {title}, %")
+        panel.grid(False)
+        panel.tick_params(length=0)
+        panel.spines[:].set_visible(False)
 
 
 def _cell(percent, nothing):

@@ -1,14 +1,13 @@
-"""All sections of a report, in their order."""
+"""All sections of a report, in their order, and the page: one HTML file that needs nothing else."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ..extras import needed
 from ..scene import Scene
-from ..values import FileName
+from ..values import DifferentialError, FileName
 from . import energy, errors, forces, gears, head, pattern, setup, strength, summary, traces, waterfall, worth
-from .page import page
-from .page import write as write_page
+from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
 # (part of the work that is done, what comes next)
@@ -40,6 +39,20 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     if not quick:
         progress(EFFECTS, "effects that are off")
         sections.append(worth.section(run, lambda done: progress(EFFECTS + done * (1.0 - EFFECTS), "effects that are off")))
-    written = write_page(page(run, sections), file)
+    try:
+        Path(file).write_text(page(run, sections), encoding="utf-8")
+    except OSError as error:
+        raise DifferentialError(f"{file}: {error.strerror}") from None
     progress(1.0, "done")
-    return written
+    return Path(file)
+
+
+def page(run: Simulated, sections: Sequence[Section]) -> str:
+    """The page as text."""
+    jinja2 = needed("jinja2", "report")
+    # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
+    environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.tests.update(text=lambda block: isinstance(block, Text), table=lambda block: isinstance(block, Table),
+                             picture=lambda block: isinstance(block, Picture))
+    return environment.get_template("template.html").render(scene=run.scene, sections=sections) + "\n"
