@@ -23,8 +23,7 @@ from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
 from bevel_differential.optimise.report import scene_text, standing, write_gears
 from bevel_differential.optimise.search import Store, search
-from bevel_differential.statistic import Statistic
-from bevel_differential.want import Want
+from bevel_differential.want import Statistic, Want
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SCENE = """description = "one spring per mesh, loaded"

@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..output_file import checked, checked_picture
     from ..progress import shown
     from ..values import DifferentialError
-    from .question import accuracy
+    from . import accuracy
 
     # before the work, not after it
     for file in (arguments.csv, arguments.write, arguments.ssv, arguments.python):

@@ -36,8 +36,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
-    from ..designs.report import text
-    from ..designs.sweep import sweep
+    from ..designs.sweep import sweep, text
     from ..scene import Scene
     from ..values import DifferentialError
 

@@ -3,9 +3,10 @@
 import pickle
 import queue
 import sys
+import threading
 import time
 from collections import deque
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing
 from typing import Any, Protocol, Self, TypeVar
@@ -14,7 +15,6 @@ from ..extras import needed
 from ..values import DifferentialError, Number
 from . import cluster
 from .task import Row
-from .worker import evaluated
 
 # time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
 SHORTEST, LONGEST = 0.1, 1.0
@@ -158,3 +158,16 @@ def _with_bar(rows, total):
     # who stops early closes what is returned, and with it the rows: designs under way are cancelled
     with closing(rows):
         yield from needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+
+
+# on a worker, of this thread, as an instance belongs to one: the last task, and how it was packed
+_own = threading.local()
+
+
+def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
+    """Rows of a chunk, on a worker. The task comes packed with each chunk; it is kept for the next ones, and with it the FMU's instance."""
+    if getattr(_own, "packed", None) != packed:
+        if hasattr(_own, "task"):
+            _own.task.close()
+        _own.task, _own.packed = pickle.loads(packed), packed
+    return [_own.task.evaluate(run, values) for run, values in chunk]

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 
 from ..designs.farm import Farm
 from ..designs.task import Row, Task
-from ..statistic import Statistic
 from ..values import DifferentialError, Number
-from ..want import Condition, Want
+from ..want import Condition, Statistic, Want
 from .pair import Pair, violations
 from .problem import Problem
 from .quantities import QUANTITIES

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..statistic import COARSEST, figures
 from ..values import DifferentialError
+from ..want import COARSEST, figures
 from . import style, words
 from .blocks import Picture, Section
 from .simulated import Simulated

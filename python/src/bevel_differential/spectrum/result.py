@@ -9,8 +9,7 @@ import numpy as np
 
 from ..values import DifferentialError, FileName
 from .damage import MODES, EventDamage
-from .slow import SlowCycles
-from .sn import Strength
+from .slow import SlowCycles, Strength
 
 HOUR, KM = 3600.0, 1000.0
 NAMES = ("planet root", "side root", "planet flank", "side flank")

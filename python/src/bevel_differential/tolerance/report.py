@@ -8,10 +8,9 @@ from pathlib import Path
 from ..text import aligned
 from ..values import FileName
 from ..want import Condition
-from .figures import Estimate, Spread, proportion
+from .figures import Estimate, Spread, proportion, verdicts
 from .plan import Plan
 from .study import Indices, Result
-from .verdict import verdicts
 
 
 def text(plan: Plan, result: Result) -> str:
