@@ -26,6 +26,10 @@ def shown(how: str = "bar") -> Iterator[Progress]:
         yield told
 
 
+def silent(done: float, what: str) -> None:
+    """Shows nothing."""
+
+
 def part(progress: Progress, begin: float, end: float) -> Progress:
     """The same for a part of the work, which goes from `begin` to `end` of the whole."""
     return lambda done, what: progress(begin + done * (end - begin), what)

@@ -9,12 +9,12 @@ from collections import deque
 from collections.abc import Generator, Iterable, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing
-from typing import Any, Protocol, Self, TypeVar
+from typing import Any, Self
 
 from ..extras import needed
 from ..values import DifferentialError, Number
 from . import cluster
-from .task import Row
+from .task import Row, Task
 
 # time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
 SHORTEST, LONGEST = 0.1, 1.0
@@ -24,20 +24,6 @@ LAST_CHUNKS = 4
 AT_HAND = 2
 # time without any worker after which none will come any more, s
 DESERTED = 60.0
-
-
-R = TypeVar("R", bound=Row)
-R_co = TypeVar("R_co", bound=Row, covariant=True)
-
-
-class Evaluator(Protocol[R_co]):
-    """What a farm evaluates designs by: a `Task`, or what can do the same. It can be pickled."""
-
-    def evaluate(self, run: int, values: Mapping[str, Number]) -> R_co:
-        """The row of a design."""
-
-    def close(self) -> None:
-        """Frees what it holds."""
 
 
 class Farm:
@@ -65,11 +51,11 @@ class Farm:
             self._client = None
             self._opened.__exit__(None, None, None)
 
-    def evaluate(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> list[R]:
+    def evaluate(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> list[Row]:
         """Rows of all designs [(run, values)], in order of run."""
         return sorted(self.rows(task, designs), key=lambda row: row.run)
 
-    def rows(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[R, None, None]:
+    def rows(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[Row, None, None]:
         """Rows as they complete. `task`: a `Task`, or what has its `evaluate` and `close` and can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()

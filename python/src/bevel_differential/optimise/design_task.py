@@ -3,7 +3,7 @@ richer models of the same scene."""
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from ..designs.farm import Farm
@@ -29,7 +29,8 @@ class DesignRow(Row):
 
     def flat(self) -> dict:
         """As a row of a table."""
-        return {**super().flat(), "violation": self.violation, "refused": "; ".join(self.refused)}
+        return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
+                "seconds": self.seconds, "violation": self.violation, "refused": "; ".join(self.refused)}
 
 
 class DesignTask(Task):
@@ -58,10 +59,16 @@ class DesignTask(Task):
             self._judge(row)
         except DifferentialError as error:
             row.message = str(error)
-            self._fails(row, {_refusal(row.message): 1.0}, 1)
+            self.failed(row)
         row.feasible = not row.refused
         row.seconds = time.perf_counter() - begun
         return row
+
+    def failed(self, row: Row) -> DesignRow:
+        """The row of a design of which there are no figures, for the reason in its message."""
+        found = row if isinstance(row, DesignRow) else DesignRow(row.run, row.values, message=row.message)
+        self._fails(found, {_refusal(found.message): 1.0}, 1)
+        return found
 
     def _judge(self, row):
         complete = self.problem.complete(row.values)
@@ -158,12 +165,18 @@ class Confirmed:
         return told
 
 
+def evaluated(farm: Farm, task: DesignTask, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Iterator[DesignRow]:
+    """Rows as they complete. Of a design whose worker process died each time the farm knows no more than that."""
+    for row in farm.rows(task, designs):
+        yield row if isinstance(row, DesignRow) else task.failed(row)
+
+
 def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm: Farm) -> list[Confirmed]:
     """Runs rows with each model of the problem; with models for chosen designs alone only those."""
     found: dict[int, dict[str, DesignRow]] = {row.run: {} for row in rows}
     for name, model in problem.confirm.items():
         task = DesignTask(problem.at(model), thorough=True)
         wanted = chosen if model.only_chosen else rows
-        for row in farm.evaluate(task, [(row.run, row.values) for row in wanted]):
+        for row in evaluated(farm, task, [(row.run, row.values) for row in wanted]):
             found[row.run][name] = row
     return [Confirmed(row, found[row.run]) for row in rows]

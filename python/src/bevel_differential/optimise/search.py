@@ -20,7 +20,7 @@ from pymoo.problems.static import StaticProblem
 from ..designs.farm import Farm
 from ..designs.space import Dimension, Space
 from ..values import DifferentialError, FileName, Number
-from .design_task import DesignRow, DesignTask
+from .design_task import DesignRow, DesignTask, evaluated
 from .front import costs, front, thinned
 from .problem import Problem
 
@@ -169,8 +169,7 @@ def _evaluated(designs, task, farm, store):
     numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
     try:
-        for row in farm.rows(task, numbered):
-            arrived.append(row)
+        arrived.extend(evaluated(farm, task, numbered))
     finally:
         rows = sorted([*store.rows.values(), *arrived], key=lambda row: row.run)
         store.rows = {tuple(row.values.values()): row for row in rows}

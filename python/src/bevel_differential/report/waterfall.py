@@ -1,9 +1,9 @@
 """The waterfall of a run-up: orders of the transmission error against speed, with the orders that theory expects."""
 
-from collections.abc import Callable
-
 import numpy as np
 
+from ..answers import Progress
+from ..progress import silent
 from ..values import DifferentialError
 from . import style, words
 from .blocks import Picture, Section, Table
@@ -20,13 +20,14 @@ DECADES = 3.0
 UM, RPM = 1e6, 30.0 / np.pi
 
 
-def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
+def section(run: Simulated, progress: Progress = silent) -> Section:
     """The picture and the table of orders, or why there are none."""
     found = Section("waterfall", "Waterfall of a run-up")
     if not run.has_pairs:
         found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
                   "nothing is excited at mesh orders, at any speed.")
         return found
+    progress(0.0, "the run-up")
     try:
         up = run_up(run, progress)
         expected = theory(run, up.ratio)

@@ -2,11 +2,12 @@
 
 import re
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..answers import Progress
+from ..progress import silent
 from ..values import DifferentialError, Number
 from . import style, words
 from .blocks import Picture, Section, Table
@@ -47,7 +48,7 @@ class Tried:
         return any(abs(change) > self.nothing for change in (*self.mean.values(), *self.swing.values()))
 
 
-def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
+def section(run: Simulated, progress: Progress = silent) -> Section:
     """A run for each effect that is off, and one with all of them."""
     found = Section("worth", "What is switched off, and what it is worth")
     variables = run.scene.fmu.variables
@@ -57,12 +58,12 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
     found.say(_named(run, switches, off))
     if not there:
         return found
+    progress(0.0, "effects that are off")
     tried = [attempt(run, CONTROL, {TOLERANCE: 0.5 * float(run.value(TOLERANCE))})]
     for place, name in enumerate(there):
-        progress(place / (len(there) + 1))
+        progress(place / (len(there) + 1), "effects that are off")
         tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
     tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
-    progress(1.0)
     if any(one.changes for one in tried if one.name != CONTROL):
         found.add(Picture("worth", _draw(tried), _caption(tried)))
     found.add(_table(run, tried))

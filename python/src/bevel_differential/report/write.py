@@ -1,17 +1,16 @@
 """All sections of a report, in their order, and the page: one HTML file that needs nothing else."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
+from ..answers import Progress
 from ..extras import needed
+from ..progress import part, silent
 from ..scene import Scene
 from ..values import DifferentialError, FileName
 from . import energy, errors, forces, gears, head, pattern, setup, strength, summary, traces, waterfall, worth
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
-
-# (part of the work that is done, what comes next)
-Progress = Callable[[float, str], object]
 
 # sections that need no other run, before and after those that do
 FIRST = (head.section, setup.section, gears.section, summary.section, traces.section, forces.section, errors.section)
@@ -20,7 +19,7 @@ LAST = (pattern.section, strength.section, energy.section)
 PICTURES, RUN_UP, REST, EFFECTS = 0.05, 0.3, 0.5, 0.65
 
 
-def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress = lambda done, what: None) -> Path:
+def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress = silent) -> Path:
     """Simulates `scene` and writes its report to `file`; returns its path.
 
     `quick` leaves out the run-up and the effects that are off, which need other runs. Raises `DifferentialError` with the FMU's
@@ -32,13 +31,11 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     progress(PICTURES, "pictures")
     sections = [section(run) for section in FIRST]
     if not quick:
-        progress(RUN_UP, "the run-up")
-        sections.append(waterfall.section(run, lambda done: progress(RUN_UP + done * (REST - RUN_UP), "the run-up")))
+        sections.append(waterfall.section(run, part(progress, RUN_UP, REST)))
     progress(REST, "pictures")
     sections += [section(run) for section in LAST]
     if not quick:
-        progress(EFFECTS, "effects that are off")
-        sections.append(worth.section(run, lambda done: progress(EFFECTS + done * (1.0 - EFFECTS), "effects that are off")))
+        sections.append(worth.section(run, part(progress, EFFECTS, 1.0)))
     try:
         Path(file).write_text(page(run, sections), encoding="utf-8")
     except OSError as error:
