@@ -8,20 +8,18 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Effect:
-    """One effect of the list."""
+    """One effect of the list.
+
+    `name`: as its parameters begin, such as half_shaft. `switch`: such as effects.half_shaft; None: an input commands it. `inputs`
+    that it adds, with values that make it act; `example`: parameters that make it visible. `heat`: output with the heat that it
+    makes. `contact`: levels of gear contact that it works with."""
 
     name: str
-    """As its parameters begin: half_shaft."""
     switch: str | None
-    """effects.half_shaft; None: an input commands it."""
     inputs: dict
-    """Inputs that it adds, with values that make it act."""
     example: dict
-    """Parameters that make it visible."""
     heat: str | None
-    """Output with the heat that it makes."""
     contact: tuple
-    """Levels of gear contact that it works with."""
 
     @property
     def on(self):

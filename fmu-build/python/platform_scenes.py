@@ -2,6 +2,8 @@
 
 import tomllib
 
+from bevel_differential.scene_file import flat
+
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 ENDS = {"inertia.left_end": 0.2, "inertia.right_end": 0.2}
 # seconds of a scene that are compared
@@ -34,11 +36,3 @@ def all_scenes(folder, effects):
         duration = min(float(scene["stop_time"]), LONGEST)
         yield (f"scenes/{file.name}", flat(scene["set"]), [flat(event) for event in scene.get("at", [])],
                scene.get("table", []), duration)
-
-
-def flat(table, prefix=""):
-    """A TOML table of tables as one with dotted names."""
-    values = {}
-    for key, value in table.items():
-        values |= flat(value, f"{prefix}{key}.") if isinstance(value, dict) else {prefix + key: value}
-    return values

@@ -12,7 +12,7 @@ from interrupts import with_interrupts
 
 from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
-from bevel_differential.statistic import Statistic, figures
+from bevel_differential.want import Statistic, figures
 
 # long enough to be stopped in the middle: seconds of the richest model
 LONG = {"stop_time": "5 s", "step": "1 ms"}

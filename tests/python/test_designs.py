@@ -7,8 +7,7 @@ from scipy import stats
 from bevel_differential import DifferentialError, Fmu, Scene
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
-from bevel_differential.statistic import Statistic
-from bevel_differential.want import Condition, Want
+from bevel_differential.want import Condition, Statistic, Want
 
 SEEDS = {"tooth_errors.seed": "seed"}
 VARIED = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "line, line_weber", "geometry.planet_teeth": "8..11", **SEEDS}

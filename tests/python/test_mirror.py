@@ -20,7 +20,7 @@ import test_steps
 from bevel_differential import DifferentialError
 from braking import BRAKED, brakes, drive_torque
 from driving import BIAS, GIVEN, STEADY_TURN, TURN, UNLOADED
-from platform_scenes import flat
+from bevel_differential.scene_file import flat
 from symmetry import Image
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"

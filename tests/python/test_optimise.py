@@ -16,17 +16,14 @@ from pymoo.indicators.hv import HV
 from bevel_differential import DifferentialError, Fmu, Scene
 from bevel_differential.command import main
 from bevel_differential.designs.farm import Farm
-from bevel_differential.optimise import cad, confirm, front
-from bevel_differential.optimise.checks import tool_room, violations
-from bevel_differential.optimise.design_task import DesignRow, DesignTask
-from bevel_differential.optimise.pair import Pair
+from bevel_differential.optimise import front
+from bevel_differential.optimise.design_task import DesignRow, DesignTask, confirm
+from bevel_differential.optimise.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
-from bevel_differential.optimise.report import standing
-from bevel_differential.optimise.search import search
-from bevel_differential.optimise.store import Store
-from bevel_differential.statistic import Statistic
-from bevel_differential.want import Want
+from bevel_differential.optimise.report import scene_text, standing, write_gears
+from bevel_differential.optimise.search import Store, search
+from bevel_differential.want import Statistic, Want
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SCENE = """description = "one spring per mesh, loaded"
@@ -303,7 +300,7 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
     task.close()
     assert row.feasible, row
     with Farm(0) as farm:
-        told = confirm.confirm([row], [], problem, farm)[0]
+        told = confirm([row], [], problem, farm)[0]
     model = "elastic bodies"
     settings = {**problem.scene.values, **problem.complete(good), **problem.confirm[model].settings}
     scene = problem.scene.__getstate__()
@@ -328,10 +325,10 @@ def test_a_run_without_a_whole_mesh_cycle_is_no_quiet_design(fmu_file):
 def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     best, _ = found(two.sized(population=12, generations=6), folder / "out")
     file = folder / "chosen.toml"
-    file.write_text(cad.scene_text(two, best[0], "the lightest \"one\""), encoding="utf-8")
+    file.write_text(scene_text(two, best[0], "the lightest \"one\""), encoding="utf-8")
     with Scene.load(file, fmu=two.scene.fmu.file) as scene:
         assert scene.final(["safety.root_min"])["safety.root_min"] == best[0].figures["safety.root_min:final"]
-    assert cad.write_gears(two, best[0], folder / "gears") in (True, False)
+    assert write_gears(two, best[0], folder / "gears") in (True, False)
     dimensions = (folder / "gears/dimensions.json").read_text(encoding="utf-8")
     assert f"{two.objectives[0].want.name}" not in dimensions
     files = ("planet_left_flank_heel.txt", "planet.step", "assembly.step", "side_gear.dxf")

@@ -7,9 +7,8 @@ import pytest
 from bevel_differential import Scene
 from bevel_differential.report import pattern
 from bevel_differential.report.gears import pair_of
-from bevel_differential.report.limits import limits
 from bevel_differential.report.simulated import Simulated
-from bevel_differential.report.strength import section
+from bevel_differential.report.strength import limits, section
 from driving import CARRIER, STEADY_TURN
 
 # between communication points stresses may be higher by this, and at their largest they are met by this at least

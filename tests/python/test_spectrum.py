@@ -9,7 +9,7 @@ from duty_cycles import FLANKS, HEAD, ROOTS, spectrum_of
 
 from bevel_differential import Differential, DifferentialError
 from bevel_differential.spectrum import Event, spectrum
-from bevel_differential.spectrum.load_spectrum import curves, rolling_spectrum, standing_spectrum
+from bevel_differential.spectrum.picture import curves, rolling_spectrum, standing_spectrum
 from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
 
 # the FMU's start values, by the standards that docs/theory.md names

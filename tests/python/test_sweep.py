@@ -18,7 +18,7 @@ from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, store
 from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
-from bevel_differential.designs.table import Columns, digest
+from bevel_differential.designs.store import Columns, digest
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python" / "src"
 RUNS = 1000

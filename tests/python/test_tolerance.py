@@ -9,15 +9,13 @@ from scipy import stats
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Dimension, Farm, Row, Task
-from bevel_differential.statistic import Statistic
+from bevel_differential.want import Statistic
 from bevel_differential.tolerance import command
 from bevel_differential.tolerance.factor import Factor, Reader
-from bevel_differential.tolerance.figures import Spread, gain, proportion
-from bevel_differential.tolerance.grade import Gear, gears
-from bevel_differential.tolerance.laws import Given, RunoutGrade, band
+from bevel_differential.tolerance.figures import Spread, gain, proportion, verdicts
+from bevel_differential.tolerance.laws import Gear, Given, RunoutGrade, band, gears
 from bevel_differential.tolerance.plan import Plan
 from bevel_differential.tolerance.study import Alternative, Study
-from bevel_differential.tolerance.verdict import verdicts
 from bevel_differential.want import Condition, Want
 
 TURN = {"scene.carrier_drive": "torque", "carrier.torque_command": "1670 N.m", "scene.left_drive": "speed",
@@ -105,8 +103,8 @@ def files(tmp_path):
 
 def test_tolerances_are_those_of_the_standard_s_equations():
     gear = Gear(diameter=0.1, module=5e-3, teeth=20)
-    assert [1e6 * each(4) for each in (gear.single_pitch, gear.cumulative_pitch, gear.runout)] == pytest.approx([6.8, 23.0, 18.4])
-    for of in (gear.single_pitch, gear.cumulative_pitch, gear.runout):
+    assert [1e6 * each(4) for each in (gear.cumulative_pitch, gear.runout)] == pytest.approx([23.0, 18.4])
+    for of in (gear.cumulative_pitch, gear.runout):
         assert of(7) / of(6) == pytest.approx(math.sqrt(2.0)) and of(11) / of(2) == pytest.approx(2.0**4.5)
 
 

@@ -11,7 +11,7 @@ from .batches import Batches
 from .extras import needed
 from .fmu import Fmu
 from .inputs import Inputs, Signals
-from .instance import DISCARD, Instance
+from .instance import DISCARD, Closing, Instance
 from .plot import plot
 from .points import Steps, TimeValue, span
 from .values import DifferentialError, DifferentialWarning, FileName, Number, Value, Variable
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
 
 
-class Differential:
+class Differential(Closing):
     """A bevel gear differential with its parameters.
 
     Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
@@ -125,12 +125,6 @@ class Differential:
             self._instances.own = Instance(self.fmu)
             self._all.append(self._instances.own)
         return self._instances.own
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def __getstate__(self) -> dict[str, Any]:
         # to other processes go the values alone

@@ -1,6 +1,7 @@
-"""Packages that only some uses need."""
+"""Packages that only some uses need, and the version of this one."""
 
 import importlib
+import importlib.metadata
 from types import ModuleType
 
 from .values import DifferentialError
@@ -17,3 +18,11 @@ def needed(module: str, extra: str) -> ModuleType:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:
         raise DifferentialError(install(missing.name or module, extra)) from None
+
+
+def version() -> str | None:
+    """Version of the package; sources that are not installed have none."""
+    try:
+        return importlib.metadata.version("bevel-differential")
+    except importlib.metadata.PackageNotFoundError:
+        return None

@@ -21,7 +21,20 @@ DISCARD = 2
 KINDS = {"CoSimulation": (FMU2Slave, "coSimulation"), "ModelExchange": (FMU2Model, "modelExchange")}
 
 
-class Instance:
+class Closing:
+    """What is freed by `close`, or at the end of a `with` statement."""
+
+    def close(self) -> None:
+        """Frees it."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Instance(Closing):
     """One instance of the FMU, driven call by call; `Fmu.open` makes it. It must be used by one thread at a time.
 
     Values are written as in `Differential` and read in SI. What the FMU refuses is a `DifferentialError` with the FMU's message
@@ -193,9 +206,3 @@ class Instance:
         # of a thread that has ended, or where nobody has closed it
         if getattr(self, "_component", None):
             self.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()

@@ -1,6 +1,5 @@
 """Progress of long work: a bar on the terminal, or lines for a program that shows it itself."""
 
-import argparse
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -8,13 +7,6 @@ from contextlib import contextmanager
 from tqdm import tqdm
 
 from .answers import Progress
-
-HOW = ("bar", "lines", "none")
-
-
-def add_progress(parser: argparse.ArgumentParser) -> None:
-    """How progress is shown."""
-    parser.add_argument("--progress", choices=HOW, default="bar", help=argparse.SUPPRESS)
 
 
 @contextmanager
@@ -32,6 +24,10 @@ def shown(how: str = "bar") -> Iterator[Progress]:
             bar.refresh()
 
         yield told
+
+
+def silent(done: float, what: str) -> None:
+    """Shows nothing."""
 
 
 def part(progress: Progress, begin: float, end: float) -> Progress:

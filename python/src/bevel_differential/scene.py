@@ -1,6 +1,5 @@
 """Scenes: what to set, what to feed in and what to record."""
 
-import csv
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
@@ -11,8 +10,10 @@ from .differential import Differential, as_frame
 from .extras import needed
 from .fmu import Fmu
 from .inputs import Signals, Table, Values, input_variable
+from .instance import Closing
 from .plot import plot
 from .points import Steps, TimeValue, seconds, span
+from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
 from .values import DifferentialError, FileName, Number, Value
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Scene:
+class Scene(Closing):
     """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
@@ -128,12 +129,8 @@ class Scene:
     def to_csv(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI, with the units in a comment; numbers read back to the same bits."""
         units = [self.fmu.variable(name).unit or "1" for name in _outputs(record)]
-        with open(file, "w", newline="", encoding="utf-8") as out:
-            out.write(f"# scene {self.name}: {self.description}\n# units: s,{','.join(units)}\n")
-            writer = csv.writer(out, lineterminator="\n")
-            writer.writerow(["time", *_outputs(record)])
-            writer.writerows(record.tolist())
-        return Path(file)
+        return write(file, record.dtype.names or (), record.tolist(), f"scene {self.name}: {self.description}",
+                     f"units: s,{','.join(units)}")
 
     def to_parquet(self, record: np.ndarray, file: FileName) -> Path:
         """Writes a record in SI as Parquet; fields name their units."""
@@ -164,12 +161,6 @@ class Scene:
     def close(self) -> None:
         """Frees all instances."""
         self._differential.close()
-
-    def __enter__(self) -> Self:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
 
     def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,

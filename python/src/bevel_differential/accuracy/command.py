@@ -4,22 +4,16 @@ import argparse
 import time
 from pathlib import Path
 
-from ..command.arguments import add_set, once
-
-HELP = "find the cheapest model that gives wanted quantities to an accuracy, and say why"
-EXTRA = "plot"
+from ..command.arguments import add_progress, add_scene, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    from ..progress import add_progress
-
-    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
+    add_scene(parser)
     parser.add_argument("--want", metavar="OUTPUT[:STATISTIC]", action="append", default=[],
                         help="a quantity, such as left.speed:mean; may be repeated (start value: all outputs of the scene)")
     parser.add_argument("--within", metavar="PERCENT", required=True, help="the accuracy that it needs, such as 1%%")
     parser.add_argument("--from", metavar="TIME", dest="from_", help="judge outputs from this time on, such as 10ms")
-    add_set(parser)
     parser.add_argument("--csv", metavar="FILE", help="write a table of all that was tried")
     parser.add_argument("--plot", metavar="FILE", help="draw error against cost (PNG, SVG or PDF)")
     parser.add_argument("--write", metavar="FILE", help="write the scene with the chosen setting (TOML)")
@@ -34,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..output_file import checked, checked_picture
     from ..progress import shown
     from ..values import DifferentialError
-    from .question import accuracy
+    from . import accuracy
 
     # before the work, not after it
     for file in (arguments.csv, arguments.write, arguments.ssv, arguments.python):

@@ -1,5 +1,5 @@
-"""The command `bevel-differential`. Each sub-command is a module with HELP (one line), EXTRA (what it needs of this package's
-extras, or None), `add_arguments(parser)` and `run(arguments) -> exit status`. Only the module that is asked for is imported."""
+"""The command `bevel-differential`. Each sub-command is a module with `add_arguments(parser)` and `run(arguments) -> exit status`.
+Only the module that is asked for is imported."""
 
 import argparse
 import importlib
@@ -11,13 +11,26 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from ..extras import install
+from ..text import aligned
 from ..values import DifferentialError, DifferentialWarning, suggestion
 
 NAME = "bevel-differential"
-COMMANDS = {"run": ".command.run", "plan": ".command.plan", "accuracy": ".accuracy.command", "report": ".report.command",
-            "loads": ".command.loads", "geometry": ".command.geometry", "pattern": ".pattern.command", "sweep": ".command.sweep",
-            "optimise": ".optimise.command", "tolerance": ".tolerance.command", "spectrum": ".spectrum.command",
-            "study": ".study.command", "page": ".command.page"}
+# module, the extra of this package that it needs, what it does
+COMMANDS = {
+    "run": (".command.run", None, "simulate a scene"),
+    "plan": (".command.plan", None, "say what a scene simulates, or list the scenes; write a scene for other hosts"),
+    "accuracy": (".accuracy.command", "plot", "find the cheapest model that gives wanted quantities to an accuracy, and say why"),
+    "report": (".report.command", "report", "write a report of a scene: one HTML file with figures, tables and what they say"),
+    "loads": (".command.loads", None, "record the force on each loaded tooth pair of a scene, for FEA"),
+    "geometry": (".command.geometry", None, "calculate all dimensions of the gears, check them for interference, make files for CAD"),
+    "pattern": (".pattern.command", "plot", "show the contact pattern of solid teeth: pressure on the planet's flank over one engagement"),
+    "sweep": (".command.sweep", "sweep", "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"),
+    "optimise": (".optimise.command", "design", "optimise gears by several objectives at once"),
+    "tolerance": (".tolerance.command", "design", "what manufacturing tolerances do: spread of figures, yield, and which tolerance is worth its money"),
+    "spectrum": (".spectrum.command", "design", "damage and life of the gears over a duty cycle: events with counts, torque and speeds"),
+    "study": (".study.command", "report", "simulate the published study's two cases and compare them with it and with theory"),
+    "page": (".command.page", None, "open the differential live in a browser"),
+}
 PACKAGE = __package__.partition(".")[0]
 # exit statuses: what fails while running, wrong use, Ctrl-C
 FAILED, WRONG_USE, INTERRUPTED = 1, 2, 130
@@ -53,11 +66,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(name, arguments):
     if name not in COMMANDS:
         return _said(f"there is no command {name!r}{suggestion(name, COMMANDS)}; known: {', '.join(COMMANDS)}", WRONG_USE)
-    extra = None
+    place, extra, what = COMMANDS[name]
     try:
-        module = importlib.import_module(COMMANDS[name], PACKAGE)
-        extra = module.EXTRA
-        parser = Parser(prog=f"{NAME} {name}", description=module.HELP)
+        module = importlib.import_module(place, PACKAGE)
+        parser = Parser(prog=f"{NAME} {name}", description=what)
         module.add_arguments(parser)
         try:
             parsed = parser.parse_args(arguments)
@@ -74,17 +86,8 @@ def _run(name, arguments):
 
 
 def _overview():
-    lines = [(name, _help(module)) for name, module in COMMANDS.items()]
-    width = max(len(name) for name in COMMANDS)
-    return "\n".join([f"usage: {NAME} COMMAND ...", "", *(f"  {name.ljust(width)}  {text}" for name, text in lines), "",
-                      f"{NAME} COMMAND --help says what a command takes."])
-
-
-def _help(module):
-    try:
-        return importlib.import_module(module, PACKAGE).HELP
-    except ModuleNotFoundError as missing:
-        return f"({install(missing.name, 'design')})"
+    lines = aligned([("", name, what) for name, (_, _, what) in COMMANDS.items()], 3)
+    return "\n".join([f"usage: {NAME} COMMAND ...", "", *lines, "", f"{NAME} COMMAND --help says what a command takes."])
 
 
 def _said(what, status):

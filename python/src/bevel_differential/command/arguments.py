@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterable
+from typing import Any
 
 from ..values import DifferentialError
 
@@ -33,3 +34,26 @@ def add_set(parser: argparse.ArgumentParser) -> None:
     """Values that differ from the scene's."""
     parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")
+
+
+def add_scene(parser: argparse.ArgumentParser) -> None:
+    """The scene, and values that differ from its own."""
+    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
+    add_set(parser)
+
+
+def add_farm(parser: argparse.ArgumentParser) -> None:
+    """Who evaluates many designs."""
+    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (start value: one per core; 0: this process)")
+    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
+
+
+def farm(arguments: argparse.Namespace) -> dict[str, Any]:
+    """The same as `Farm` takes it."""
+    return {"workers": arguments.workers, "processes": not arguments.threads, "scheduler": arguments.scheduler}
+
+
+def add_progress(parser: argparse.ArgumentParser) -> None:
+    """How progress is shown."""
+    parser.add_argument("--progress", choices=("bar", "lines", "none"), default="bar", help=argparse.SUPPRESS)

@@ -2,10 +2,8 @@
 
 import argparse
 
-from .arguments import add_set, once
+from .arguments import add_progress, add_set, once
 
-HELP = "calculate all dimensions of the gears, check them for interference, make files for CAD"
-EXTRA = None
 _WHAT = {"step": "solids for CAD", "stl": "meshes", "3mf": "meshes for printing", "glb": "meshes for viewers of glTF",
          "dxf": "drawings and curves in space"}
 
@@ -13,8 +11,6 @@ _WHAT = {"step": "solids for CAD", "stl": "meshes", "3mf": "meshes for printing"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
     from ..cad import KINDS, PARTS
-    from ..progress import add_progress
-
     add_set(parser)
     for kind in KINDS:
         parser.add_argument(f"--{kind}", action="append_const", dest="kinds", const=kind, help=f"write {_WHAT[kind]} (extra cad)")

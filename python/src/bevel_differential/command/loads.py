@@ -2,18 +2,12 @@
 
 import argparse
 
-from .arguments import add_set, once
-
-HELP = "record the force on each loaded tooth pair of a scene, for FEA"
-EXTRA = None
+from .arguments import add_progress, add_scene, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    from ..progress import add_progress
-
-    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
-    add_set(parser)
+    add_scene(parser)
     parser.add_argument("--every", metavar="TIME", help="time between records, such as 0.1ms (start value: the scene's "
                                                         "communication step)")
     parser.add_argument("--out", metavar="FILE", required=True, help="the CSV file to write")

@@ -7,8 +7,6 @@ from pathlib import Path
 
 from ..values import DifferentialError
 
-HELP = "open the differential live in a browser"
-EXTRA = None
 FILE = "BevelDifferential.html"
 
 

@@ -5,9 +5,6 @@ from pathlib import Path
 
 from .arguments import add_set, once
 
-HELP = "say what a scene simulates, or list the scenes; write a scene for other hosts"
-EXTRA = None
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""

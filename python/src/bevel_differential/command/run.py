@@ -3,16 +3,12 @@
 import argparse
 from collections.abc import Callable
 
-from .arguments import add_fmu, add_set, once
-
-HELP = "simulate a scene"
-EXTRA = None
+from .arguments import add_fmu, add_scene, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
-    add_set(parser)
+    add_scene(parser)
     parser.add_argument("--stop", metavar="TIME", help="another end, such as \"0.2 s\"")
     parser.add_argument("--output", metavar="NAME", action="append", help="what to record, instead of the scene's outputs")
     parser.add_argument("--csv", metavar="FILE", help="write the record as CSV, in SI")

@@ -3,10 +3,8 @@
 import argparse
 from pathlib import Path
 
-from .arguments import add_fmu, add_set, assignment, once
+from .arguments import add_farm, add_fmu, add_set, assignment, farm, once
 
-HELP = "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"
-EXTRA = "sweep"
 # what a plan file may have, and what each option is called
 KEYS = {"scene": "scene", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
@@ -32,16 +30,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="FILE", help="results as Parquet")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="start over where there are results")
-    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (start value: one per core; 0: this process)")
-    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
+    add_farm(parser)
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
-    from ..designs.report import text
-    from ..designs.sweep import sweep
+    from ..designs.sweep import sweep, text
     from ..scene import Scene
     from ..values import DifferentialError
 
@@ -51,8 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
     with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
         scene.set(given["set"])
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
-                       given["start"], arguments.out, arguments.resume, arguments.force, workers=arguments.workers,
-                       processes=not arguments.threads, scheduler=arguments.scheduler, progress=True)
+                       given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
         print(text(result, asked=given.get("runs")))
     return 0
 

@@ -3,18 +3,18 @@
 import pickle
 import queue
 import sys
+import threading
 import time
 from collections import deque
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Generator, Iterable, Mapping, Sequence
 from concurrent.futures import CancelledError
 from contextlib import closing
-from typing import Any, Protocol, Self, TypeVar
+from typing import Any, Self
 
 from ..extras import needed
 from ..values import DifferentialError, Number
 from . import cluster
-from .task import Row
-from .worker import evaluated
+from .task import Row, Task
 
 # time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
 SHORTEST, LONGEST = 0.1, 1.0
@@ -24,20 +24,6 @@ LAST_CHUNKS = 4
 AT_HAND = 2
 # time without any worker after which none will come any more, s
 DESERTED = 60.0
-
-
-R = TypeVar("R", bound=Row)
-R_co = TypeVar("R_co", bound=Row, covariant=True)
-
-
-class Evaluator(Protocol[R_co]):
-    """What a farm evaluates designs by: a `Task`, or what can do the same. It can be pickled."""
-
-    def evaluate(self, run: int, values: Mapping[str, Number]) -> R_co:
-        """The row of a design."""
-
-    def close(self) -> None:
-        """Frees what it holds."""
 
 
 class Farm:
@@ -65,11 +51,11 @@ class Farm:
             self._client = None
             self._opened.__exit__(None, None, None)
 
-    def evaluate(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> list[R]:
+    def evaluate(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> list[Row]:
         """Rows of all designs [(run, values)], in order of run."""
         return sorted(self.rows(task, designs), key=lambda row: row.run)
 
-    def rows(self, task: Evaluator[R], designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[R, None, None]:
+    def rows(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[Row, None, None]:
         """Rows as they complete. `task`: a `Task`, or what has its `evaluate` and `close` and can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _Run(self._client, task, designs).rows()
@@ -158,3 +144,16 @@ def _with_bar(rows, total):
     # who stops early closes what is returned, and with it the rows: designs under way are cancelled
     with closing(rows):
         yield from needed("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
+
+
+# on a worker, of this thread, as an instance belongs to one: the last task, and how it was packed
+_own = threading.local()
+
+
+def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
+    """Rows of a chunk, on a worker. The task comes packed with each chunk; it is kept for the next ones, and with it the FMU's instance."""
+    if getattr(_own, "packed", None) != packed:
+        if hasattr(_own, "task"):
+            _own.task.close()
+        _own.task, _own.packed = pickle.loads(packed), packed
+    return [_own.task.evaluate(run, values) for run, values in chunk]

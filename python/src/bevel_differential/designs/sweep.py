@@ -1,7 +1,6 @@
-"""Sweeps: all designs of a plan."""
+"""Sweeps: all designs of a plan, and what they found as text."""
 
 import hashlib
-import importlib.metadata
 import json
 import time
 from collections import Counter
@@ -12,21 +11,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
+from ..extras import version
 from ..points import TimeValue, seconds
 from ..scene import Scene
+from ..text import aligned
 from ..values import DifferentialError, FileName
 from ..want import Condition, Want
 from .farm import Farm
 from .plan import Plan
 from .space import Given, Space
-from .store import Store, StoreError
-from .table import Columns, digest, metadata_of, with_metadata
+from .store import Columns, Store, StoreError, digest, metadata_of, with_metadata
 from .task import Task
 
 if TYPE_CHECKING:
     import pandas
+
+# messages that are listed
+MOST_MESSAGES = 5
 
 
 class Stopped(KeyboardInterrupt):
@@ -122,7 +126,7 @@ def describe(task: Task, plan: Plan) -> dict[str, Any]:
     """What results follow from, for their metadata; "hash" is the hash of it all."""
     scene = {key: value for key, value in task.scene.__getstate__().items() if key != "fmu"}
     from_all = {
-        "version": _version(),
+        "version": version() or "not installed",
         "fmu": task.scene.fmu.sha256,
         "scene": scene,
         "vary": {one.variable: str(one) for one in plan.space.dimensions},
@@ -137,8 +141,36 @@ def describe(task: Task, plan: Plan) -> dict[str, Any]:
     return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
 
 
-def _version():
-    try:
-        return importlib.metadata.version("bevel-differential")
-    except importlib.metadata.PackageNotFoundError:
-        return "not installed"
+
+def text(result: SweepResult, asked: int | None = None) -> str:
+    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: runs that were asked for."""
+    table, metadata = result.table, result.metadata
+    lines = [f"runs      {table.num_rows}"]
+    if asked is not None and asked != table.num_rows:
+        lines[0] += f" ({asked} asked for; a Sobol sequence has a power of two)"
+    failures = result.failures()
+    lines.append(f"failed    {failures.total()}")
+    common = failures.most_common()
+    lines += [f"  {count:>6}  {' '.join(message.split())}" for message, count in common[:MOST_MESSAGES]]
+    if len(common) > MOST_MESSAGES:
+        lines.append(f"  {sum(count for _, count in common[MOST_MESSAGES:]):>6}  {len(common) - MOST_MESSAGES} other messages")
+    lines.append(f"feasible  {pc.sum(table['feasible']).as_py() or 0}")
+    if metadata["conditions"]:
+        lines[-1] += f" ({'; '.join(metadata['conditions'])})"
+    lines += ["", *_ranges(result), ""]
+    if result.new:
+        lines.append(f"{result.new} runs in {result.seconds:.1f} s: {result.new / result.seconds:.1f} designs/s")
+    if result.new < table.num_rows:
+        lines.append(f"{table.num_rows - result.new} runs were kept from before")
+    lines.append("rows are not kept: name a file by --out" if result.file is None else f"written: {result.file}")
+    return "\n".join(lines)
+
+
+def _ranges(result):
+    """Least, mean and greatest value of each figure, SI, aligned."""
+    rows = [("figure", "unit", "min", "mean", "max")]
+    for name in result.metadata["figures"]:
+        column, unit = result.table[name], result.unit(name)
+        found = [pc.min(column).as_py(), pc.mean(column).as_py(), pc.max(column).as_py()]
+        rows.append((name, "" if unit == "1" else unit, *("-" if one is None else f"{one:.6g}" for one in found)))
+    return aligned(rows)

@@ -3,7 +3,6 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from ..points import SLACK
 from ..scene import Scene
@@ -24,11 +23,6 @@ class Row:
     feasible: bool = False
     message: str = ""
     seconds: float = 0.0
-
-    def flat(self) -> dict[str, Any]:
-        """As a row of a table."""
-        return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
-                "seconds": self.seconds}
 
 
 class Task:

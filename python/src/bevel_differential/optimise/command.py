@@ -4,10 +4,8 @@ import argparse
 import sys
 from pathlib import Path
 
-from ..command.arguments import add_fmu
+from ..command.arguments import add_farm, add_fmu, farm
 
-HELP = "optimise gears by several objectives at once"
-EXTRA = "design"
 # effort of --quick: enough for a front, not for a good one
 QUICK = {"population": 32, "generations": 12, "starts": 1}
 
@@ -22,8 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, help="of all random numbers; the same seed gives the same front")
     parser.add_argument("--quick", action="store_true", help="a small search; only the chosen designs are confirmed")
     parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
-    parser.add_argument("--workers", type=int, help="worker processes (start value: one per core; 0: none)")
-    parser.add_argument("--scheduler", help="address of a dask scheduler")
+    add_farm(parser)
     add_fmu(parser)
 
 
@@ -31,7 +28,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Optimises. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.farm import Farm
     from .problem import Problem
-    from .store import Store
+    from .search import Store
+
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu).sized(**{**(QUICK if arguments.quick else {}), **effort})
@@ -40,20 +38,18 @@ def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or Path("target/optimise") / arguments.problem.stem
     store = Store(out, problem, arguments.resume)
     try:
-        with Farm(arguments.workers, scheduler=arguments.scheduler) as farm:
-            _optimise(arguments, problem, out, store, farm)
+        with Farm(**farm(arguments)) as workers:
+            _optimise(arguments, problem, out, store, workers)
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
                                 f"{out / 'front.csv'}; go on by --resume") from None
     return 0
 
 
-def _optimise(arguments, problem, out, store, farm):
-    from .confirm import Confirmed, confirm
-    from .design_task import DesignTask
+def _optimise(arguments, problem, out, store, workers):
+    from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
-    from .picture import picture
-    from .report import choice_table, standing, to_csv
+    from .report import LETTERS, choice_table, picture, scene_text, standing, to_csv, write_gears
     from .search import search
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
@@ -63,12 +59,14 @@ def _optimise(arguments, problem, out, store, farm):
               flush=True)
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
 
-    compared = _compared(problem, DesignTask(problem, thorough=True))
-    best = search(problem, farm, store, each)
+    task = DesignTask(problem, thorough=True)
+    with task.scene:
+        compared = {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
+    best = search(problem, workers, store, each)
     rows = thinned(best, problem.objectives, problem.front)
     reasons = choice(rows, problem.objectives, next(iter(compared.values()), None))
     chosen = [row for _, row in reasons]
-    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, farm)}
+    confirmed = {each.row.run: each for each in confirm(chosen if arguments.quick else rows, chosen, problem, workers)}
     to_csv(confirmed.values(), problem, out / "front.csv")
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
     told = [standing(name, row, best, problem) for name, row in compared.items()]
@@ -76,13 +74,10 @@ def _optimise(arguments, problem, out, store, farm):
     (out / "choice.md").write_text(table + "".join(f"\n{line}\n" for line in told), encoding="utf-8")
     picture(rows, chosen, compared, problem, out / "front.png")
     print("\n".join(["", table, *told]))
-    _for_cad(problem, out, reasons)
-
-
-def _compared(problem, task):
-    """Rows of the designs that are shown beside the front."""
-    with task.scene:
-        return {name: task.evaluate(-1 - k, values) for k, (name, values) in enumerate(problem.compare.items())}
+    for letter, (reason, row) in zip(LETTERS, reasons):
+        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
+        free = write_gears(problem, row, out / letter)
+        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")
 
 
 def _held(confirmed, problem):
@@ -96,13 +91,3 @@ def _held(confirmed, problem):
             spans.append(f"{objective.want} by {min(changes):+.1f} to {max(changes):+.1f} %")
         yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
                f"{', '.join(spans)}")
-
-
-def _for_cad(problem, out, reasons):
-    """Scene files of the chosen designs, and their gears."""
-    from .cad import scene_text, write_gears
-    from .report import LETTERS
-    for letter, (reason, row) in zip(LETTERS, reasons):
-        (out / f"{letter}.toml").write_text(scene_text(problem, row, f"design {letter}, {reason}"), encoding="utf-8")
-        free = write_gears(problem, row, out / letter)
-        print(f"{letter}: gears in {out / letter}; they turn {'freely' if free else 'with INTERFERENCE'}")

@@ -1,18 +1,18 @@
-"""What an optimisation does for each design: checks of its dimensions first, then the run."""
+"""What an optimisation does for each design: checks of its dimensions first, then the run. Designs of a front run once more, with
+richer models of the same scene."""
 
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from ..designs.farm import Farm
 from ..designs.task import Row, Task
-from ..statistic import Statistic
 from ..values import DifferentialError, Number
-from ..want import Condition, Want
-from .checks import violations
-from .pair import Pair
+from ..want import Condition, Statistic, Want
+from .pair import Pair, violations
 from .problem import Problem
-from .quantities import QUANTITIES, Catalogue
+from .quantities import QUANTITIES
 
 # what the FMU warns of and a design must not have: gears that do not fit, pins and washers that do not
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
@@ -29,7 +29,8 @@ class DesignRow(Row):
 
     def flat(self) -> dict:
         """As a row of a table."""
-        return {**super().flat(), "violation": self.violation, "refused": "; ".join(self.refused)}
+        return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
+                "seconds": self.seconds, "violation": self.violation, "refused": "; ".join(self.refused)}
 
 
 class DesignTask(Task):
@@ -40,8 +41,7 @@ class DesignTask(Task):
 
     def __init__(self, problem: Problem, thorough: bool = False):
         self.problem, self.thorough = problem, thorough
-        self.wanted = list(dict.fromkeys([*(each.want for each in problem.objectives),
-                                          *(each.want for each in problem.conditions)]))
+        self.wanted = problem.wants
         self.on_dimensions = [each for each in problem.conditions if _on_dimensions(each.want)]
         self.on_figures = [each for each in problem.conditions if not _on_dimensions(each.want)]
         final = Statistic("final")
@@ -49,7 +49,7 @@ class DesignTask(Task):
         simulated += [Want(name, final) for want in self.wanted if want.name in QUANTITIES
                       for name in QUANTITIES[want.name].outputs]
         super().__init__(problem.scene, simulated or [Want("geometry.contact_ratio", final)])
-        self.known = {**Catalogue(problem.scene.fmu).starts(), **problem.scene.values}
+        self.known = problem.known({})
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> DesignRow:
         """The row of a design."""
@@ -59,10 +59,16 @@ class DesignTask(Task):
             self._judge(row)
         except DifferentialError as error:
             row.message = str(error)
-            self._fails(row, {_refusal(row.message): 1.0}, 1)
+            self.failed(row)
         row.feasible = not row.refused
         row.seconds = time.perf_counter() - begun
         return row
+
+    def failed(self, row: Row) -> DesignRow:
+        """The row of a design of which there are no figures, for the reason in its message."""
+        found = row if isinstance(row, DesignRow) else DesignRow(row.run, row.values, message=row.message)
+        self._fails(found, {_refusal(found.message): 1.0}, 1)
+        return found
 
     def _judge(self, row):
         complete = self.problem.complete(row.values)
@@ -132,3 +138,45 @@ def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
 def _refusal(message: str) -> str:
     """What a message is about: the parameter at its beginning, without the figures of this design."""
     return message.partition(": ")[0].partition(" = ")[0]
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """A design and its rows by model: names of [[confirm]]."""
+
+    row: DesignRow
+    models: dict[str, DesignRow]
+
+    def difference(self, model: str, want: str) -> float:
+        """What the model changes of a figure, relative to the search's own; NaN where the model did not run."""
+        first = self.row.figures[want]
+        other = self.models[model].figures.get(want, float("nan")) if model in self.models else float("nan")
+        return other / first - 1.0 if first else float("nan")
+
+    def flat(self, problem: Problem) -> dict:
+        """As a row of a table: the design, what follows from it, and for each model figures, differences and what it breaks."""
+        told = {**self.row.flat(), **problem.complete(self.row.values)}
+        for model, row in self.models.items():
+            for each in problem.objectives:
+                want = str(each.want)
+                told[f"{want} | {model}"] = row.figures.get(want, float("nan"))
+                told[f"{want} | {model}, difference"] = self.difference(model, want)
+            told[f"breaks | {model}"] = "; ".join(row.refused)
+        return told
+
+
+def evaluated(farm: Farm, task: DesignTask, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Iterator[DesignRow]:
+    """Rows as they complete. Of a design whose worker process died each time the farm knows no more than that."""
+    for row in farm.rows(task, designs):
+        yield row if isinstance(row, DesignRow) else task.failed(row)
+
+
+def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm: Farm) -> list[Confirmed]:
+    """Runs rows with each model of the problem; with models for chosen designs alone only those."""
+    found: dict[int, dict[str, DesignRow]] = {row.run: {} for row in rows}
+    for name, model in problem.confirm.items():
+        task = DesignTask(problem.at(model), thorough=True)
+        wanted = chosen if model.only_chosen else rows
+        for row in evaluated(farm, task, [(row.run, row.values) for row in wanted]):
+            found[row.run][name] = row
+    return [Confirmed(row, found[row.run]) for row in rows]

@@ -1,7 +1,8 @@
-"""Planet and side gear in closed form: cones, heights, lands and contact, by the formulas of src/geometry.
+"""Planet and side gear in closed form: cones, heights, lands and contact, by the formulas of src/geometry, and its checks, graded.
 
-The FMU decides what can be built. These formulas say by how much a design misses it, and dimension what stands around the gears.
-Terms of ISO 23509:2016. Planet first, then side gear, in all pairs of values."""
+The FMU decides what can be built, and says only that a design is refused or warned of. A search needs to know which of two designs
+is nearer to a good one: these formulas say by how much a design misses it, and dimension what stands around the gears. Terms of
+ISO 23509:2016. Planet first, then side gear, in all pairs of values."""
 
 import math
 from collections.abc import Mapping
@@ -12,6 +13,10 @@ from math import atan2, cos, pi, sin, tan
 STANDARD, GLEASON, ISO_23509, EXPLICIT = 1, 2, 3, 4
 # Gleason's constant part of the clearance, m
 GLEASON_CLEARANCE = 0.05e-3
+NAMES = ("planet", "side gear")
+# limits of src/geometry/checks.rs: face width over R_e by ISO 23509 practice, tip land and rim in modules
+FACE_WIDTH, LAND, RIM = 1.0 / 3.0, 0.2, 2.0
+LEAST_INNER_CONE, LEAST_ROOT_ANGLE = 0.1, 0.02
 
 
 @dataclass(frozen=True)
@@ -131,3 +136,50 @@ def heights(given: Mapping) -> tuple[tuple[float, float], tuple[float, float]]:
     addenda = (2.0 * module - large, large)
     dedenda = (whole - addenda[0], whole - addenda[1])
     return (addenda, dedenda) if teeth[0] <= teeth[1] else (addenda[::-1], dedenda[::-1])
+
+
+def violations(pair: Pair) -> dict[str, float]:
+    """Excess over each limit that is broken, relative to it or to the module, by name of the check; empty for a sound pair."""
+    module, found = pair.module, {}
+    if 2 * pair.gears[1].teeth % pair.planets:
+        # whole numbers have no near miss
+        found["assembly"] = 1.0
+    _note(found, "toe", LEAST_INNER_CONE - pair.inner_cone / pair.outer_cone)
+    for i, (gear, mate) in enumerate(zip(pair.gears, pair.gears[::-1])):
+        _note(found, f"root cone of the {NAMES[i]}", (LEAST_ROOT_ANGLE - gear.root) / LEAST_ROOT_ANGLE)
+        _note(found, f"tip of the {NAMES[i]} strikes a root", (gear.addendum - mate.dedendum) / module, closed=True)
+        _note(found, f"thickness of the {NAMES[i]}'s teeth", -gear.half_pitch * gear.teeth, closed=True)
+    if found:
+        # the shapes below need teeth
+        return found
+    for i, gear in enumerate(pair.gears):
+        _note(found, f"bore of the {NAMES[i]}", (0.5 * gear.bore - pair.toe_root(i)) / module, closed=True)
+        _note(found, f"tip land of the {NAMES[i]}", LAND - pair.land(i) / module)
+        toe_module = module * pair.inner_cone / pair.outer_cone
+        if gear.bore > 0.0:
+            _note(found, f"rim of the {NAMES[i]}", (RIM - pair.rim(i) / toe_module) / RIM)
+        # the side gear's tip undercuts the planet, and the other way round
+        _note(found, f"undercut of the {NAMES[1 - i]}", pair.addendum_over_limit(i) * pair.outer_cone / module)
+    _note(found, "planets strike each other", -pair.between_planets())
+    _note(found, "face width", pair.face_width / pair.outer_cone / FACE_WIDTH - 1.0)
+    _note(found, "contact ratio", 1.0 - pair.contact_ratio)
+    return found
+
+
+def tool_room(pair: Pair, tool_radius: float) -> float:
+    """Room for the rounded tip of the tool that cuts the roots, in modules; below 0 a tip radius of ρ modules does not fit.
+
+    Of a basic rack with pressure angle α, clearance c and depth h below the pitch line (ISO 53): the straight flank must reach
+    down to the working depth, ρ ≤ c/(m (1 − sin α)), and the tip be wide enough, ρ ≤ (π/4 − h/m tan α) cos α/(1 − sin α)."""
+    planet, side = pair.gears
+    alpha, shift = pair.pressure_angle, 0.5 * (planet.addendum - side.addendum)
+    clearance = min(planet.dedendum - side.addendum, side.dedendum - planet.addendum) / pair.module
+    depth = max(planet.dedendum + shift, side.dedendum - shift) / pair.module
+    widest = (0.25 * pi - depth * tan(alpha)) * cos(alpha)
+    return min(clearance, widest) / (1.0 - sin(alpha)) - tool_radius
+
+
+def _note(found, name, excess, closed=False):
+    """Notes an excess above 0; `closed`: equality breaks the limit too."""
+    if excess > 0.0 or (closed and excess == 0.0):
+        found[name] = max(excess, 1e-9)

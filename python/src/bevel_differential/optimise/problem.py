@@ -111,9 +111,13 @@ class Problem:
         """Of a file. All errors in it are reported at once."""
         return _Reader(Path(file), Fmu.of(fmu)).problem()
 
+    def known(self, values: Mapping[str, Number]) -> dict[str, Number]:
+        """All parameters by name, SI: these values, else those of the scene, else those of the FMU."""
+        return {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
+
     def complete(self, values: Mapping[str, Number]) -> dict[str, Number]:
         """A design with the parameters that follow from it."""
-        known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
+        known = self.known(values)
         followed = {}
         for follower in self.followers:
             followed[follower.name] = known[follower.name] = follower.of(known)
@@ -129,18 +133,21 @@ class Problem:
 
     def sized(self, **effort: int) -> "Problem":
         """The same problem with another population, generations, starts, seed or front."""
-        changed: dict[str, Any] = {**effort}
-        problem = replace(self, **changed)
+        problem = replace(self, **effort)
         for key, least in EFFORT.items():
             if getattr(problem, key) < least:
                 raise DifferentialError(f"{key} = {getattr(problem, key)}: it is {least} or more")
         return problem
 
+    @property
+    def wants(self) -> list[Want]:
+        """What objectives and conditions are about, each once."""
+        return list(dict.fromkeys(each.want for each in (*self.objectives, *self.conditions)))
+
     def rates_start(self) -> str:
         """Which wanted figures are those of a start out of equilibrium, and what helps; empty where none is."""
-        wants = [each.want for each in [*self.objectives, *self.conditions]]
-        rated = list(dict.fromkeys(want.name for want in wants if want.name.startswith(RATED)))
-        known = {**Catalogue(self.scene.fmu).starts(), **self.scene.values}
+        rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)))
+        known = self.known({})
         settled = known["scene.start"] == self.scene.fmu.variable("scene.start").literals["equilibrium"]
         chosen = {each.variable for each in self.space.dimensions} | {each.name for each in self.followers}
         if not rated or settled or known["strength.rate_from"] > 0.0 or "strength.rate_from" in chosen:
@@ -164,7 +171,7 @@ class _Reader:
     def __init__(self, file: Path, fmu):
         self.file, self.fmu, self.catalogue = file, fmu, Catalogue(fmu)
         self.found = read_toml(file)
-        self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in self.found.keys() - KEYS]
+        self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(self.found.keys() - KEYS)]
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
 
     def problem(self) -> Problem:

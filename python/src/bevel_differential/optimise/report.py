@@ -1,15 +1,17 @@
-"""Tables of a front and of the designs to choose from."""
+"""What is shown and written of a front: tables, a picture, and chosen designs for other programs, as scene files and gears."""
 
+import json
 from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
+from .. import cad
+from ..answers import ask, assignments
 from ..values import FileName
-from .confirm import Confirmed
-from .design_task import DesignRow
+from .design_task import Confirmed, DesignRow
 from .front import costs, dominates
 from .pair import heights
-from .problem import Problem
+from .problem import Objective, Problem
 from .quantities import Catalogue
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
@@ -25,11 +27,10 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     columns = [each.row for _, each in chosen] + list(compared.values())
     lines = [["", *(LETTERS[k] for k in range(len(chosen))), *compared]]
     catalogue = Catalogue(problem.scene.fmu)
-    known = [_with_heights({**catalogue.starts(), **problem.scene.values, **problem.complete(row.values)}) for row in columns]
+    known = [_with_heights(problem.known(problem.complete(row.values))) for row in columns]
     for name in problem.space.names:
         lines.append(_line(catalogue, name, name, [each[name] for each in known]))
-    wants = dict.fromkeys([*(str(each.want) for each in problem.objectives), *(str(each.want) for each in problem.conditions)])
-    for want in wants:
+    for want in map(str, problem.wants):
         lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
                            [row.figures.get(want) for row in columns]))
         for model in problem.confirm if want in {str(each.want) for each in problem.objectives} else ():
@@ -76,5 +77,85 @@ def _shown(variable, value):
     if value is None:
         return ""
     if variable.literals:
-        return next(literal for literal, number in variable.literals.items() if number == value)
+        return variable.written(value)
     return f"{variable.shown(value)[1]:.4g}" if variable.kind in ("Real", "Integer") else str(value).lower()
+
+
+def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem,
+            file: FileName) -> None:
+    """Draws the front in panels, with the chosen designs by letter and the compared ones as stars; PNG."""
+    from .. import style
+    objectives, catalogue = problem.objectives, Catalogue(problem.scene.fmu)
+    across = next((each for each in objectives if each.sign > 0.0), objectives[0])
+    others = [each for each in objectives if each is not across]
+    compared = {name: row for name, row in compared.items() if all(str(each.want) in row.figures for each in objectives)}
+    def shown(rows, objective):
+        variable = catalogue.variable(objective.want.name)
+        return [variable.shown(row.figures[str(objective.want)])[1] for row in rows]
+
+    better = _dominating(front, compared, objectives)
+    plain = [row for row in front if row not in better]
+    with style.styled():
+        figure, panels = style.panels(1, len(others), 4.8, squeeze=False)
+        for panel, up in zip(panels[0], others):
+            panel.plot(shown(plain, across), shown(plain, up), "o", ms=3.5, color=style.GREY, label="front")
+            if better:
+                panel.plot(shown(better, across), shown(better, up), "o", ms=4.5, color=style.BLUE,
+                           label="front, better in all than a compared design")
+            for k, (name, row) in enumerate(compared.items()):
+                panel.plot(shown([row], across), shown([row], up), "*", ms=14, color=(style.RED, style.GREEN, style.BROWN)[k % 3],
+                           label=name + (" (breaks conditions)" if row.refused else ""))
+            for letter, x, y in zip(LETTERS, shown(chosen, across), shown(chosen, up)):
+                panel.plot([x], [y], "o", ms=8, mfc="none", mec=style.INK)
+                panel.annotate(letter, (x, y), xytext=(5, 5), textcoords="offset points", fontweight="bold")
+            panel.set(xlabel=_label(catalogue, across), ylabel=_label(catalogue, up))
+        handles, labels = panels[0][0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
+        style.save(figure, file)
+
+
+def _label(catalogue, objective: Objective) -> str:
+    unit = catalogue.variable(objective.want.name).shown(0.0)[0]
+    better = "less" if objective.sign > 0.0 else "more"
+    name = str(objective.want).removesuffix(":final").replace("_transmission_error", "\n_transmission_error")
+    return f"{name}{f', {unit}' if unit else ''}\n({better} is better)"
+
+
+def _dominating(front, compared, objectives):
+    olds = costs(list(compared.values()), objectives)
+    return [row for row, cost in zip(front, costs(front, objectives)) if any(dominates(cost, old) for old in olds)]
+
+
+def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
+    """The problem's scene with the design in it, as a scene file."""
+    scene = problem.scene
+    held = scene.contents({**scene.values, **problem.complete(row.values)})
+    lines = [*_entries({**held, "description": description}, "description", "stop_time", "step", "outputs"), "", "[set]",
+             *_entries(held["set"])]
+    for kind in ("at", "table"):
+        for entry in held[kind]:
+            lines += ["", f"[[{kind}]]", *_entries(entry)]
+    return "\n".join(lines) + "\n"
+
+
+def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
+    """Writes dimensions and curves of the design's gears, and with the extra `cad` solids, meshes and drawings; whether the check
+    with fillets finds them free of interference."""
+    kinds = ("step", "glb", "dxf") if cad.available() else ()
+    found = ask({"ask": "geometry", "set": settings(problem, row), "solids": bool(kinds)})
+    cad.write(found, folder, kinds)
+    return not found["interference"]
+
+
+def settings(problem: Problem, row: DesignRow) -> list[str]:
+    """What the design's gears have otherwise than the FMU's own, each "name=value"."""
+    fmu = problem.scene.fmu
+    values = {**problem.scene.values, **problem.complete(row.values)}
+    changed = {name: value for name, value in values.items()
+               if name.startswith("geometry.") and value != fmu.variable(name).start or name == "effects.backlash" and not value}
+    return assignments({name: fmu.variable(name).written(value) for name, value in changed.items()})
+
+
+def _entries(table, *names):
+    """Lines of a table: what JSON writes of numbers, texts, truths and lists is TOML as well."""
+    return [f"{name} = {json.dumps(table[name], ensure_ascii=False)}" for name in names or table]

@@ -1,10 +1,14 @@
-"""The search: NSGA-II of pymoo on the unit cube, a generation at a time."""
+"""The search: NSGA-II of pymoo on the unit cube, a generation at a time; and the folder with all designs that were evaluated, so that
+it can go on."""
 
 import itertools
+import json
 from collections import Counter
 from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from pymoo.algorithms.moo.nsga2 import NSGA2
 from pymoo.core.evaluator import Evaluator
 from pymoo.core.problem import Problem as PymooProblem
@@ -15,16 +19,65 @@ from pymoo.problems.static import StaticProblem
 
 from ..designs.farm import Farm
 from ..designs.space import Dimension, Space
-from ..values import DifferentialError
-from .design_task import DesignRow, DesignTask
+from ..values import DifferentialError, FileName, Number
+from .design_task import DesignRow, DesignTask, evaluated
 from .front import costs, front, thinned
 from .problem import Problem
-from .store import Store
 
 # index of the distribution of mutations, less is wider: whole numbers need steps as wide as their cells
 WIDTH = 8
 # cost of a design that is not feasible
 OUT_OF_REACH = 1e30
+EVALUATIONS, PROBLEM = "evaluations.parquet", "problem.json"
+
+
+class Store:
+    """Rows of a problem in a folder. `rows`: by the values of a design, in order of run."""
+
+    def __init__(self, folder: FileName, problem: Problem, resume: bool = False):
+        self.folder, self.problem = Path(folder), problem
+        self.rows: dict[tuple[Number, ...], DesignRow] = {}
+        if resume:
+            self._read()
+        elif (self.folder / EVALUATIONS).exists():
+            raise DifferentialError(f"{self.folder} has results already: go on by --resume, or name another folder by --out")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise DifferentialError(f"{self.folder}: {error.strerror}; name another folder by --out") from None
+        (self.folder / PROBLEM).write_text(json.dumps({"key": problem.key, "description": problem.description}, indent=1) + "\n",
+                                           encoding="utf-8")
+
+    def save(self) -> None:
+        """Writes all rows. A file is replaced as a whole, so that an interruption leaves the one before."""
+        table = pd.DataFrame([row.flat() for row in self.rows.values()])
+        part = self.folder / f"{EVALUATIONS}.part"
+        table.to_parquet(part, index=False)
+        part.replace(self.folder / EVALUATIONS)
+
+    def _read(self):
+        try:
+            key = json.loads((self.folder / PROBLEM).read_text(encoding="utf-8"))["key"]
+            table = pd.read_parquet(self.folder / EVALUATIONS)
+        except (OSError, ValueError, KeyError, TypeError) as error:
+            raise DifferentialError(f"{self.folder} has no results to go on from ({error}); leave out --resume") from None
+        if key != self.problem.key:
+            raise DifferentialError(f"{self.folder} has the results of another problem, scene, seed or FMU; name another "
+                                    "folder by --out")
+        for row in rows_of(table, self.problem.space):
+            self.rows[tuple(row.values.values())] = row
+
+
+def rows_of(table: pd.DataFrame, space: Space) -> list[DesignRow]:
+    """Rows from a table as `save` writes it."""
+    figures = [name for name in table.columns if ":" in name]
+    rows = []
+    for entry in table.to_dict("records"):
+        rows.append(DesignRow(entry["run"], {name: entry[name] for name in space.names},
+                              {name: entry[name] for name in figures if pd.notna(entry[name])}, entry["feasible"],
+                              entry["message"], entry["seconds"], entry["violation"],
+                              tuple(entry["refused"].split("; ")) if entry["refused"] else ()))
+    return rows
 
 
 class _Cells(Repair):
@@ -116,8 +169,7 @@ def _evaluated(designs, task, farm, store):
     numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
     try:
-        for row in farm.rows(task, numbered):
-            arrived.append(row)
+        arrived.extend(evaluated(farm, task, numbered))
     finally:
         rows = sorted([*store.rows.values(), *arrived], key=lambda row: row.run)
         store.rows = {tuple(row.values.values()): row for row in rows}

@@ -3,16 +3,11 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_set, once
-
-HELP = "show the contact pattern of solid teeth: pressure on the planet's flank over one engagement"
-EXTRA = "plot"
+from ..command.arguments import add_progress, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    from ..progress import add_progress
-
     parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names, with solid teeth (start value: the study's "
                                                                    "turn, aligned and with one thing out of place at a time)")
     add_set(parser)

@@ -2,16 +2,11 @@
 
 import argparse
 
-from ..command.arguments import add_fmu, add_set, once
-
-HELP = "write a report of a scene: one HTML file with figures, tables and what they say"
-EXTRA = "report"
+from ..command.arguments import add_fmu, add_progress, add_set, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    from ..progress import add_progress
-
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene")
     # as it was called before
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)

@@ -4,8 +4,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..statistic import COARSEST, figures
 from ..values import DifferentialError
+from ..want import COARSEST, figures
 from . import style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
@@ -63,18 +63,17 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
     return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
 
 
-def _draw(run, part, orders, sizes):
-    with style.styled():
-        picture = style.figure(2.6 if orders is None else 3.0)
-        panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
-        panels[0].plot(run.time, UM * run.series(SIGNAL), color=style.BLUE)
-        panels[0].set(xlabel="time, s", ylabel="transmission error, µm", title="planet 1 with the left side gear")
-        if orders is not None:
-            panels[0].axvspan(run.time[part][0], run.time[part][-1], color=style.GREEN, alpha=0.12, lw=0)
-            panels[1].bar(orders, UM * sizes, color=style.BLUE, width=0.5)
-            panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders, yscale="log")
-            panels[1].set_ylim(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0)
-        return style.svg(picture, "error")
+@style.drawn("error")
+def _draw(picture, run, part, orders, sizes):
+    picture.set_figheight(2.6 if orders is None else 3.0)
+    panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
+    panels[0].plot(run.time, UM * run.series(SIGNAL), color=style.BLUE)
+    panels[0].set(xlabel="time, s", ylabel="transmission error, µm", title="planet 1 with the left side gear")
+    if orders is not None:
+        panels[0].axvspan(run.time[part][0], run.time[part][-1], color=style.GREEN, alpha=0.12, lw=0)
+        panels[1].bar(orders, UM * sizes, color=style.BLUE, width=0.5)
+        panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders, yscale="log")
+        panels[1].set_ylim(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0)
 
 
 def _over_time(run):

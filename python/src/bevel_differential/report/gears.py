@@ -5,10 +5,9 @@ from dataclasses import replace
 
 from ..optimise.pair import Pair
 from . import words
-from .axial import draw_section
 from .blocks import Picture, Section, Table
+from .drawings import draw_section, draw_teeth
 from .simulated import Simulated
-from .teeth import draw_teeth
 
 GEARS = ("planet", "side")
 
@@ -36,10 +35,6 @@ def _with_cones(run, gear, name):
     return replace(gear, pitch=pitch, base=base, tip=tip, root=root)
 
 
-def _mm(length):
-    return words.quantity(1e3 * length, "mm")
-
-
 def _deg(angle):
     return words.quantity(math.degrees(angle), "°").replace(" °", "°")
 
@@ -50,17 +45,17 @@ def _section_caption(pair):
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
             ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
-            f"{_mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes "
+            f"{words.mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones. Bodies end at planes "
             "through the root circles, as the FMU has them for masses.")
 
 
 def _teeth_caption(run, pair):
     planet, side = pair.gears
-    lands = [_mm(pair.land(i)) for i in (0, 1)]
+    lands = [words.mm(pair.land(i)) for i in (0, 1)]
     return ("Planet 1 (above) in mesh with the left side gear at the heel, seen from outside at the end of the run: spherical "
-            f"involutes of the base cones {_deg(planet.base)} and {_deg(side.base)}, on the sphere of {_mm(pair.outer_cone)} "
+            f"involutes of the base cones {_deg(planet.base)} and {_deg(side.base)}, on the sphere of {words.mm(pair.outer_cone)} "
             f"unrolled about the pitch point. Fillets at the roots are left out. Tip lands {lands[0]} and {lands[1]} wide; "
-            f"lash {words.quantity(1e3 * float(run.value('geometry.backlash')), 'mm')} along the pitch circles; contact ratio "
+            f"lash {words.mm(float(run.value('geometry.backlash')))} along the pitch circles; contact ratio "
             f"{words.number(run.constant('geometry.contact_ratio'))}. The dashed line is the line of action of one flank.")
 
 
@@ -70,19 +65,19 @@ def _table(run, pair):
             ("face angle (tip cone)", "δ_a", [_deg(gear.tip) for gear in pair.gears]),
             ("root angle", "δ_f", [_deg(gear.root) for gear in pair.gears]),
             ("base angle", "δ_b", [_deg(gear.base) for gear in pair.gears]),
-            ("outer pitch diameter", "d_e", [_mm(pair.module * gear.teeth) for gear in pair.gears]),
-            ("outside diameter", "d_ae", [_mm(pair.module * gear.teeth + 2.0 * gear.addendum * math.cos(gear.pitch))
+            ("outer pitch diameter", "d_e", [words.mm(pair.module * gear.teeth) for gear in pair.gears]),
+            ("outside diameter", "d_ae", [words.mm(pair.module * gear.teeth + 2.0 * gear.addendum * math.cos(gear.pitch))
                                           for gear in pair.gears]),
-            ("outer addendum", "h_ae", [_mm(gear.addendum) for gear in pair.gears]),
-            ("outer dedendum", "h_fe", [_mm(gear.dedendum) for gear in pair.gears]),
-            ("bore", "", [_mm(gear.bore) if gear.bore else "none" for gear in pair.gears]),
+            ("outer addendum", "h_ae", [words.mm(gear.addendum) for gear in pair.gears]),
+            ("outer dedendum", "h_fe", [words.mm(gear.dedendum) for gear in pair.gears]),
+            ("bore", "", [words.mm(gear.bore) if gear.bore else "none" for gear in pair.gears]),
             ("mass", "", [words.quantity(run.constant(f"geometry.{name}_mass"), "kg") for name in GEARS])]
-    one = [("outer transverse module", "m_et", _mm(pair.module)), ("normal pressure angle", "α_n", _deg(pair.pressure_angle)),
-           ("shaft angle", "Σ", _deg(run.value("geometry.shaft_angle"))), ("face width", "b", _mm(pair.face_width)),
-           ("outer cone distance", "R_e", _mm(pair.outer_cone)),
-           ("mean cone distance", "R_m", _mm(pair.outer_cone - 0.5 * pair.face_width)),
-           ("inner cone distance", "R_i", _mm(pair.inner_cone)),
-           ("outer transverse backlash", "j_et", _mm(float(run.value("geometry.backlash")))),
+    one = [("outer transverse module", "m_et", words.mm(pair.module)), ("normal pressure angle", "α_n", _deg(pair.pressure_angle)),
+           ("shaft angle", "Σ", _deg(run.value("geometry.shaft_angle"))), ("face width", "b", words.mm(pair.face_width)),
+           ("outer cone distance", "R_e", words.mm(pair.outer_cone)),
+           ("mean cone distance", "R_m", words.mm(pair.outer_cone - 0.5 * pair.face_width)),
+           ("inner cone distance", "R_i", words.mm(pair.inner_cone)),
+           ("outer transverse backlash", "j_et", words.mm(float(run.value("geometry.backlash")))),
            ("contact ratio", "ε_α", words.number(run.constant("geometry.contact_ratio"))),
            ("number of planets", "", str(pair.planets))]
     rows = [(name, symbol, *values) for name, symbol, values in both]

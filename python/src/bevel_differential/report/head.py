@@ -1,9 +1,8 @@
 """The head of a report: what was run with what, how long it took, and whether it can be trusted."""
 
-import importlib.metadata
-
 import numpy as np
 
+from ..extras import version
 from . import run_in, words
 from .blocks import Section, Table, Text
 from .simulated import Simulated
@@ -67,7 +66,7 @@ def _facts(run):
                        for name in SOLVER if name != "solver.fixed_step" or run.literal("solver.method") == "fixed_step")
     added = words.listed(run.added) if run.added else ""
     rows = [
-        ("package", f"bevel-differential {version()}"),
+        ("package", f"bevel-differential {version() or '(from sources)'}"),
         ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
         ("SHA-256 of the FMU", fmu.sha256),
         ("solver", f"{solver}; {steps}"),
@@ -86,10 +85,3 @@ def _facts(run):
 def _step(run):
     return words.quantity(1e3 * run.scene.step, "ms")
 
-
-def version() -> str:
-    """Version of the package; of sources that are not installed there is none."""
-    try:
-        return importlib.metadata.version("bevel-differential")
-    except importlib.metadata.PackageNotFoundError:
-        return "(from sources)"

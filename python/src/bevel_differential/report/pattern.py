@@ -113,7 +113,8 @@ def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longes
     return largest
 
 
-def _draw(run, pair: Pair, loaded):
+@style.drawn("pattern")
+def _draw(picture, run, pair: Pair, loaded):
     planet = pair.gears[0]
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
     root, tip = mean * (planet.root - planet.pitch), mean * (planet.tip - planet.pitch)
@@ -121,33 +122,31 @@ def _draw(run, pair: Pair, loaded):
     cones = pair.inner_cone + shares * pair.face_width
     largest = [envelope(contacts, heights, shares, 1.5 * run.scene.step) for _, contacts in loaded]
     top = max(contacts.most() for _, contacts in loaded) / MPA
-    with style.styled():
-        picture = style.figure(3.5 * len(loaded))
-        panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
-        for (flank, loads), (name, contacts), pressure in zip(panels, loaded, largest):
-            # all lengths of a tooth grow with the distance from the apex
-            place = MM * np.outer(heights, cones / mean)
-            mesh = flank.pcolormesh(np.broadcast_to(MM * cones, place.shape), place, np.ma.masked_less(pressure / MPA, 0.02 * top),
-                                    cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
-            ends = MM * cones[[0, -1]]
-            for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):
-                flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=style.GREY, ls=dash, lw=1.2)
-            for end in (0, -1):
-                flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
-            flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
-            flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
-            flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="center")
-            flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
-                      xlim=(ends[0] - 1.0, ends[1] + 3.0))
-            flank.set_aspect("equal")
-            flank.grid(False)
-            picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither").set_label("largest pressure, MPa")
-            scale, unit = style.kilo([contacts.force])
-            loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
-            loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
-                                                                                 "mm", ylim=(MM * root, MM * tip))
-            loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
-        return style.svg(picture, "pattern")
+    picture.set_figheight(3.5 * len(loaded))
+    panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
+    for (flank, loads), (name, contacts), pressure in zip(panels, loaded, largest):
+        # all lengths of a tooth grow with the distance from the apex
+        place = MM * np.outer(heights, cones / mean)
+        mesh = flank.pcolormesh(np.broadcast_to(MM * cones, place.shape), place, np.ma.masked_less(pressure / MPA, 0.02 * top),
+                                cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
+        ends = MM * cones[[0, -1]]
+        for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):
+            flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=style.GREY, ls=dash, lw=1.2)
+        for end in (0, -1):
+            flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
+        flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
+        flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
+        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="center")
+        flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
+                  xlim=(ends[0] - 1.0, ends[1] + 3.0))
+        flank.set_aspect("equal")
+        flank.grid(False)
+        picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither").set_label("largest pressure, MPa")
+        scale, unit = style.kilo([contacts.force])
+        loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
+        loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
+                                                                             "mm", ylim=(MM * root, MM * tip))
+        loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
 
 
 def _caption(name, contacts):

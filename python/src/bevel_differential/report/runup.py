@@ -1,10 +1,11 @@
 """A run-up of the scene's gears: speeds rise in a constant ratio, under loads that stay."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..answers import Progress
+from ..progress import silent
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from .simulated import Simulated
@@ -45,7 +46,7 @@ class RunUp:
     seconds: float
 
 
-def run_up(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> RunUp:
+def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     """Simulates it. Raises `DifferentialError` with the FMU's reason where it refuses."""
     ratio, why_ratio = ratio_of(run)
     loads, why_loads = loads_of(run)
@@ -137,7 +138,7 @@ def _simulate(scene: Scene, values, ratio, seconds, step, most, progress):
             instance.step(step)
             record[point] = (instance.time, *instance.read(RECORDED))
             if point % 1000 == 0:
-                progress(point / points)
+                progress(point / points, "the run-up")
             if point == points // 10 and 10.0 * instance.get("solver.rhs_calls") > most:
                 return None
     if not np.all(np.diff(np.abs(record[ANGLE])) > 0.0):

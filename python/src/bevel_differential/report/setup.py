@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..plot import by_unit, draw_panel
 from . import style, words
 from .blocks import Picture, Section, Table
 from .simulated import Simulated
@@ -49,20 +48,16 @@ def _values(run):
 
 
 def _inputs(run, names):
-    panels = by_unit(run.scene.fmu, run.record, names)
-    with style.styled():
-        picture = style.figure(PANEL * len(panels) + 0.6)
-        axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for panel, ((unit, _), curves) in zip(axes, panels.items()):
-            # the FMU holds an input between communication points
-            draw_panel(panel, run.time, unit, "held", curves)
-            panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))
-        axes[-1].set_xlabel("time, s")
-        written = style.svg(picture, "inputs")
     changes = []
     for name in names:
         values = run.shown(name)
-        unit = run.scene.fmu.variable(name).shown(0.0)[0]
-        changes.append(f"{name} between {words.number(values.min())} and {words.quantity(values.max(), unit)}, "
+        changes.append(f"{name} between {words.number(values.min())} and {words.quantity(values.max(), run.unit(name))}, "
                        f"{words.number(values[-1])} at the end")
-    return Picture("inputs", written, f"Inputs that change: {'; '.join(changes)}. All others are constant.")
+    return Picture("inputs", _draw(run, names), f"Inputs that change: {'; '.join(changes)}. All others are constant.")
+
+
+@style.drawn("inputs")
+def _draw(picture, run, names):
+    # the FMU holds an input between communication points
+    for panel in style.over_time(picture, run, names, PANEL, held=True):
+        panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))

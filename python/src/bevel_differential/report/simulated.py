@@ -63,8 +63,7 @@ class Simulated:
 
     def literal(self, name: str) -> str:
         """The name of the choice that a parameter is set to."""
-        literals = self.scene.fmu.variable(name).literals
-        return next(literal for literal, number in literals.items() if number == self.value(name))
+        return str(self.scene.fmu.variable(name).written(self.value(name)))
 
     def series(self, name: str) -> np.ndarray:
         """An output over time, SI, as floats."""
@@ -73,6 +72,10 @@ class Simulated:
     def shown(self, name: str) -> np.ndarray:
         """An output over time in the unit that it is usually shown in."""
         return self.scene.fmu.variable(name).shown(self.series(name))[1]
+
+    def unit(self, name: str) -> str:
+        """The unit that a variable is usually shown in."""
+        return self.scene.fmu.variable(name).shown(0.0)[0]
 
     def constant(self, name: str) -> float:
         """A calculated parameter, SI."""

@@ -1,10 +1,13 @@
-"""Stresses with the strengths that they are rated against, and safety."""
+"""Stresses that the rating uses, each with the strength that it is compared with (docs/theory.md, section 10), and safety."""
+
+import math
+from dataclasses import dataclass
 
 import numpy as np
 
+from ..spectrum.damage import pushed_along
 from . import run_in, style, words
 from .blocks import Picture, Section, Table
-from .limits import Limited, limits
 from .simulated import Simulated
 
 MPA = 1e6
@@ -16,6 +19,36 @@ RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
          ("damage.planet_flank", "Miner sum of pitting, worst planet"), ("damage.side_flank", "Miner sum of pitting, worse side "
                                                                                               "gear"))
+
+
+@dataclass(frozen=True)
+class Limited:
+    """A stress over time and its limit then, Pa; `output`: its name."""
+
+    output: str
+    stress: np.ndarray
+    limit: np.ndarray
+
+    def worst(self) -> int:
+        """The point at which the stress is the largest part of its limit."""
+        return int(np.argmax(self.stress / self.limit))
+
+
+def limits(run: Simulated) -> tuple[Limited, ...]:
+    """Flanks, roots of the planets, roots of the side gears."""
+    bending, contact = (np.full(len(run.time), float(run.value(f"strength.{kind}_strength"))) for kind in ("bending", "contact"))
+    # teeth of planets that roll are loaded on both flanks
+    planets = np.where(rolls(run), float(run.value("strength.idler_factor")), 1.0) * bending
+    return tuple(Limited(name, run.series(name), limit) for name, limit in zip(LABELS, (contact, planets, bending)))
+
+
+def rolls(run: Simulated) -> np.ndarray:
+    """At each point, whether a planet has rolled on since the one before: a tooth pitch of play is no rolling."""
+    pitch = 2.0 * math.pi / float(run.value("geometry.planet_teeth"))
+    found = np.zeros(len(run.time), dtype=bool)
+    for planet in range(1, int(run.value("geometry.planet_count")) + 1):
+        found[1:] |= pushed_along(run.series(f"planet[{planet}].spin_angle"), pitch) > 0.0
+    return found
 
 
 def section(run: Simulated) -> Section:
@@ -41,22 +74,20 @@ def section(run: Simulated) -> Section:
     return found
 
 
-def _draw(run, stresses: tuple[Limited, ...]):
-    with style.styled():
-        picture = style.figure(4.0)
-        upper, lower = picture.subplots(2, 1, sharex=True)
-        for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
-            top = 0.0
-            for each in rows:
-                label, colour = LABELS[each.output]
-                panel.plot(run.time, each.stress / MPA, color=colour, label=label)
-                top = max(top, float(np.max(each.stress)) / MPA, float(np.max(each.limit)) / MPA)
-                # rolling is told of the step that ends at a point
-                panel.step(run.time, each.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(each)}")
-            panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
-            panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-        lower.set_xlabel("time, s")
-        return style.svg(picture, "stress")
+@style.drawn("stress", 4.0)
+def _draw(picture, run, stresses: tuple[Limited, ...]):
+    upper, lower = picture.subplots(2, 1, sharex=True)
+    for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
+        top = 0.0
+        for each in rows:
+            label, colour = LABELS[each.output]
+            panel.plot(run.time, each.stress / MPA, color=colour, label=label)
+            top = max(top, float(np.max(each.stress)) / MPA, float(np.max(each.limit)) / MPA)
+            # rolling is told of the step that ends at a point
+            panel.step(run.time, each.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(each)}")
+        panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
+        panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+    lower.set_xlabel("time, s")
 
 
 def _limit(each):

@@ -2,16 +2,19 @@
 
 import io
 import re
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
+from functools import wraps
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..extras import needed
+from ..plot import by_unit, draw_panel
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from .simulated import Simulated
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY = "#2f7fc1", "#d1495b", "#4a9a5a", "#c58a1f", "#8d6cc0", "#a06a50", "#808890"
 CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d08cb0"]
@@ -23,21 +26,32 @@ INK = "#0a0b0d"
 MARK = "mark"
 
 
-@contextmanager
-def styled() -> Iterator[None]:
-    """The style, for pictures made within."""
-    matplotlib = needed("matplotlib", "report")
-    from cycler import cycler
+STYLE = {
+    "text.color": INK, "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "grid.color": INK,
+    "grid.alpha": 0.14, "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False, "axes.spines.right": False,
+    "axes.facecolor": "none", "figure.facecolor": "none", "savefig.facecolor": "none", "legend.frameon": False, "font.size": 9.5,
+    "axes.titlesize": 10.0, "axes.titleweight": "bold", "axes.titlelocation": "left", "legend.fontsize": 9.0,
+    "lines.linewidth": 1.4, "svg.fonttype": "none", "svg.hashsalt": "report", "figure.dpi": 110,
+    "axes.formatter.useoffset": False, "axes.unicode_minus": True, "axes.xmargin": 0.01,
+}
 
-    with matplotlib.rc_context({
-            "text.color": INK, "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK,
-            "grid.color": INK, "grid.alpha": 0.14, "axes.grid": True, "axes.axisbelow": True, "axes.spines.top": False,
-            "axes.spines.right": False, "axes.facecolor": "none", "figure.facecolor": "none", "savefig.facecolor": "none",
-            "axes.prop_cycle": cycler(color=CYCLE), "legend.frameon": False, "font.size": 9.5, "axes.titlesize": 10.0,
-            "axes.titleweight": "bold", "axes.titlelocation": "left", "legend.fontsize": 9.0, "lines.linewidth": 1.4,
-            "svg.fonttype": "none", "svg.hashsalt": "report", "figure.dpi": 110, "axes.formatter.useoffset": False,
-            "axes.unicode_minus": True, "axes.xmargin": 0.01}):
-        yield
+
+def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Callable[..., str]]:
+    """Makes a function that draws into an empty picture, its first argument, one that gives the picture of this name as an `svg`
+    element. Panels arrange themselves; `height` in inches."""
+    def decorated(draw):
+        @wraps(draw)
+        def written(*arguments):
+            matplotlib = needed("matplotlib", "report")
+            from cycler import cycler
+            from matplotlib.figure import Figure
+
+            with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=CYCLE)}):
+                picture = Figure(figsize=(WIDTH, height), layout="constrained")
+                draw(picture, *arguments)
+                return _svg(picture, name)
+        return written
+    return decorated
 
 
 def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
@@ -46,36 +60,33 @@ def kilo(values: Sequence[np.ndarray]) -> tuple[float, str]:
     return (1e3, "k") if largest >= 1e3 else (1.0, "")
 
 
-def figure(height: float, width: float = WIDTH) -> "Figure":
-    """An empty picture; its panels arrange themselves."""
-    from matplotlib.figure import Figure
+def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_height: float, held: bool = False) -> np.ndarray:
+    """Draws outputs over time, a panel for each unit; those that are `held` between communication points in steps."""
+    panels = by_unit(run.scene.fmu, run.record, names)
+    picture.set_figheight(panel_height * len(panels) + 0.6)
+    axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    for panel, ((unit, kind), curves) in zip(axes, panels.items()):
+        draw_panel(panel, run.time, unit, "held" if held else kind, curves)
+    axes[-1].set_xlabel("time, s")
+    return axes
 
-    return Figure(figsize=(width, height), layout="constrained")
 
-
-def svg(picture: "Figure", name: str) -> str:
+def _svg(picture: "Figure", name: str) -> str:
     """The picture as an `svg` element. `name` stands before its ids, which would clash with those of other pictures."""
-    _mark(picture)
+    # names all that shows data; grids, axes and letters are not among it
+    shown = [artist for axes in picture.get_axes() if axes.get_label() != "<colorbar>"
+             for artist in (*axes.lines, *axes.collections, *axes.patches, *axes.images)]
+    for number, artist in enumerate(shown, 1):
+        artist.set_gid(f"{MARK}-{number}")
     written = io.StringIO()
     picture.savefig(written, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None}, dpi=130)
     text = written.getvalue()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r'\sxmlns(:\w+)?="[^"]*"', "", text).replace("xlink:href=", "href=")
-    text = re.sub(r'(<svg[^>]*?)\swidth="[^"]*"', r"\1", text, count=1)
-    text = re.sub(r'(<svg[^>]*?)\sheight="[^"]*"', r"\1", text, count=1)
+    text = re.sub(r'(<svg[^>]*?)\swidth="[^"]*"\sheight="[^"]*"', r"\1", text, count=1)
     text = re.sub(r'(?<=\bid=")|(?<=url\(#)|(?<=href="#)', f"{name}-", text)
     # others where a machine does not have the first
     text = text.replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
     return text.replace(INK, "currentColor").strip()
 
-
-def _mark(picture):
-    """Names all that shows data; grids, axes and letters are not among it."""
-    count = 0
-    for axes in picture.get_axes():
-        if axes.get_label() == "<colorbar>":
-            continue
-        for artist in [*axes.lines, *axes.collections, *axes.patches, *axes.images]:
-            count += 1
-            artist.set_gid(f"{MARK}-{count}")

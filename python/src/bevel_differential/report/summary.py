@@ -1,6 +1,6 @@
 """The key table: outputs by their statistics."""
 
-from ..statistic import figures as figures_of
+from ..want import figures as figures_of
 from . import words
 from .blocks import Section, Table
 from .simulated import Simulated

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from ..plot import by_unit, draw_panel
 from . import style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
@@ -16,39 +15,29 @@ TORQUES = ("carrier.torque", "left.shaft_torque", "right.shaft_torque")
 def section(run: Simulated) -> Section:
     """All three pictures."""
     found = Section("traces", "Traces")
-    found.add(Picture("outputs", draw(run, run.scene.outputs, "outputs"), _ranges(run, run.scene.outputs)))
-    found.add(Picture("speeds", draw(run, SPEEDS, "speeds"), _speeds(run)))
-    found.add(Picture("torques", draw(run, TORQUES, "torques"), _torques(run)))
+    for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds), ("torques", TORQUES, _torques)):
+        found.add(Picture(name, style.drawn(name)(_draw)(run, outputs), caption(run)))
     return found
 
 
-def draw(run: Simulated, names, picture_name: str) -> str:
-    """Outputs over time, a panel for each unit."""
-    panels = by_unit(run.scene.fmu, run.record, names)
-    with style.styled():
-        picture = style.figure((PANEL if len(panels) > 1 else 1.6 * PANEL) * len(panels) + 0.6)
-        axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
-        for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-            draw_panel(panel, run.time, unit, kind, curves)
-            quiet(panel)
-        axes[-1].set_xlabel("time, s")
-        picture.align_ylabels(axes)
-        return style.svg(picture, picture_name)
+def _draw(picture, run, names):
+    """Outputs over time. The range of a curve that is constant but for rounding, which would be drawn as noise, is widened."""
+    axes = style.over_time(picture, run, names, PANEL)
+    if len(axes) == 1:
+        picture.set_figheight(1.6 * PANEL + 0.6)
+    for panel in axes:
+        values = np.concatenate([line.get_ydata() for line in panel.lines])
+        size = np.max(np.abs(values), initial=0.0)
+        if size > 0.0 and np.ptp(values) <= 1e-7 * size:
+            panel.set_ylim(values.mean() - 0.05 * size, values.mean() + 0.05 * size)
+    picture.align_ylabels(axes)
 
 
-def quiet(panel) -> None:
-    """Widens the range of a curve that is constant but for rounding, which would be drawn as noise."""
-    values = np.concatenate([line.get_ydata() for line in panel.lines])
-    size = np.max(np.abs(values), initial=0.0)
-    if np.ptp(values) <= 1e-7 * size:
-        panel.set_ylim(values.mean() - 0.05 * size, values.mean() + 0.05 * size)
-
-
-def _ranges(run, names):
+def _ranges(run):
     parts = []
-    for name in names:
+    for name in run.scene.outputs:
         values = run.shown(name)
-        unit = run.scene.fmu.variable(name).shown(0.0)[0]
+        unit = run.unit(name)
         low, high = words.number(values.min()), words.number(values.max())
         parts.append(f"{name} {words.quantity(values[-1], unit)}" if low == high
                      else f"{name} {low} to {words.quantity(values.max(), unit)}")
@@ -59,7 +48,7 @@ def _speeds(run):
     left, right, carrier = (run.shown(f"{part}.speed") for part in ("left", "right", "carrier"))
     apart = left - right
     k = int(np.argmax(np.abs(apart)))
-    unit = run.scene.fmu.variable("left.speed").shown(0.0)[0]
+    unit = run.unit("left.speed")
     mean = float(np.max(np.abs(0.5 * (left + right) - carrier)))
     size = max(float(np.max(np.abs(carrier))), float(np.max(np.abs(left))), 1e-300)
     if np.abs(apart[k]) < 1e-6 * size:

@@ -1,9 +1,9 @@
 """The waterfall of a run-up: orders of the transmission error against speed, with the orders that theory expects."""
 
-from collections.abc import Callable
-
 import numpy as np
 
+from ..answers import Progress
+from ..progress import silent
 from ..values import DifferentialError
 from . import style, words
 from .blocks import Picture, Section, Table
@@ -20,13 +20,14 @@ DECADES = 3.0
 UM, RPM = 1e6, 30.0 / np.pi
 
 
-def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
+def section(run: Simulated, progress: Progress = silent) -> Section:
     """The picture and the table of orders, or why there are none."""
     found = Section("waterfall", "Waterfall of a run-up")
     if not run.has_pairs:
         found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
                   "nothing is excited at mesh orders, at any speed.")
         return found
+    progress(0.0, "the run-up")
     try:
         up = run_up(run, progress)
         expected = theory(run, up.ratio)
@@ -54,32 +55,30 @@ def _how(up: RunUp):
             "shows every change of stiffness. It is resampled over the planet's angle, so that orders stand upright.")
 
 
-def _draw(run, spectra: Waterfall, expected):
+@style.drawn("waterfall", 5.2)
+def _draw(picture, run, spectra: Waterfall, expected):
     from matplotlib.colors import LogNorm
 
     sizes = UM * spectra.amplitudes
     top = float(sizes.max())
-    with style.styled():
-        picture = style.figure(5.2)
-        upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
-        edges = np.append(spectra.orders, spectra.orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
-        mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma",
-                                norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
-        upper.set(ylabel="carrier speed, rpm")
-        upper.grid(False)
-        bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
-        bar.set_label("amplitude, µm")
-        mean = UM * spectra.mean
-        lower.semilogy(spectra.orders, mean, color=style.BLUE)
-        teeth = float(run.value("geometry.planet_teeth"))
-        marks = upper.secondary_xaxis("top")
-        marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"
-                                                   for name, order in expected.items()], fontsize=8.5)
-        for name, order in expected.items():
-            lower.axvline(order, color=style.GREEN if name.startswith(RING) else style.RED, lw=0.9, ls="--")
-        lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, spectra.orders[-1]),
-                  ylim=(10.0 ** -(DECADES + 0.5) * mean.max(), 2.0 * mean.max()))
-        return style.svg(picture, "waterfall")
+    upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
+    edges = np.append(spectra.orders, spectra.orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
+    mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma",
+                            norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
+    upper.set(ylabel="carrier speed, rpm")
+    upper.grid(False)
+    bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
+    bar.set_label("amplitude, µm")
+    mean = UM * spectra.mean
+    lower.semilogy(spectra.orders, mean, color=style.BLUE)
+    teeth = float(run.value("geometry.planet_teeth"))
+    marks = upper.secondary_xaxis("top")
+    marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"
+                                               for name, order in expected.items()], fontsize=8.5)
+    for name, order in expected.items():
+        lower.axvline(order, color=style.GREEN if name.startswith(RING) else style.RED, lw=0.9, ls="--")
+    lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, spectra.orders[-1]),
+              ylim=(10.0 ** -(DECADES + 0.5) * mean.max(), 2.0 * mean.max()))
 
 
 def _edges(centres):

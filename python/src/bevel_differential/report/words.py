@@ -26,12 +26,17 @@ def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
     return f"{number(value, digits)} {unit_text(unit)}".strip()
 
 
+def mm(length: float) -> str:
+    """A length, m, in millimetres."""
+    return quantity(1e3 * length, "mm")
+
+
 def shown(variable: Variable, value: Number, digits: int = DIGITS) -> str:
     """A value of a variable in the unit that it is usually shown in; a literal by its name."""
     if variable.kind == "Boolean":
-        return "true" if value else "false"
+        return str(bool(value)).lower()
     if variable.literals:
-        return next((name for name, of in variable.literals.items() if of == value), str(value))
+        return str(variable.written(value))
     unit, given = variable.shown(float(value))
     return quantity(given, unit, digits)
 

@@ -2,11 +2,12 @@
 
 import re
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..answers import Progress
+from ..progress import silent
 from ..values import DifferentialError, Number
 from . import style, words
 from .blocks import Picture, Section, Table
@@ -47,7 +48,7 @@ class Tried:
         return any(abs(change) > self.nothing for change in (*self.mean.values(), *self.swing.values()))
 
 
-def section(run: Simulated, progress: Callable[[float], object] = lambda done: None) -> Section:
+def section(run: Simulated, progress: Progress = silent) -> Section:
     """A run for each effect that is off, and one with all of them."""
     found = Section("worth", "What is switched off, and what it is worth")
     variables = run.scene.fmu.variables
@@ -57,12 +58,12 @@ def section(run: Simulated, progress: Callable[[float], object] = lambda done: N
     found.say(_named(run, switches, off))
     if not there:
         return found
+    progress(0.0, "effects that are off")
     tried = [attempt(run, CONTROL, {TOLERANCE: 0.5 * float(run.value(TOLERANCE))})]
     for place, name in enumerate(there):
-        progress(place / (len(there) + 1))
+        progress(place / (len(there) + 1), "effects that are off")
         tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
     tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
-    progress(1.0)
     if any(one.changes for one in tried if one.name != CONTROL):
         found.add(Picture("worth", _draw(tried), _caption(tried)))
     found.add(_table(run, tried))
@@ -128,7 +129,8 @@ def _named(run, switches, off):
         "something, as where teeth strike again and again, changes of this size by an effect tell nothing.")
 
 
-def _draw(tried):
+@style.drawn("worth")
+def _draw(picture, tried):
     rows = [one for one in tried if not one.refused]
     outputs = list(rows[0].mean)
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
@@ -136,24 +138,22 @@ def _draw(tried):
     # clear in the middle, so that the page's colour shows
     scale = [to_rgba(style.BLUE, 0.7), to_rgba(style.GREY, 0.0), to_rgba(style.RED, 0.7)]
     colours = LinearSegmentedColormap.from_list("change", scale)
-    with style.styled():
-        picture = style.figure(0.34 * len(outputs) + 1.9)
-        panels = picture.subplots(1, 2, sharey=True)
-        tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
-        labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
-        for panel, (title, table) in zip(panels, tables):
-            values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
-            reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
-            panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
-            for (row, column), value in np.ndenumerate(values):
-                panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
-            panel.set_xticks(range(len(rows)), labels, fontsize=8)
-            panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
-            panel.set_title(f"change of the {title}, %")
-            panel.grid(False)
-            panel.tick_params(length=0)
-            panel.spines[:].set_visible(False)
-        return style.svg(picture, "worth")
+    picture.set_figheight(0.34 * len(outputs) + 1.9)
+    panels = picture.subplots(1, 2, sharey=True)
+    tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
+    labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
+    for panel, (title, table) in zip(panels, tables):
+        values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
+        reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
+        panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
+        for (row, column), value in np.ndenumerate(values):
+            panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
+        panel.set_xticks(range(len(rows)), labels, fontsize=8)
+        panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
+        panel.set_title(f"change of the {title}, %")
+        panel.grid(False)
+        panel.tick_params(length=0)
+        panel.spines[:].set_visible(False)
 
 
 def _cell(percent, nothing):

@@ -1,18 +1,16 @@
-"""All sections of a report, in their order."""
+"""All sections of a report, in their order, and the page: one HTML file that needs nothing else."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 
+from ..answers import Progress
 from ..extras import needed
+from ..progress import part, silent
 from ..scene import Scene
-from ..values import FileName
+from ..values import DifferentialError, FileName
 from . import energy, errors, forces, gears, head, pattern, setup, strength, summary, traces, waterfall, worth
-from .page import page
-from .page import write as write_page
+from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
-
-# (part of the work that is done, what comes next)
-Progress = Callable[[float, str], object]
 
 # sections that need no other run, before and after those that do
 FIRST = (head.section, setup.section, gears.section, summary.section, traces.section, forces.section, errors.section)
@@ -21,7 +19,7 @@ LAST = (pattern.section, strength.section, energy.section)
 PICTURES, RUN_UP, REST, EFFECTS = 0.05, 0.3, 0.5, 0.65
 
 
-def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress = lambda done, what: None) -> Path:
+def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress = silent) -> Path:
     """Simulates `scene` and writes its report to `file`; returns its path.
 
     `quick` leaves out the run-up and the effects that are off, which need other runs. Raises `DifferentialError` with the FMU's
@@ -33,13 +31,25 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     progress(PICTURES, "pictures")
     sections = [section(run) for section in FIRST]
     if not quick:
-        progress(RUN_UP, "the run-up")
-        sections.append(waterfall.section(run, lambda done: progress(RUN_UP + done * (REST - RUN_UP), "the run-up")))
+        sections.append(waterfall.section(run, part(progress, RUN_UP, REST)))
     progress(REST, "pictures")
     sections += [section(run) for section in LAST]
     if not quick:
-        progress(EFFECTS, "effects that are off")
-        sections.append(worth.section(run, lambda done: progress(EFFECTS + done * (1.0 - EFFECTS), "effects that are off")))
-    written = write_page(page(run, sections), file)
+        sections.append(worth.section(run, part(progress, EFFECTS, 1.0)))
+    try:
+        Path(file).write_text(page(run, sections), encoding="utf-8")
+    except OSError as error:
+        raise DifferentialError(f"{file}: {error.strerror}") from None
     progress(1.0, "done")
-    return written
+    return Path(file)
+
+
+def page(run: Simulated, sections: Sequence[Section]) -> str:
+    """The page as text."""
+    jinja2 = needed("jinja2", "report")
+    # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
+    environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True,
+                                     lstrip_blocks=True, undefined=jinja2.StrictUndefined)
+    environment.tests.update(text=lambda block: isinstance(block, Text), table=lambda block: isinstance(block, Table),
+                             picture=lambda block: isinstance(block, Picture))
+    return environment.get_template("template.html").render(scene=run.scene, sections=sections) + "\n"

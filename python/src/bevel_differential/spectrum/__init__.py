@@ -4,7 +4,7 @@
 >>> print(spectrum("duty_cycle.csv").summary())  # doctest: +SKIP
 """
 
-from .event import Event
+from .damage import Event
 from .result import SpectrumResult
 from .total import spectrum
 

@@ -3,21 +3,17 @@
 import argparse
 import sys
 
-from ..command.arguments import add_fmu, once
+from ..command.arguments import add_fmu, assignment, once
 from ..output_file import checked, checked_picture
-from ..values import DifferentialError
 from .slow import ORDERS
 from .total import spectrum
-
-HELP = "damage and life of the gears over a duty cycle: events with counts, torque and speeds"
-EXTRA = "design"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the options of the sub-command to an `argparse` parser."""
     parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
     parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", dest="settings",
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=assignment,
                         help="parameter of the FMU or quantity of the vehicle for all events, such as \"wheel_radius=334 mm\"; "
                              "may be repeated")
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
@@ -29,10 +25,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Prints damage and life, and writes what is asked for."""
-    settings = _settings(arguments.settings)
     checked(arguments.table)
     checked_picture(arguments.picture)
-    result = spectrum(arguments.cycle, settings, arguments.scene, order=arguments.order, fmu=arguments.fmu)
+    result = spectrum(arguments.cycle, once("--set", arguments.set), arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
         if file:
@@ -40,11 +35,3 @@ def run(arguments: argparse.Namespace) -> int:
     for warning in dict.fromkeys(result.warnings):
         print(f"warning: {warning}", file=sys.stderr)
     return 0
-
-
-def _settings(given):
-    """{name: value} of a list of "NAME=VALUE"."""
-    for setting in given:
-        if "=" not in setting:
-            raise DifferentialError(f"--set {setting}: write NAME=VALUE, such as \"wheel_radius=334 mm\"")
-    return once("--set", ((name.strip(), value.strip()) for name, _, value in (setting.partition("=") for setting in given)))

@@ -1,13 +1,12 @@
-"""Damage of one event, from a short simulation by the FMU."""
+"""Events of a duty cycle, and the damage of one, from a short simulation by the FMU."""
 
-from dataclasses import dataclass
-from math import ceil, nan, pi
+from dataclasses import dataclass, field
+from math import ceil, isfinite, nan, pi
 
 import numpy as np
 
 from ..differential import Differential
-from ..values import DifferentialError
-from .event import Event
+from ..values import DifferentialError, Value
 
 # outputs of damage, in the order of all arrays of modes
 MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
@@ -20,6 +19,31 @@ POINTS = 50
 FEWEST_CYCLES, MOST_CYCLES, STEADY = 4, 64, 0.01
 # a time history: rows of a halt that does not end a roll, and the least roll, in pitches
 HALT, LEAST_ROLL = 5, 0.05
+
+
+@dataclass(frozen=True)
+class Event:
+    """An event of a duty cycle.
+
+    `count`: how often it occurs in a cycle, 0 or more; `duration` [s] and `distance` [m, NaN if not known] of one occurrence;
+    `values`: inputs and parameters of the FMU that it sets, as `Differential` takes them; `signals`: inputs over time
+    {name: (times [s], values)} of an event that is a time history, from 0 to `duration`; `step` [s]: of its simulation."""
+
+    name: str
+    count: float
+    duration: float
+    distance: float = nan
+    values: dict[str, Value] = field(default_factory=dict)
+    signals: dict[str, tuple[np.ndarray, np.ndarray]] = field(default_factory=dict)
+    step: float = 0.01
+
+    def __post_init__(self) -> None:
+        if not (isfinite(self.count) and self.count >= 0.0):
+            raise DifferentialError(f"count = {self.count!r}: event {self.name!r} occurs 0 times or more")
+        if not (isfinite(self.duration) and self.duration > 0.0):
+            raise DifferentialError(f"duration = {self.duration!r}: event {self.name!r} takes more than 0 s")
+        if self.distance < 0.0:
+            raise DifferentialError(f"distance = {self.distance!r}: event {self.name!r} covers 0 m or more")
 
 
 @dataclass(frozen=True)

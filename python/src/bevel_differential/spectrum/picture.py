@@ -1,4 +1,5 @@
-"""The picture of a duty cycle: damage by event, and the load spectrum of the critical mode."""
+"""The picture of a duty cycle: damage by event, and the load spectrum of the critical mode: stresses, how often they occur, and the
+S–N curves that limit them. A `result` is a `SpectrumResult`."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +8,7 @@ import numpy as np
 
 from ..extras import needed
 from ..values import FileName
-from .load_spectrum import curves, rolling_spectrum, standing_spectrum
+from .slow import SnCurve
 
 MPA = 1e6
 # events that are drawn by name, if they do this part of the damage; the others are one bar
@@ -81,3 +82,34 @@ def _caption(result):
     return (f"Miner sum of the {result.critical_name}: {1.0 / result.cycles_to_failure:.3g} per duty cycle, "
             f"life {result.life_hours:.3g} h{km}. \"{worst['event']}\" does {worst['share']:.0%} of the damage. "
             "The step of a spectrum that comes nearest to its S–N curve does the most.")
+
+
+def curves(result: Any) -> tuple[SnCurve, SnCurve]:
+    """S–N curves of the critical mode: of teeth that roll, and of teeth that stand in mesh."""
+    strength = result.strength
+    if result.is_flank:
+        return strength.pitting, strength.pitting
+    return (strength.bending if result.critical else strength.idler), strength.bending
+
+
+def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Largest stress [Pa] of each event in which teeth roll, and how often it passes a tooth of the critical gear in a duty
+    cycle; shapes (events that roll,). Of flanks it is the rated contact pressure."""
+    rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
+    if result.is_flank:
+        stresses = [result.strength.pitting.strength / one.safety_flank for one in rolling]
+    else:
+        stresses = [one.root_stress * (result.side_ratio if result.critical else 1.0) for one in rolling]
+    # each flank of a planet has one mesh, that of a side gear one with each planet
+    is_side = result.critical % 2 == 1
+    per_turn = result.planets * result.teeth[0] / result.teeth[1] if is_side else 1.0
+    return np.array(stresses), np.array([one.event.count * one.turns * per_turn for one in rolling])
+
+
+def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Pulsating root stress [Pa] of the slow cycles at the worse fillet of the critical gear, and their counts in a duty cycle;
+    empty for flanks, which they do not damage."""
+    if result.is_flank:
+        return np.empty(0), np.empty(0)
+    slow = result.slow.scaled(result.side_ratio) if result.critical else result.slow
+    return slow.pulsating(result.strength), slow.count

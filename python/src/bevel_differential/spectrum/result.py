@@ -1,16 +1,15 @@
 """What a duty cycle does to the gears."""
 
-import csv
 from dataclasses import dataclass
 from math import inf, isfinite
 from pathlib import Path
 
 import numpy as np
 
+from ..records import write
 from ..values import DifferentialError, FileName
 from .damage import MODES, EventDamage
-from .slow import SlowCycles
-from .sn import Strength
+from .slow import SlowCycles, Strength
 
 HOUR, KM = 3600.0, 1000.0
 NAMES = ("planet root", "side root", "planet flank", "side flank")
@@ -130,13 +129,9 @@ class SpectrumResult:
                 pandas.DataFrame(table).to_parquet(file)
             except ImportError:
                 raise DifferentialError(f"{file}: Parquet needs pandas and pyarrow; install them, or write a CSV file") from None
-        else:
-            with open(file, "w", newline="", encoding="utf-8") as out:
-                out.write("# Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa\n")
-                writer = csv.writer(out, lineterminator="\n")
-                writer.writerow(table.dtype.names or ())
-                writer.writerows(table.tolist())
-        return file
+            return file
+        return write(file, table.dtype.names or (), table.tolist(),
+                     "Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa")
 
     def plot(self, file: FileName) -> Path:
         """Draws damage by event and the load spectrum into a picture; the file's end is its format."""

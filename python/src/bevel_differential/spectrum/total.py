@@ -1,6 +1,7 @@
 """The damage of a duty cycle: its events one by one, and the slow cycles between them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -9,13 +10,10 @@ from ..differential import Differential
 from ..fmu import Fmu
 from ..scene import Scene
 from ..values import DifferentialError, FileName, Value, suggestion
-from .cycle import read_cycle
-from .damage import EventDamage, evaluate
-from .event import Event
+from .cycle import DRIVES, QUANTITIES, read_cycle
+from .damage import Event, EventDamage, evaluate
 from .result import SpectrumResult
-from .slow import ORDERS, count_slow_cycles
-from .sn import Strength
-from .vehicle import DRIVES, QUANTITIES
+from .slow import ORDERS, Strength, count_slow_cycles
 
 TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
@@ -46,7 +44,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         events = read_cycle(cycle, differential.fmu, vehicle, teeth, facts) if isinstance(cycle, (str, Path)) else list(cycle)
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
-        damages = tuple(mapper(_Evaluation(differential, teeth), events))
+        damages = tuple(mapper(partial(_evaluated, differential=differential, teeth=teeth), events))
     # both roots follow one force, so that the ratio is the same in all events under load
     ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
     strength = Strength.of(facts)
@@ -56,17 +54,11 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     return SpectrumResult(damages, slow, by_event, strength, teeth, int(facts[PLANETS]), ratio, order)
 
 
-class _Evaluation:
-    """`evaluate` with all but the event, to be sent to other processes."""
-
-    def __init__(self, differential, teeth):
-        self.differential, self.teeth = differential, teeth
-
-    def __call__(self, event: Event):
-        try:
-            return evaluate(event, self.differential, self.teeth)
-        except DifferentialError as failure:
-            raise DifferentialError(f"event {event.name!r}: {failure}") from None
+def _evaluated(event, differential, teeth):
+    try:
+        return evaluate(event, differential, teeth)
+    except DifferentialError as failure:
+        raise DifferentialError(f"event {event.name!r}: {failure}") from None
 
 
 def _slow_by_event(cycles, strength, events):

@@ -3,10 +3,8 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_fmu
+from ..command.arguments import add_fmu, add_progress
 
-HELP = "simulate the published study's two cases and compare them with it and with theory"
-EXTRA = "report"
 # their scenes, for reports
 SCENES = ("study_straight", "study_turning")
 # share of the work that is simulating, the rest is reports
@@ -15,8 +13,6 @@ SIMULATING = 0.3
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    from ..progress import add_progress
-
     parser.add_argument("--out", metavar="FOLDER", default="study", help="folder of results, pictures and reports (start value: study)")
     add_fmu(parser)
     add_progress(parser)

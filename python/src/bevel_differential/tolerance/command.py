@@ -3,10 +3,8 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_fmu
+from ..command.arguments import add_farm, add_fmu, farm
 
-HELP = "what manufacturing tolerances do: spread of figures, yield, and which tolerance is worth its money"
-EXTRA = "design"
 QUICK = 64
 
 
@@ -17,9 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, help="another draw")
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
-    parser.add_argument("--workers", type=int, help="how many work at once (default: one per core; 0: this process alone)")
-    parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
+    add_farm(parser)
     parser.add_argument("--csv", type=Path, help="write all runs to this file")
     parser.add_argument("--picture", type=Path, help="write a picture (PNG, SVG or PDF) to this file")
     add_fmu(parser)
@@ -36,13 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
     checked_picture(arguments.picture)
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
     plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
-    with Farm(arguments.workers, not arguments.threads, arguments.scheduler, progress=True) as farm:
-        result = plan.run(farm)
+    with Farm(**farm(arguments), progress=True) as workers:
+        result = plan.run(workers)
     print(report.text(plan, result))
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.picture:
         from . import picture
-
         print(f"picture: {picture.draw(plan, result, arguments.picture)}")
     return 0

@@ -9,8 +9,7 @@ from ..designs import Dimension
 from ..designs.space import Given as GivenValues
 from ..scene import Scene
 from ..values import DifferentialError, Number
-from .grade import Gear, gears, grade
-from .laws import Fixed, Given, Law, PitchGrade, RunoutGrade, band
+from .laws import Fixed, Gear, Given, Law, PitchGrade, RunoutGrade, band, gears, grade
 
 PITCH = "tooth_errors.accuracy_grade"
 RUNOUT = {"tooth_errors.planet_runout": "planet", "tooth_errors.side_runout": "side"}

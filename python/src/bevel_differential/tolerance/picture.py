@@ -7,11 +7,10 @@ import numpy as np
 
 from ..extras import needed
 from ..values import FileName
-from .figures import proportion
+from .figures import proportion, verdicts
 from .plan import Plan
 from .report import limit_text
 from .study import Indices, Result
-from .verdict import verdicts
 
 # inches: a row of panels, what a factor or an alternative adds to it
 ROW, LINE = 1.6, 0.16

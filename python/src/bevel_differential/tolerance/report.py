@@ -1,17 +1,16 @@
 """Results in words and tables."""
 
-import csv
 import math
 from collections import Counter
 from pathlib import Path
 
+from ..records import write
 from ..text import aligned
 from ..values import FileName
 from ..want import Condition
-from .figures import Estimate, Spread, proportion
+from .figures import Estimate, Spread, proportion, verdicts
 from .plan import Plan
 from .study import Indices, Result
-from .verdict import verdicts
 
 
 def text(plan: Plan, result: Result) -> str:
@@ -25,13 +24,9 @@ def text(plan: Plan, result: Result) -> str:
 def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
     """Writes all runs as CSV in SI: number, factors, figures, message."""
     names, wants = list(plan.study.factors), [str(want) for want in plan.study.wants]
-    with open(file, "w", newline="", encoding="utf-8") as out:
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["run", *names, *wants, "message"])
-        for row in result.rows:
-            values, figures = (row.values[name] for name in names), (row.figures.get(want, "") for want in wants)
-            writer.writerow([row.run, *values, *figures, row.message])
-    return Path(file)
+    rows = ([row.run, *(row.values[name] for name in names), *(row.figures.get(want, "") for want in wants), row.message]
+            for row in result.rows)
+    return write(file, ["run", *names, *wants, "message"], rows)
 
 
 def shown(plan: Plan, name: str, estimate: Estimate) -> tuple[str, Estimate]:

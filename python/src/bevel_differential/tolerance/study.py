@@ -1,4 +1,4 @@
-"""Which differentials are drawn and run, and what they give."""
+"""Which differentials are drawn, at which shares of probability, and run; and what they give."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..designs import Row
+from ..extras import needed
 from ..values import DifferentialError
 from ..want import Condition, Want
-from . import sample
 from .factor import Factor
 
 
@@ -70,7 +70,7 @@ class Study:
     def __init__(self, factors: Sequence[Factor], wants: Sequence[Want], limits: Sequence[Condition] = (),
                  alternatives: Sequence[Alternative] = (), runs: int = 512, seed: int = 1, indices: bool = True):
         self.factors, self.wants, self.limits = {factor.variable: factor for factor in factors}, list(wants), list(limits)
-        self.alternatives, self.runs, self.indices = list(alternatives), sample.check_runs(runs), indices
+        self.alternatives, self.runs, self.indices = list(alternatives), check_runs(runs), indices
         if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
             raise DifferentialError(f"seed = {seed!r}: it is a whole number from 0 on")
         self.seed = seed
@@ -93,7 +93,7 @@ class Study:
         return [name for name in self.factors if any(name in each and each[name].law.varies for each in sets)]
 
     def designs(self) -> list[tuple[int, dict]]:
-        """All runs, numbered: the scheme of `sample.crossed`, then the draws of each alternative."""
+        """All runs, numbered: the scheme of `crossed`, then the draws of each alternative."""
         shares, drawn = self._shares()
         kept = shares if self.indices else shares[drawn]
         designs = self._values(self.factors, kept)
@@ -113,8 +113,8 @@ class Study:
         return Result(self.names, base, indices, others, rows)
 
     def _shares(self):
-        shares = sample.crossed(len(self.names), self.runs, self.seed)
-        return shares, sample.is_drawn(len(self.names), len(shares))
+        shares = crossed(len(self.names), self.runs, self.seed)
+        return shares, is_drawn(len(self.names), len(shares))
 
     def _values(self, factors, shares):
         column = {name: shares[:, i] for i, name in enumerate(self.names)}
@@ -136,9 +136,46 @@ class Study:
             return f"none, as {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
         if np.ptp(figures) <= 1e-10 * np.abs(figures).max():
             return "none, as the figure does not vary"
-        found = sample.analyse(len(self.names), figures, self.seed)
+        found = analyse(len(self.names), figures, self.seed)
         return Indices(found["S1"], found["S1_conf"], found["ST"], found["ST_conf"])
 
 
 def _figures(rows, want):
     return np.array([row.figures.get(want, np.nan) if not row.message else np.nan for row in rows], float)
+
+
+def check_runs(runs: int) -> int:
+    """`runs` if Sobol sequences have that length."""
+    if isinstance(runs, bool) or not isinstance(runs, int) or runs < 8 or runs & (runs - 1):
+        raise DifferentialError(f"runs = {runs!r}: it is a power of two from 8 on, such as 512, as Sobol sequences have it")
+    return runs
+
+
+def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
+    """Shares by the scheme of Saltelli: blocks of rows A, AB_1 … AB_k, B; shape (runs/2 · (factors + 2), factors).
+
+    AB_i is A with the share of factor i from B. A and B are points of one scrambled Sobol sequence."""
+    if not factors:
+        return np.empty((runs, 0))
+    sobol = needed("SALib.sample.sobol", "design")
+    problem = _problem(factors)
+    return sobol.sample(problem, check_runs(runs) // 2, calc_second_order=False, seed=seed)
+
+
+def is_drawn(factors: int, rows: int) -> np.ndarray:
+    """Which rows of `crossed` are draws of all factors, A and B: shape (rows,)."""
+    place = np.arange(rows) % (factors + 2)
+    return (place == 0) | (place == factors + 1) if factors else np.ones(rows, bool)
+
+
+def _problem(factors):
+    return {"num_vars": factors, "names": [str(i) for i in range(factors)], "bounds": [[0.0, 1.0]] * factors}
+
+
+def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> dict[str, np.ndarray]:
+    """Sobol indices of figures at `crossed`, shape (rows,): "S1", "ST" and the half widths "S1_conf", "ST_conf" of their
+    intervals, shape (factors,)."""
+    sobol = needed("SALib.analyze.sobol", "design")
+    # SALib takes a seed of 0 for none
+    found = sobol.analyze(_problem(factors), figures, calc_second_order=False, num_resamples=500, conf_level=level, seed=seed + 1)
+    return {name: np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")}

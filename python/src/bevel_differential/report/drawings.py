@@ -1,0 +1,193 @@
+"""Drawings of the gears: an axial section with cones, face, bodies and dimensions; and teeth in mesh at the heel, closed forms of the
+spherical involute, unrolled about the pitch point."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..optimise.pair import Gear, Pair
+from . import style, words
+from .simulated import Simulated
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MM = 1e3
+PLANET, SIDE = style.OCHRE, style.BLUE
+NODES = 24
+# teeth that are drawn on either side of the middle, and half the width of the picture in pitches
+NEIGHBOURS, SHOWN = 3, 2.3
+
+
+@style.drawn("section", 6.0)
+def draw_section(picture: "Figure", pair: Pair) -> None:
+    """The section in the plane of the carrier's axis (across the page) and the planets' axes (upright)."""
+    axes = picture.subplots()
+    # a gear in its own half plane: radius across, axis along; planets last, as the teeth cover each other in the mesh
+    for sense in (1.0, -1.0):
+        _gear(axes, pair, 1, lambda radius, axis, sense=sense: (-sense * axis, radius), SIDE)
+    for sense in (1.0, -1.0):
+        _gear(axes, pair, 0, lambda radius, axis, sense=sense: (radius, sense * axis), PLANET)
+    reach, tilt = MM * pair.outer_cone, pair.gears[1].pitch
+    along, up = (reach * math.cos(pair.gears[i].root) + 4.0 for i in (1, 0))
+    for begin, end in (((-along, 0.0), (along, 0.0)), ((0.0, -up), (0.0, up))):
+        axes.plot(*zip(begin, end), color=style.INK, lw=0.8, ls="-.", alpha=0.7)
+    for turn in (tilt, math.pi - tilt, math.pi + tilt, -tilt):
+        axes.plot([0.0, reach * math.cos(turn)], [0.0, reach * math.sin(turn)], color=style.INK, lw=0.8, ls="--", alpha=0.7)
+    _dimensions(axes, pair)
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+
+
+def _gear(axes, pair, i, place, colour):
+    """Teeth and body on both sides of the axis, mirrored."""
+    gear = pair.gears[i]
+    inner, outer = MM * pair.inner_cone, MM * pair.outer_cone
+    bore = 0.5 * MM * gear.bore
+
+    def point(cone, angle):
+        return cone * math.sin(angle), cone * math.cos(angle)
+
+    turn = np.linspace(gear.root, gear.tip, 12)
+    teeth = [point(inner, angle) for angle in turn] + [point(outer, angle) for angle in turn[::-1]]
+    back, front = outer * math.cos(gear.root), inner * math.cos(gear.root)
+    body = [point(inner, gear.root), point(outer, gear.root), (bore, back), (bore, front)]
+    for mirror in (1.0, -1.0):
+        for shape, alpha in ((body, 0.28), (teeth, 0.75)):
+            points = np.array([place(mirror * radius, axis) for radius, axis in shape])
+            axes.fill(*points.T, facecolor=colour, alpha=alpha, lw=0)
+            axes.plot(*np.vstack([points, points[:1]]).T, color=colour, lw=1.0)
+
+
+def _dimensions(axes, pair):
+    """Cone distance along a pitch line, face beside it, diameters outside, angles in the middle."""
+    planet, side = pair.gears
+    reach = MM * pair.outer_cone
+    along = np.array([math.cos(side.pitch), math.sin(side.pitch)])
+    # beyond the tips of the planet, outside both gears
+    beyond = np.array([-along[1], along[0]]) * -(reach * math.sin(planet.tip - planet.pitch) + 7.0)
+    _between(axes, along * MM * pair.inner_cone, along * reach, beyond, f"b = {words.mm(pair.face_width)}")
+    down = along * (1.0, -1.0)
+    _between(axes, np.zeros(2), down * reach, np.zeros(2), f"Rₑ = {words.mm(pair.outer_cone)}", 0.27)
+    top, width = reach * math.cos(planet.pitch), reach * math.sin(planet.pitch)
+    _between(axes, np.array([-width, top]), np.array([width, top]), np.array([0.0, reach * math.cos(planet.root) + 7.0 - top]),
+             f"planet dₑ = {words.mm(pair.module * planet.teeth)}")
+    back, half = reach * math.cos(side.pitch), reach * math.sin(side.pitch)
+    _between(axes, np.array([-back, -half]), np.array([-back, half]), np.array([back - reach * math.cos(side.root) - 9.0, 0.0]),
+             f"side gear dₑ = {words.mm(pair.module * side.teeth)}")
+    radius = 0.55 * MM * pair.inner_cone
+    for begin, end, gear in ((0.0, side.pitch, side), (side.pitch, 0.5 * math.pi, planet)):
+        turn = np.linspace(begin, end, 40)
+        axes.plot(radius * np.cos(turn), radius * np.sin(turn), color=style.INK, lw=0.8)
+        middle = 0.5 * (begin + end)
+        axes.text((radius + 0.8) * math.cos(middle), (radius + 0.8) * math.sin(middle), f"{math.degrees(gear.pitch):.1f}°",
+                  fontsize=8.5, ha="left", va="bottom")
+    middle = 0.5 * (reach + MM * pair.inner_cone)
+    for i, gear, name in ((1, side, "side gear"), (0, planet, "planet")):
+        name += f", bore {words.mm(gear.bore)}" if gear.bore > 0.0 else ""
+        for sense, which in ((-1.0, "left "), (1.0, "right ")) if i else ((-1.0, ""),):
+            along_axis = sense * middle * math.cos(gear.root)
+            place = (along_axis, -0.3 * half) if i else (0.3 * width, along_axis)
+            axes.text(*place, which + name, fontsize=9, ha="center", va="center", rotation=90 if i else 0)
+
+
+def _between(axes, begin, end, offset, text, place=0.5):
+    """A dimension from point to point, moved aside, with its extension lines and its text at a place between."""
+    for point in (begin, end):
+        axes.plot(*zip(point, point + 1.04 * offset), color=style.INK, lw=0.5, alpha=0.6)
+    first, last = begin + offset, end + offset
+    axes.annotate("", first, last, arrowprops={"arrowstyle": "<->", "color": style.INK, "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
+    turned = math.degrees(math.atan2(*(last - first)[::-1]))
+    # letters stand upright, or read from below
+    turned = 90.0 - (90.0 - turned) % 180.0
+    axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom",
+              fontsize=8.5)
+
+
+@style.drawn("teeth", 4.3)
+def draw_teeth(picture: "Figure", run: Simulated, pair: Pair) -> None:
+    """Planet 1 and the left side gear as they stand at the end of the run, in the carrier's frame."""
+    last = run.record[-1]
+    planet_turn = float(last["planet[1].spin_angle"])
+    side_turn = float(last["left.angle"] - last["carrier.angle"])
+    planet, side = pair.gears
+    axes = picture.subplots()
+    # the planet's tooth 0 faces the left side gear, which has a gap there
+    _teeth(axes, pair, planet, 0.0, lambda polar, azimuth: _planet(polar, azimuth - planet_turn), style.OCHRE, "planet 1")
+    _teeth(axes, pair, side, math.pi / side.teeth, lambda polar, azimuth: _side(polar, azimuth + side_turn), style.BLUE,
+          "left side gear")
+    _action(axes, pair)
+    half = SHOWN * math.pi * pair.module * MM
+    axes.set(xlim=(-half, half), ylim=(-0.36 * half, 0.36 * half), xlabel="along the pitch circles at the heel, mm",
+             ylabel="toward the planet's axis, mm")
+    axes.set_aspect("equal")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=5)
+
+
+def outline(gear: Gear) -> np.ndarray:
+    """Polar angles and azimuths (rad) of one tooth with half a gap on each side, shape (points, 2): root land, straight to the base
+    circle where it lies above, involute, tip land, and back."""
+    foot = max(gear.root, gear.base)
+    flank = np.linspace(foot, gear.tip, NODES)
+    halves = np.array([gear.half_angle(polar) for polar in flank])
+    pitch = math.pi / gear.teeth
+    root = np.linspace(-pitch, -halves[0], 4)
+    tip = np.linspace(-halves[-1], halves[-1], 6)[1:-1]
+    left = np.concatenate([np.column_stack([np.full(4, gear.root), root]), np.column_stack([flank, -halves])])
+    right = left[::-1] * (1.0, -1.0)
+    return np.vstack([left, np.column_stack([np.full(4, gear.tip), tip]), right])
+
+
+def _teeth(axes, pair, gear, first, place, colour, label):
+    """The teeth near the pitch point as one closed shape, and the pitch circle."""
+    step = 2.0 * math.pi / gear.teeth
+    # the tooth that stands nearest to the pitch point
+    middle = min(range(gear.teeth), key=lambda k: math.hypot(*unrolled(pair, place(gear.pitch, first + k * step))))
+    points = np.vstack([outline(gear) + (0.0, first + (middle + k) * step) for k in range(-NEIGHBOURS, NEIGHBOURS + 1)])
+    if _falls(pair, place, points):
+        points = points[::-1]
+    curve = np.array([unrolled(pair, place(polar, azimuth)) for polar, azimuth in points])
+    below = np.array([unrolled(pair, place(gear.root - 0.35 * (gear.tip - gear.root), azimuth)) for azimuth in points[::-1, 1]])
+    shape = np.vstack([curve, below])
+    axes.fill(*shape.T, color=colour, alpha=0.4, lw=0, label=label)
+    axes.plot(*curve.T, color=colour, lw=1.5)
+    circle = np.array([unrolled(pair, place(gear.pitch, azimuth)) for azimuth in np.linspace(*points[[0, -1], 1], 60)])
+    axes.plot(*circle.T, color=colour, lw=0.8, ls="-.", label=f"pitch circle, {label}")
+
+
+def _falls(pair, place, points):
+    ends = [unrolled(pair, place(*points[k]))[0] for k in (0, -1)]
+    return ends[1] < ends[0]
+
+
+def _planet(polar, azimuth):
+    """A direction in the planet's frame (tooth 0 at azimuth 0) as (along the left half-shaft, along the planet's axis, third)."""
+    return math.sin(polar) * math.cos(azimuth), math.cos(polar), -math.sin(polar) * math.sin(azimuth)
+
+
+def _side(polar, azimuth):
+    """The same for the left side gear, whose azimuth 0 is at the planet's axis."""
+    return math.cos(polar), math.sin(polar) * math.cos(azimuth), math.sin(polar) * math.sin(azimuth)
+
+
+def unrolled(pair: Pair, direction: tuple[float, float, float]) -> tuple[float, float]:
+    """Where a direction from the apex lies at the heel, mm from the pitch point: its distance on the sphere, in its direction, as
+    one sees it from outside."""
+    along, up, third = direction
+    sine, cosine = math.sin(pair.gears[0].pitch), math.cos(pair.gears[0].pitch)
+    depth = sine * along + cosine * up
+    rise = sine * up - cosine * along
+    flat = math.hypot(rise, third)
+    angle = math.atan2(flat, depth)
+    scale = MM * pair.outer_cone * (angle / flat if flat > 0.0 else 1.0)
+    return -scale * third, scale * rise
+
+
+def _action(axes, pair):
+    """The great circle through the pitch point that is tangent to both base circles."""
+    planet, side = pair.gears
+    ends = [MM * pair.outer_cone * planet.arc(planet.pitch), -MM * pair.outer_cone * side.arc(side.pitch)]
+    slope = np.array([math.cos(pair.pressure_angle), math.sin(pair.pressure_angle)])
+    axes.plot(*np.outer(slope, ends), color=style.RED, ls="--", lw=1.1, label="line of action")
+    axes.plot(0.0, 0.0, "o", color=style.RED, ms=4)
