@@ -104,7 +104,7 @@ def test_what_is_no_fmu_is_said(tmp_path, content):
     (["run", "study_turning", "--plot", "{folder}/picture"], "a picture ends with"),
     (["tolerance", "none.toml", "--csv", "{folder}"], "name a file"),
     (["tolerance", "{folder}/wide.toml", "--runs", "0"], "runs = 0"),
-    (["spectrum", "none.csv", "--picture", "{folder}/none/a.png"], "there is no folder")])
+    (["spectrum", "none.csv", "--plot", "{folder}/none/a.png"], "there is no folder")])
 def test_the_command_says_it_before_any_run(tmp_path, capsys, command, said):
     (tmp_path / "wide.toml").write_text(WIDE)
     assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 1

@@ -100,7 +100,7 @@ def test_what_is_wrong_in_a_history_is_said_with_its_place(cycle, tmp_path, line
 
 def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_path, capsys):
     table, picture = tmp_path / "table.csv", tmp_path / "picture.png"
-    good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--table", str(table), "--picture", str(picture), "--set", "contact.law=line"]
+    good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--csv", str(table), "--plot", str(picture), "--set", "contact.law=line"]
     assert main(["spectrum", *good]) == 0
     assert "life by the" in capsys.readouterr().out and table.is_file() and picture.is_file()
     assert main(["spectrum", str(DUTY_CYCLE), "--set", "track"]) == 2 and "write NAME=VALUE" in capsys.readouterr().err
@@ -108,7 +108,7 @@ def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_pa
                         ([str(DUTY_CYCLE), "--set", "wheel_radus=0.3"], "did you mean wheel_radius"),
                         ([str(DUTY_CYCLE), "--scene", "nowhere"], "no scene file 'nowhere'"),
                         ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "it needs scene.gear_contact"),
-                        ([str(DUTY_CYCLE), "--picture", str(tmp_path / "p.xyz")], "p.xyz")]:
+                        ([str(DUTY_CYCLE), "--plot", str(tmp_path / "p.xyz")], "p.xyz")]:
         assert main(["spectrum", *wrong, "--fmu", fmu_file]) == 1
         message = capsys.readouterr().err.strip().splitlines()[-1]
         assert message.startswith("bevel-differential: ") and part in message, message

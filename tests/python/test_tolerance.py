@@ -303,7 +303,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
     picture, runs = tmp_path / "a.png", tmp_path / "a.csv"
-    given = [str(files), "--workers", "0", "--picture", str(picture), "--csv", str(runs)]
+    given = [str(files), "--workers", "0", "--plot", str(picture), "--csv", str(runs)]
     assert command.run(parser.parse_args(given)) == 0
     printed = capsys.readouterr().out
     for part in ("8 differentials drawn, 0 of them failed", "tooth_errors.seed", "all: yield", "smoother flanks", "as it is"):

@@ -20,6 +20,11 @@ def checked(file) -> Path | None:
     return file
 
 
+def is_parquet(file) -> bool:
+    """Whether a table is written as Parquet: its file's ending says so."""
+    return file is not None and Path(file).suffix.lower() in (".parquet", ".pq")
+
+
 def checked_picture(file) -> Path | None:
     """The same of a picture, whose ending says its kind."""
     file = checked(file)

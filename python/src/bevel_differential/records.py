@@ -1,15 +1,23 @@
-"""CSV files: comment lines with a #, then a header and rows."""
+"""Tables as files: CSV, comment lines with a #, then a header and rows; or Parquet."""
 
 import csv
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from .extras import needed
+from .output_file import is_parquet
 from .values import FileName
 
 
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
-    """Writes a file; numbers read back to the same bits."""
+    """Writes a file, by its ending as Parquet; numbers read back to the same bits."""
+    if is_parquet(file):
+        pa = needed("pyarrow", "sweep")
+        columns = dict(zip(head, map(list, zip(*rows))))
+        table = pa.table({name: [None if cell == "" else cell for cell in cells] for name, cells in columns.items()})
+        needed("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "; ".join(comments)}), file)
+        return Path(file)
     with open(file, "w", newline="", encoding="utf-8") as out:
         out.writelines(f"# {comment}\n" for comment in comments)
         writer = csv.writer(out, lineterminator="\n")

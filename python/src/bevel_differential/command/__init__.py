@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Sequence
 from typing import NoReturn
 
-from ..extras import install
+from ..extras import install, version
 from ..text import aligned
 from ..values import DifferentialError, DifferentialWarning, suggestion
 
@@ -50,6 +50,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         if not arguments or arguments[0] in ("-h", "--help", "help"):
             print(_overview())
             return 0 if arguments else WRONG_USE
+        if arguments[0] in ("-V", "--version"):
+            print(f"{NAME} {version() or 'of sources that are not installed'}")
+            return 0
         return _run(arguments[0], arguments[1:])
     except DifferentialError as error:
         return _said(error, WRONG_USE if error.kind == "use" else FAILED)
@@ -91,5 +94,5 @@ def _overview():
 
 
 def _said(what, status):
-    print(f"{NAME}: {'; '.join(str(what).splitlines()).replace(':; ', ': ')}", file=sys.stderr)
+    print(f"{NAME}: {chr(10).join(str(what).splitlines())}", file=sys.stderr)
     return status

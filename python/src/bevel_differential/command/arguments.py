@@ -25,6 +25,14 @@ def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     return values
 
 
+def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:
+    """Files to write, a table and a picture; `before`: names that the options `csv` and `plot` had before, which still do."""
+    parser.add_argument("--csv", metavar="FILE", help=f"write {table}: CSV, or Parquet where the file ends in .parquet")
+    parser.add_argument("--plot", metavar="FILE", help=f"draw {picture} (PNG, SVG or PDF)")
+    for option, name in before.items():
+        parser.add_argument(name, dest=option, help=argparse.SUPPRESS)
+
+
 def add_fmu(parser: argparse.ArgumentParser) -> None:
     """The FMU to use."""
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (start value: that of the package, or BEVEL_DIFFERENTIAL_FMU)")

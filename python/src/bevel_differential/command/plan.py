@@ -16,16 +16,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Prints the plan and writes files. Returns 0."""
-    from ..answers import about, ask, scenes
+    from ..answers import about, ask
     from ..output_file import checked
-    from ..values import DifferentialError
 
     if arguments.scene is None:
-        if arguments.set or arguments.ssv or arguments.python:
-            raise DifferentialError("--set, --ssv and --python need a scene; `bevel-differential plan` lists them")
-        found = ask({"ask": "scenes", "scenes": scenes()})["scenes"]
-        width = max(len(scene["name"]) for scene in found)
-        print("\n".join(f"{scene['name'].ljust(width)}  {scene['description']}" for scene in found))
+        print(listed("plan", arguments))
         return 0
     of = about(arguments.scene, once("--set", arguments.set))
     files = {kind: checked(file) for kind, file in (("ssv", arguments.ssv), ("python", arguments.python)) if file}
@@ -34,3 +29,15 @@ def run(arguments: argparse.Namespace) -> int:
         Path(file).write_text(ask({"ask": "export", "of": of, "format": kind})["text"], encoding="utf-8")
         print(f"written: {file}")
     return 0
+
+
+def listed(command: str, arguments: argparse.Namespace) -> str:
+    """The scenes with what they are; options are wrong where there is no scene."""
+    from ..answers import ask, scenes
+    from ..text import aligned
+    from ..values import DifferentialError
+
+    given = [f"--{name}" for name, value in vars(arguments).items() if name != "fmu" and value]
+    if given:
+        raise DifferentialError(f"{', '.join(given)}: name a scene; `bevel-differential {command}` lists them", kind="use")
+    return "\n".join(aligned([(scene["name"], scene["description"]) for scene in ask({"ask": "scenes", "scenes": scenes()})["scenes"]]))

@@ -27,7 +27,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
     parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
-    parser.add_argument("--out", metavar="FILE", help="results as Parquet")
+    parser.add_argument("--out", metavar="FILE", help="results as Parquet, which --resume goes on with")
+    parser.add_argument("--csv", metavar="FILE", help="write all runs: CSV, or Parquet where the file ends in .parquet")
     parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
     parser.add_argument("--force", action="store_true", help="start over where there are results")
     add_farm(parser)
@@ -38,9 +39,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Sweeps and prints what was found. Returns 0. Raises `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.sweep import sweep, text
     from ..scene import Scene
+    from ..output_file import checked
+    from ..records import write
     from ..values import DifferentialError
 
     given = _merged(arguments)
+    checked(arguments.csv)
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
     with Scene.load(given["scene"], fmu=arguments.fmu) as scene:
@@ -48,6 +52,8 @@ def run(arguments: argparse.Namespace) -> int:
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
         print(text(result, asked=given.get("runs")))
+        if arguments.csv:
+            print(f"written: {write(arguments.csv, result.table.column_names, zip(*result.table.to_pydict().values()))}")
     return 0
 
 

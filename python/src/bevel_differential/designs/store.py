@@ -90,6 +90,9 @@ class Store:
         self._flushed = time.monotonic()
         self.finished: pa.Table | None = None
         checked(self.file)
+        if self.file.suffix.lower() == ".csv":
+            raise DifferentialError(f"{file}: results that can be gone on with are Parquet; name it {self.file.stem}.parquet (a table "
+                                    "besides: --csv)")
         if force:
             shutil.rmtree(self.folder, ignore_errors=True)
         elif self.file.exists():

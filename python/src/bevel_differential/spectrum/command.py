@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from ..command.arguments import add_fmu, assignment, once
+from ..command.arguments import add_files, add_fmu, assignment, once
 from ..output_file import checked, checked_picture
 from .slow import ORDERS
 from .total import spectrum
@@ -18,18 +18,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                              "may be repeated")
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
                         help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
-    parser.add_argument("--table", metavar="FILE", help="write the damage by event as CSV or Parquet")
-    parser.add_argument("--picture", metavar="FILE", help="draw damage by event and the load spectrum (PNG, SVG or PDF)")
+    add_files(parser, "the damage by event", "damage by event and the load spectrum", csv="--table", plot="--picture")
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Prints damage and life, and writes what is asked for."""
-    checked(arguments.table)
-    checked_picture(arguments.picture)
+    checked(arguments.csv)
+    checked_picture(arguments.plot)
     result = spectrum(arguments.cycle, once("--set", arguments.set), arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
-    for file, write in ((arguments.table, result.save), (arguments.picture, result.plot)):
+    for file, write in ((arguments.csv, result.save), (arguments.plot, result.plot)):
         if file:
             print(f"wrote {write(file)}")
     for warning in dict.fromkeys(result.warnings):

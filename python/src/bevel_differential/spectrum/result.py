@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from ..records import write
-from ..values import DifferentialError, FileName
+from ..text import aligned, markdown
+from ..values import FileName
 from .damage import MODES, EventDamage
 from .slow import SlowCycles, Strength
 
@@ -121,15 +122,8 @@ class SpectrumResult:
         return found[np.argsort(-found["share"], kind="stable")]
 
     def save(self, file: FileName) -> Path:
-        """Writes the table: CSV, or Parquet by the name's end (for which pandas with pyarrow is needed)."""
-        file, table = Path(file), self.table()
-        if file.suffix == ".parquet":
-            try:
-                import pandas
-                pandas.DataFrame(table).to_parquet(file)
-            except ImportError:
-                raise DifferentialError(f"{file}: Parquet needs pandas and pyarrow; install them, or write a CSV file") from None
-            return file
+        """Writes the table: CSV, or Parquet by the name's end."""
+        table = self.table()
         return write(file, table.dtype.names or (), table.tolist(),
                      "Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa")
 
@@ -150,15 +144,18 @@ class SpectrumResult:
             lines.append("life: no event does any damage")
         worst = self.worst
         lines += [f"worst event: {worst.event.name}: S_F = {worst.safety_root:.3g}, S_H = {worst.safety_flank:.3g}", ""]
-        return "\n".join(lines + self.markdown())
+        return "\n".join(lines + aligned(self.cells(), 1))
 
     def markdown(self) -> list[str]:
-        """The table as lines of Markdown, with the columns that tell most."""
-        lines = ["| event | count | km | planet root | side root | planet flank | side flank | share | worst mode | S_F | S_H |",
-                 "|---|--:|--:|--:|--:|--:|--:|--:|---|--:|--:|"]
+        """The table as lines of Markdown."""
+        return markdown(self.cells(), (0, 8)).splitlines()
+
+    def cells(self) -> list[tuple[str, ...]]:
+        """The table as text, its head first, with the columns that tell most."""
+        rows = [("event", "count", "km", "planet root", "side root", "planet flank", "side flank", "share", "worst mode", "S_F", "S_H")]
         for row in self.table():
             km = f"{row['km']:.3g}" if isfinite(row["km"]) else "–"
-            damages = " | ".join(f"{row[mode]:.2e}" if row[mode] > 0.0 else "0" for mode in MODES)
-            lines.append(f"| {row['event']} | {row['count']:g} | {km} | {damages} | {row['share']:.1%} | "
-                         f"{row['worst_mode'] or '–'} | {row['safety.root_min']:.2f} | {row['safety.flank_min']:.2f} |")
-        return lines
+            damages = [f"{row[mode]:.2e}" if row[mode] > 0.0 else "0" for mode in MODES]
+            rows.append((str(row["event"]), f"{row['count']:g}", km, *damages, f"{row['share']:.1%}", str(row["worst_mode"] or "–"),
+                         f"{row['safety.root_min']:.2f}", f"{row['safety.flank_min']:.2f}"))
+        return rows

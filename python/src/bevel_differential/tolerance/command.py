@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from ..command.arguments import add_farm, add_fmu, farm
+from ..command.arguments import add_farm, add_files, add_fmu, farm
 
 QUICK = 64
 
@@ -16,8 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")
     parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
     add_farm(parser)
-    parser.add_argument("--csv", type=Path, help="write all runs to this file")
-    parser.add_argument("--picture", type=Path, help="write a picture (PNG, SVG or PDF) to this file")
+    add_files(parser, "all runs", "spread, yield and indices", plot="--picture")
     add_fmu(parser)
 
 
@@ -29,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from .plan import Plan
 
     checked(arguments.csv)
-    checked_picture(arguments.picture)
+    checked_picture(arguments.plot)
     runs = QUICK if arguments.quick and arguments.runs is None else arguments.runs
     plan = Plan.load(arguments.file, fmu=arguments.fmu, runs=runs, seed=arguments.seed, indices=not arguments.no_indices)
     with Farm(**farm(arguments), progress=True) as workers:
@@ -37,7 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
     print(report.text(plan, result))
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
-    if arguments.picture:
+    if arguments.plot:
         from . import picture
-        print(f"picture: {picture.draw(plan, result, arguments.picture)}")
+        print(f"picture: {picture.draw(plan, result, arguments.plot)}")
     return 0

@@ -4,6 +4,8 @@ import math
 from collections import Counter
 from pathlib import Path
 
+import numpy as np
+
 from ..records import write
 from ..text import aligned
 from ..values import FileName
@@ -11,6 +13,10 @@ from ..want import Condition
 from .figures import Estimate, Spread, proportion, verdicts
 from .plan import Plan
 from .study import Indices, Result
+
+
+# half of an interval of a Sobol index from which on it says little
+WIDE = 0.3
 
 
 def text(plan: Plan, result: Result) -> str:
@@ -22,7 +28,7 @@ def text(plan: Plan, result: Result) -> str:
 
 
 def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
-    """Writes all runs as CSV in SI: number, factors, figures, message."""
+    """Writes all runs in SI: number, factors, figures, message."""
     names, wants = list(plan.study.factors), [str(want) for want in plan.study.wants]
     rows = ([row.run, *(row.values[name] for name in names), *(row.figures.get(want, "") for want in wants), row.message]
             for row in result.rows)
@@ -90,6 +96,9 @@ def _indices(plan, result):
             lines.append((name, *(f"{each.first[i]:.2f} ± {each.first_half[i]:.2f} | {each.total[i]:.2f} ± "
                                   f"{each.total_half[i]:.2f}" for each in found.values())))
         blocks.append(_table(lines))
+        widest = max(float(np.max([each.first_half, each.total_half])) for each in found.values())
+        if widest > WIDE:
+            blocks.append(f"The intervals are as wide as ± {widest:.2f}: {plan.study.runs} draws say little about indices. Take more by --runs.")
     blocks += [f"Sobol indices of {want}: {why}" for want, why in result.indices.items() if isinstance(why, str)]
     return "\n".join(blocks)
 
