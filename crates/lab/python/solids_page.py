@@ -88,27 +88,19 @@ def _orders(found, which):
 def study(found):
     """The table of ripples for docs/study.md, with its sentences: what of the force's ripple is of facets."""
     def cells(row):
-        def share(value):
-            return f"{three(value)} N, {percent(value, row.look['mean'])} %"
+        return [f"{row.look['peak'] / row.look['mean']:.4f}", *(f"{percent(value, row.look['mean'])} %"
+                                                                for value in (row.look["ripple"], row.path_ripple))]
 
-        return [f"{row.look['peak'] / row.look['mean']:.4f}", share(row.look["ripple"]), share(row.path_ripple)]
-
-    ripple = ["ripple by teeth and facets", "by facets alone"]
-    table = [["facets", "arc, µm", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
+    ripple = ["ripple", "by facets alone"]
+    table = [["facets", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
     for facets in filter(SHORT.__contains__, found.plan.facets):
         deepest, patch = (found.solid(facets, which) for which in (0, 1))
-        table.append([str(facets), three(1e6 * patch.arc), f"{percent(patch.arc, found.overlap)} %", *cells(deepest), *cells(patch)])
+        table.append([str(facets), f"{percent(patch.arc, found.overlap)} %", *cells(deepest), *cells(patch)])
     tooth = found.tooth
-    table.append(["exact teeth", "0", "0", *cells(tooth), *cells(tooth)])
-    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
-            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. At the study's load one pair that carries "
-            f"alone overlaps by {three(1e3 * found.overlap)} mm by the study's K.")
-    for facets in (found.plan.facets[0], found.plan.facets[-1]):
-        deepest, patch = (found.solid(facets, which) for which in (0, 1))
-        alone = [percent(row.path_ripple, row.look["mean"]) for row in (deepest, patch)]
-        text += (f" With {facets} facets per flank the arcs rise {three(1e6 * patch.arc)} µm over the facets of both flanks, "
-                 f"{percent(patch.arc, found.overlap)} % of that; facets alone move the force by {alone[0]} % (deepest point) or "
-                 f"{alone[1]} % (patch).")
+    table.append(["exact teeth", "0", *cells(tooth), *cells(tooth)])
     worst = max(row.look["tangential"] for row in found.rows)
-    return (f"{markdown(table, left=())}\n{text} The study's own quantity, T/r_p, shows next to nothing of this: the load is constant and the "
-            f"gears are light, so that it moves by {three(worst)} N at most, whatever the facets.\n")
+    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
+            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. One pair that carries alone overlaps by "
+            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the study's own quantity, moves by {three(worst)} N at most, "
+            f"whatever the facets: the load is constant and the gears are light.\n")
+    return f"{markdown(table, left=())}\n{text}"
