@@ -15,7 +15,7 @@ const SIMULATORS: Document = Document {
     pictures: &["peers.png"],
 };
 const SOLVERS: Document = Document {
-    file: "docs/foreign-solvers.md",
+    file: "docs/compare.md",
     marks: ["<!-- foreign:begin -->", "<!-- foreign:end -->"],
     pictures: &[],
 };
@@ -44,7 +44,7 @@ pub struct CompareSolversCommand {
     /// Two cases, once
     #[arg(long)]
     quick: bool,
-    /// Also renew docs/foreign-solvers.md
+    /// Also renew docs/compare.md
     #[arg(long)]
     write: bool,
 }
