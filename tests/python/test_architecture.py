@@ -68,3 +68,17 @@ def test_what_the_pages_name_is_in_the_repository(page, span):
                                   "cargo test --release --test tooth_finite_elements"])
 def test_a_name_of_nothing_is_found_out(name):
     assert not is_there(name)
+
+
+def test_numbers_of_the_page_are_those_of_the_source():
+    page = " ".join((ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").split())
+
+    def constant(file, name):
+        return re.search(rf"const {name}: usize = (\d+);", FILES[file].read_text(encoding="utf-8"))[1]
+
+    sizes = {name: constant("src/model/dynamics/sizes.rs", name) for name in ("LEAST", "DIFFERENT", "EXACT", "LARGEST")}
+    assert f"There are {constant('src/model/assembly/shelf.rs', 'PLACES')} places for each kind" in page
+    assert f"| plain teeth | {sizes['LEAST']}, {sizes['DIFFERENT']}, 7 |" in page
+    assert f"half-shafts that twist | {sizes['DIFFERENT']}; {sizes['EXACT']} |" in page
+    assert f"| teeth, `Largest` | up to {sizes['LARGEST']} |" in page
+    assert f"| gears without teeth | up to {constant('src/model/assembly/rigid.rs', 'MOST')} |" in page
