@@ -4,7 +4,11 @@ import math
 
 from solvers import OURS
 
-LEVELS = (1e-3, 1e-4, 1e-6, 1e-8)
+# cases as the table names them
+CASES = {"turn_equilibrium": "turn", "turn_rolling": "turn, rolled in", "straight_rolling": "straight, rolled in",
+         "clunk, every 10 us": "clunk, 10 µs", "turn, force along a line": "turn, `line`"}
+
+LEVELS = (1e-3, 1e-6, 1e-8)
 
 
 def frontier(rows):
@@ -36,26 +40,29 @@ def cost_at(level, rows):
 
 
 def markdown(rows, names, checks, missing):
-    parts = []
-    for name in names:
-        of_case = [row for row in rows if row["case"] == name]
-        solvers = list(dict.fromkeys(row["name"] for row in of_case))
-        by_solver = {solver: [row for row in of_case if row["name"] == solver] for solver in solvers}
-        ours = {level: cost_at(level, by_solver[OURS]) for level in LEVELS}
-        lines = [[name.replace("_", " ") + ", ms", *(f"{level:.0e}" for level in LEVELS)]]
-        for solver in solvers:
-            cells = [solver]
-            for level in LEVELS:
-                cost = cost_at(level, by_solver[solver])
-                text = "–" if cost is None else f"{1e3 * cost:.3g}"
-                if cost is not None and ours[level] is not None and solver != OURS:
-                    text += f" ({float(f'{cost / ours[level]:.2g}'):g}×)"
-                cells.append(text)
-            lines.append(cells)
-        parts.append("\n".join(aligned(lines)))
-        parts.append(f"Closest of the others to the reference: {checks[name]:.1e}.")
+    """Compiled solvers, and those called from Python, each with the ratios of its times to that of this program."""
+    slow = [name for name in dict.fromkeys(row["name"] for row in rows) if name.startswith(("scipy", "scikit"))]
+    others = [name for name in dict.fromkeys(row["name"] for row in rows) if name != OURS and name not in slow]
+    parts = [_ratios(rows, names, others)]
+    if slow:
+        parts.append(_ratios(rows, [name for name in names if any(row["case"] == name and row["name"] in slow for row in rows)], slow))
+    closest = ", ".join(f"{checks[name]:.1e}" for name in names)
+    parts.append(f"Closest of the others to the reference, case by case: {closest}.")
     parts += [f"Not run: {text}." for text in missing]
     return "\n\n".join(parts) + "\n"
+
+
+def _ratios(rows, names, others):
+    shorter = [name.removeprefix(f"{OURS}, method ").removesuffix(", compiled") for name in others]
+    lines = [["case", "error", f"{OURS}, ms", *shorter]]
+    for name in names:
+        costs = {each: [row for row in rows if row["case"] == name and row["name"] == each] for each in (OURS, *others)}
+        for level in LEVELS:
+            own = cost_at(level, costs[OURS])
+            ratios = [(cost_at(level, costs[each]), own) for each in others]
+            lines.append([CASES.get(name, name), f"{level:.0e}".replace("e-0", "e-"), "–" if own is None else f"{1e3 * own:.3g}",
+                          *("–" if None in pair else f"{float(f'{pair[0] / pair[1]:.2g}'):g}×" for pair in ratios)])
+    return "\n".join(aligned(lines))
 
 
 def aligned(lines):

@@ -20,9 +20,9 @@ class Row:
 
 
 def mujoco(step, quick=False, many_points=False, facets=16, at_once=False):
-    name = "MuJoCo, several points per pair" if many_points else "MuJoCo, one point per pair"
+    name = "MuJoCo, several points" if many_points else "MuJoCo, one point"
     name += "" if facets == 16 else f", {facets} facets"
-    name += ", full load at once" if at_once else ""
+    name += ", load at once" if at_once else ""
     return Row(name, f"step {1e3 * step:g} ms", "mujoco_case.py", "mujoco",
                {"step": step, "facets": facets, "many_points": many_points, "at_once": at_once}, quick)
 

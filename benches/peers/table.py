@@ -22,18 +22,29 @@ PLACES = {"cost": "CPU s per s", "ripple": "ripple peak to peak, %", "ripple_rms
 
 
 def markdown(results, machine, missing):
-    head = ["tool", "setting", "CPU s per simulated s: straight", "turn", "ripple straight, %", "ripple turn, %",
-            "its rms, %", "off the finest, %", "mean speed off the law, %", "slip, °: straight", "turn",
-            "ΣF_n, kN: straight", "turn"]
-    lines = aligned([head, *(cells(result, finest(result, results)) for result in results)], left=(0, 1))
-    notes = [f"No rows of {name}: it is not installed." for name in missing]
+    ours = next((r for r in results if (r["row"].group, r["row"].label) == OURS), None)
+    head = ["tool", "setting", "s/s straight", "turn", "× straight", "× turn", "straight, %", "turn, %", "off, %", "slip, °", "ΣF_n, kN"]
+    rows = [cells(result, finest(result, results), ours) for result in results]
+    rows.append(["Project Chrono, same law", "cited", f"{CHRONO:.0f}", "–", over_net({"straight": CHRONO}, ours, "straight"), *6 * "–"])
+    lines = aligned([head, *rows], left=(0, 1))
+    off_law = max(largest(case["speed_error"]) for result in results for case in result["cases"].values())
     heel, middle, toe = statics()
-    notes.append(f"Statics, T / (R sin δ_b): ΣF_n is {heel:.1f} kN with all of it at the heel, {middle:.1f} kN in the "
-                 f"middle, {toe:.1f} kN at the toe.")
-    return "\n".join([lines, *factors(results), "", f"Measured on {machine}.", *notes]) + "\n"
+    notes = [f"s/s: CPU s per simulated s, and × that of this program. Mean speeds are within {percent(off_law)} % of the gear law. {calls(ours)}",
+             f"Statics, T / (R sin δ_b): ΣF_n is {heel:.1f} kN with all of it at the heel, {middle:.1f} kN in the "
+             f"middle, {toe:.1f} kN at the toe.", *(f"No rows of {name}: it is not installed." for name in missing)]
+    return "\n".join([lines, *notes, f"Measured on {machine}."]) + "\n"
 
 
-def cells(result, reference):
+def calls(ours):
+    """What Python's calls are of this program's cost."""
+    if ours is None:
+        return ""
+    cost, idle = ([1e3 * ours["cases"][case][key] for case in CASES] for key in ("cost", "calls"))
+    return (f"Of the {cost[0]:.1f} and {cost[1]:.1f} ms of {OURS[0]}, {OURS[1]}, {idle[0]:.1f} and {idle[1]:.1f} ms are Python's calls, "
+            "which × leaves out.")
+
+
+def cells(result, reference, ours):
     straight, turn = (result["cases"][case] for case in CASES)
     row = result["row"]
     changed = "–"
@@ -41,25 +52,23 @@ def cells(result, reference):
         pairs = zip(turn["ripple"], reference["cases"]["turn"]["ripple"])
         difference = max(100.0 * abs(own / fine - 1.0) for own, fine in pairs)
         changed = significant(difference, 2) if difference >= 0.01 else "< 0.01"
-    off_law = max(largest(case["speed_error"]) for case in (straight, turn))
-    return [
-        row.group, row.label, with_spread(straight["costs"], straight["cost"]),
-        with_spread(turn["costs"], turn["cost"]), percent(max(straight["ripple"])), both(turn["ripple"]),
-        both(turn["ripple_rms"]), changed, percent(off_law),
-        *(f"{largest(case['slip']):.2f}" for case in (straight, turn)),
-        *(f"{sum(case['force']) / 2e3:.1f}" for case in (straight, turn)),
-    ]
+    other = {case: result["cases"][case]["cost"] for case in CASES} if row.needs and keeps_teeth(result) else {}
+    return [row.group, row.label, *(significant(case["cost"], 2) for case in (straight, turn)), *(over_net(other, ours, case) for case in CASES),
+            percent(max(straight["ripple"])), both(turn["ripple"]), changed, f"{max(largest(case['slip']) for case in (straight, turn)):.2f}",
+            f"{sum(turn['force']) / 2e3:.1f}"]
+
+
+def over_net(costs, ours, case):
+    """A cost over that of this program without Python's calls."""
+    if ours is None or case not in costs:
+        return "–"
+    net = ours["cases"][case]["cost"] - ours["cases"][case]["calls"]
+    return f"{float(f'{costs[case] / net:.2g}'):.0f}"
 
 
 def finest(result, results):
     """The last of the same group."""
     return [other for other in results if other["row"].group == result["row"].group][-1]
-
-
-def with_spread(costs, middle):
-    if len(costs) == 1:
-        return significant(middle, 2)
-    return f"{significant(middle, 2)} ({significant(min(costs), 2)}–{significant(max(costs), 2)})"
 
 
 def significant(value, digits):
@@ -79,34 +88,8 @@ def largest(values):
     return max(abs(value) for value in values)
 
 
-def factors(results):
-    """How many times cheaper this program is than the others, case by case."""
-    ours = next((r for r in results if (r["row"].group, r["row"].label) == OURS), None)
-    if ours is None:
-        return []
-    cost = {case: ours["cases"][case]["cost"] for case in CASES}
-    idle = {case: ours["cases"][case]["calls"] for case in CASES}
-    head = [f"cost over that of {OURS[0]}, {OURS[1]}", "straight", "turn", "straight, net", "turn, net"]
-    lines = [head]
-    named = [(f"{r['row'].group}, {r['row'].label}", {case: r["cases"][case]["cost"] for case in CASES})
-             for r in results if r["row"].needs and keeps_teeth(r)]
-    named.append(("Project Chrono, the same law (cited, see below)", {"straight": CHRONO}))
-    for name, others in named:
-        gross = [times(others.get(case), cost[case]) for case in CASES]
-        net = [times(others.get(case), cost[case] - idle[case]) for case in CASES]
-        lines.append([name, *gross, *net])
-    remark = (f"Of this program's {1e3 * cost['straight']:.1f} and {1e3 * cost['turn']:.1f} ms per simulated second, "
-            f"{1e3 * idle['straight']:.1f} and {1e3 * idle['turn']:.1f} ms are Python's calls: the same loop with "
-            "calls that have nothing to do. \"Net\" leaves them out.")
-    return [aligned(lines), remark]
-
-
 def keeps_teeth(result):
     return all(largest(case["slip"]) < SKIPPED for case in result["cases"].values())
-
-
-def times(other, own):
-    return "–" if other is None else f"{float(f'{other / own:.2g}'):.0f}"
 
 
 def write_csv(path, results):

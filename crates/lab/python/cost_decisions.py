@@ -13,23 +13,23 @@ ALL = [
     ("mean force of a mesh", "study_turning", "planet[1].left_normal_force:mean", 0.01),
     ("largest force of a mesh", "study_turning", "planet[1].left_normal_force:max", 0.05),
     ("ripple of a speed", "study_turning", "left.speed:peak_to_peak", 0.05),
-    ("deflection: mean transmission error", "study_turning", "planet[1].left_transmission_error:mean", 0.05),
-    ("noise: first mesh order of the transmission error", "study_turning", "planet[1].left_transmission_error:mesh_order_1", 0.05),
+    ("deflection: mean", "study_turning", "planet[1].left_transmission_error:mean", 0.05),
+    ("noise: first mesh order", "study_turning", "planet[1].left_transmission_error:mesh_order_1", 0.05),
     ("torque bias", "torque_bias", "torque_bias_ratio:mean", 0.01),
     ("losses", "torque_bias", "efficiency:mean", 0.001),
     ("peak torque of a clunk", "clunk", "left.shaft_torque:max", 0.01),
-    ("torque of a wheel that slips", "limited_slip", "left.shaft_torque:rms", 0.01),
+    ("torque of a slipping wheel", "limited_slip", "left.shaft_torque:rms", 0.01),
     ("speed of a wheel on ice", "one_wheel_on_ice", "left.wheel_speed:max", 0.01),
 ]
 COLUMNS = ["quantity", "scene", "want", "accuracy", "gears", "effects", "solver", "error", "stray", "real_time", "price",
            "reference_price"]
-HEAD = ["quantity", "within", "gears", "effects", "solver", "error", "× real time", "asked by"]
-TITLE = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy` with the options of its row"
+HEAD = ["quantity", "within", "gears", "effects", "tolerance", "error", "× real time"]
+TITLE = "The cheapest setting by quantity, each found and proved by `bevel-differential accuracy`"
 
 
 def decisions(folder, count, timed, begin, end):
     """Answers the first questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
-    rows, table = [COLUMNS], [HEAD]
+    rows, table, asked = [COLUMNS], [HEAD], {}
     for place, (quantity, name, want, within) in enumerate(ALL[:count]):
         stop = read_scene(find(name))["stop"]
         # the start settles
@@ -46,8 +46,9 @@ def decisions(folder, count, timed, begin, end):
         rows.append([quantity, name, want, within, gears, effects.replace(", ", " "), solver, run.error, stray,
                      stop / seconds if seconds else math.nan, run.price, found.reference.price])
         error = percent(run.error) + (f"; two runs of the richest model differ by {percent(stray)}" if found.uncertain else "")
-        asked = f"--scene {name} --want {want} --within {100.0 * within:g}%{f' --from {start:g}s' if start else ''}"
-        table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", solver, error,
-                      significant(stop / seconds, 2) if seconds else "", f"`{asked}`"])
+        asked.setdefault(f"`{name}{f' --from {start:g}s' if start else ''}`", []).append(f"`{want}`")
+        table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", solver.removeprefix("tolerance "), error,
+                      significant(stop / seconds, 2) if seconds else ""])
     write_measured(folder / "decisions.csv", ["error: of the chosen setting against the richest model, as a fraction"], rows)
-    return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}"
+    questions = "; ".join(f"{scene}: {', '.join(wants)}" for scene, wants in asked.items())
+    return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nIts questions, by `--want` in the order of the rows: {questions}."

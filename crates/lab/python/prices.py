@@ -3,7 +3,7 @@
 usage: prices.py FMU FOLDER RUNS PAIRS [OTHER_FMU]
 
 Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
-also writes FOLDER/prices.csv."""
+also writes FOLDER/prices.csv, and all columns and pairs to FOLDER/alone.csv and pairs.csv."""
 
 import csv
 import statistics
@@ -19,6 +19,8 @@ from tools import machine, say, significant
 
 STEP = 1e-3
 COUNTED = 0.5
+# from here on an evaluation of a pair over the sum of both alone is told
+DEAR = 1.3
 # seconds of the processor that a timed run is to take, and its steps
 LONG, FEWEST, MOST = 0.1, 100, 20_000
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
@@ -91,6 +93,11 @@ class Prices:
                 f"{of_one:.2f}", significant(STEP / taken, 2)], of_one, over[1]
 
 
+def short(row):
+    """The columns of a row that the document has."""
+    return [row[0], row[1], row[3], row[5].split(" (")[0], *row[6:]]
+
+
 def prices(bench, fmu, switches, with_pairs, folder):
     """The tables of one build."""
     singles = {**LEVELS, **switches}
@@ -111,10 +118,10 @@ def prices(bench, fmu, switches, with_pairs, folder):
     say((1 + len(singles)) / stages, "timing all together")
     row, of_all, _ = priced.row("all together", every)
     rows.append(row)
-    with (Path(folder) / "prices.csv").open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([["on", "evaluation", "communication_step"], *data])
+    write(folder, "prices.csv", [["on", "evaluation", "communication_step"], *data])
+    write(folder, "alone.csv", rows)
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
-    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown(rows)}\n"
+    text = (f"Each alone, and all together: {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown([short(row) for row in rows])}\n"
             f"All together an evaluation costs {of_all:.1f} times that of plain teeth; 1 and what each adds alone make {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
@@ -122,8 +129,22 @@ def prices(bench, fmu, switches, with_pairs, folder):
             say((2 + len(singles) + done) / stages, f"timing {a}, {b}")
             row, of_one, _ = priced.row(f"`{a}`, `{b}`", singles[a] | singles[b])
             rows.append([*row[:2], *row[3:7], f"{of_one / (known[a] + known[b] - 1.0):.2f}"])
-        text += f"\nEach pair.\n\n{markdown(rows)}"
+        write(folder, "pairs.csv", rows)
+        text += pairs_told(rows[1:])
     return text
+
+
+def pairs_told(rows):
+    """Which pairs cost far more than both alone let expect, and how much the others do."""
+    dear = sorted((row for row in rows if float(row[-1]) >= DEAR), key=lambda row: -float(row[-1]))
+    others = [float(row[-1]) for row in rows if float(row[-1]) < DEAR]
+    told = f"\nOf {len(rows)} pairs {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both alone"
+    return f"{told}. The others:\n\n{markdown([['on', 'over plain', 'over the sum'], *([row[0], row[4].split(' ')[0], row[-1]] for row in dear)])}"
+
+
+def write(folder, name, rows):
+    with (Path(folder) / name).open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
 
 
 def builds(bench, fmu, other, switches):

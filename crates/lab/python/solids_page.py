@@ -1,16 +1,16 @@
-"""What the numbers about facets say: tables and sentences for docs/solids.md and docs/study.md."""
+"""What the numbers about facets say: tables and sentences for docs/cost.md and docs/study.md."""
 
 from bevel_differential.text import markdown
-from solids_errors import QUANTITIES, fitted, order
+from solids_errors import fitted
 from tools import machine, significant
 
 # facets from which an order is fitted: coarser ones are not yet in the range where one term dominates
 FINE = 16
 # facet numbers of the short table
 SHORT = (4, 8, 16, 32, 64, 128)
-# columns of the long table
+# columns of the table
 SHOWN = {"speed_rms": "speed, °/s", "speed_path_rms": "on the path", "speed_corner_rms": "at corners", "force_mean": "mean force, N",
-         "force_path_ripple": "force ripple on the path, N", "te_rms": "TE, µm", "te_swing_rms": "its swing, µm"}
+         "te_rms": "TE, µm", "te_swing_rms": "its swing, µm"}
 # orders that are told, in words
 ORDERED = {"te_rms": "transmission error", "te_swing_rms": "its swing", "force_mean": "mean force",
            "force_path_ripple": "force ripple on the path", "speed_path_rms": "speed on the path",
@@ -27,15 +27,12 @@ def percent(part, whole):
 
 
 def page(found):
-    """What is written into docs/solids.md."""
+    """What is written into docs/cost.md."""
     parts = [_sentences(found)]
-    for title, table, which in [
-            ("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", _errors, 1),
-            ("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", _errors, 0),
-            ("Orders observed between facet numbers, patch:", _orders, 1),
-            ("Orders observed between facet numbers, deepest point:", _orders, 0)]:
-        parts.append(f"{title}\n\n{markdown(table(found, which), left=())}")
-    parts.append(f"Last rows of the first two tables: exact teeth at 1e-6 against themselves at 1e-9. Measured on {machine()}.")
+    for title, which in [("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", 1),
+                         ("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", 0)]:
+        parts.append(f"{title}\n\n{markdown(_errors(found, which), left=())}")
+    parts.append(f"Last rows: exact teeth at 1e-6 against themselves at 1e-9. Measured on {machine()}.")
     return "\n".join(parts)
 
 
@@ -44,23 +41,7 @@ def _sentences(found):
     for quantity, what in ORDERED.items():
         fine = [[pair for pair in found.series(quantity, which) if pair[0] >= FINE] for which in (0, 1)]
         told.append(f"{what} {' and '.join(f'{fitted(pairs):.1f}' if len(pairs) > 1 else '–' for pairs in fine)}")
-    lines = [f"- Observed orders in 1/facets, fitted from {FINE} facets on, deepest point and patch: {'; '.join(told)}.\n"]
-    for facets in (32, 128):
-        if found.solid(facets, 0):
-            deepest, patch = (_sentence(found, found.solid(facets, which)) for which in (0, 1))
-            lines.append(f"- {facets} facets. Deepest point: {deepest}. Patch: {patch}.\n")
-    usual = found.tooth.errors[1]
-    lines.append(f"- Integration hides nothing: exact teeth at the usual tolerance of 1e-6 are {three(usual['speed_rms'])} °/s (rms) and "
-                 f"{three(usual['force_mean'])} N of the mean force from those at 1e-9.\n")
-    return "".join(lines)
-
-
-def _sentence(found, row):
-    errors = row.errors[0]
-    return (f"speed {three(errors['speed_max'])} °/s at most and {three(errors['speed_rms'])} rms, mean force {row.look['mean']:.1f} N, "
-            f"{percent(errors['force_mean'], found.tooth.look['mean'])} % off, transmission error {three(errors['te_rms'])} µm with "
-            f"{three(errors['te_swing_rms'])} µm of swing (rms), {three(row.taken / found.tooth.taken)} × the time of exact teeth, "
-            f"{three(row.real_time)} × real time")
+    return f"Observed orders in 1/facets, fitted from {FINE} facets on, deepest point and patch: {'; '.join(told)}.\n"
 
 
 def _errors(found, which):
@@ -69,46 +50,28 @@ def _errors(found, which):
         cost = [str(row.counts[0]), three(row.taken / found.tooth.taken), three(row.real_time)]
         return [*(three(errors[name]) for name in SHOWN), *cost]
 
-    rows = [found.solid(facets, which) for facets in found.plan.facets]
+    rows = [found.solid(facets, which) for facets in filter(SHORT.__contains__, found.plan.facets)]
     return [["facets", "arc, µm", *SHOWN.values(), "steps", "× tooth", "× real time"],
             *([str(row.facets), three(1e6 * row.arc), *cells(row, row.errors[0])] for row in rows),
             ["tooth", "0", *cells(found.tooth, found.tooth.errors[1])]]
 
 
-def _orders(found, which):
-    """Observed orders between successive facet numbers."""
-    facets = found.plan.facets
-    table = [["error", "expected", *(f"{coarse}–{fine}" for coarse, fine in zip(facets, facets[1:]))]]
-    for name, (_, expected) in QUANTITIES.items():
-        series = found.series(name, which)
-        table.append([name.replace("_", " "), str(expected), *(f"{order(*pair):.1f}" for pair in zip(series, series[1:]))])
-    return table
-
-
 def study(found):
     """The table of ripples for docs/study.md, with its sentences: what of the force's ripple is of facets."""
     def cells(row):
-        def share(value):
-            return f"{three(value)} N, {percent(value, row.look['mean'])} %"
+        return [f"{row.look['peak'] / row.look['mean']:.4f}", *(f"{percent(value, row.look['mean'])} %"
+                                                                for value in (row.look["ripple"], row.path_ripple))]
 
-        return [f"{row.look['peak'] / row.look['mean']:.4f}", share(row.look["ripple"]), share(row.path_ripple)]
-
-    ripple = ["ripple by teeth and facets", "by facets alone"]
-    table = [["facets", "arc, µm", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
+    ripple = ["ripple", "by facets alone"]
+    table = [["facets", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
     for facets in filter(SHORT.__contains__, found.plan.facets):
         deepest, patch = (found.solid(facets, which) for which in (0, 1))
-        table.append([str(facets), three(1e6 * patch.arc), f"{percent(patch.arc, found.overlap)} %", *cells(deepest), *cells(patch)])
+        table.append([str(facets), f"{percent(patch.arc, found.overlap)} %", *cells(deepest), *cells(patch)])
     tooth = found.tooth
-    table.append(["exact teeth", "0", "0", *cells(tooth), *cells(tooth)])
-    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
-            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. At the study's load one pair that carries "
-            f"alone overlaps by {three(1e3 * found.overlap)} mm by the study's K.")
-    for facets in (found.plan.facets[0], found.plan.facets[-1]):
-        deepest, patch = (found.solid(facets, which) for which in (0, 1))
-        alone = [percent(row.path_ripple, row.look["mean"]) for row in (deepest, patch)]
-        text += (f" With {facets} facets per flank the arcs rise {three(1e6 * patch.arc)} µm over the facets of both flanks, "
-                 f"{percent(patch.arc, found.overlap)} % of that; facets alone move the force by {alone[0]} % (deepest point) or "
-                 f"{alone[1]} % (patch).")
+    table.append(["exact teeth", "0", *cells(tooth), *cells(tooth)])
     worst = max(row.look["tangential"] for row in found.rows)
-    return (f"{markdown(table, left=())}\n{text} The study's own quantity, T/r_p, shows next to nothing of this: the load is constant and the "
-            f"gears are light, so that it moves by {three(worst)} N at most, whatever the facets.\n")
+    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
+            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. One pair that carries alone overlaps by "
+            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the study's own quantity, moves by {three(worst)} N at most, "
+            f"whatever the facets: the load is constant and the gears are light.\n")
+    return f"{markdown(table, left=())}\n{text}"

@@ -53,7 +53,7 @@ fn of(on: &str) -> Option<&'static Price> {
     prices().iter().find(|price| price.on == on)
 }
 
-/// Price of an evaluation of `p`: prices of effects add up (docs/prices.md).
+/// Price of an evaluation of `p`: prices of effects add up (docs/cost.md).
 fn per_evaluation(p: &Parameters) -> f64 {
     let base = match (p.scene.gear_contact, p.contact.law) {
         (GearContact::Lumped, _) => "lumped",

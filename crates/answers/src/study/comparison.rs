@@ -222,9 +222,8 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
         (published::STIFFNESS_USED / hertz - 1.0) * 100.0
     );
     notes[Note::Ripple as usize - 1] = format!(
-        "The study says ±{} % for all speeds. Settled, straight driving has no ripple, because no tooth rolls; in \
-         the turn it is the rate at which the deflection changes while tip corners hand the load over between one \
-         pair and two. With the study's contact law and constants the exact tooth form gives no more than that.",
+        "The study says ±{} % for all speeds. Settled, straight driving has no ripple, because no tooth rolls. In \
+         the turn the exact tooth form gives no more than this with the study's contact law and constants.",
         published::RIPPLE
     );
     let straight = &results.straight;

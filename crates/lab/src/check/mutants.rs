@@ -8,7 +8,7 @@ use crate::tools::places;
 use crate::tools::scripted::{Document, Script, arguments};
 
 const DOCUMENT: Document =
-    Document { file: "docs/mutants.md", marks: ["<!-- mutants:begin -->", "<!-- mutants:end -->"], pictures: &[] };
+    Document { file: "docs/architecture.md", marks: ["<!-- mutants:begin -->", "<!-- mutants:end -->"], pictures: &[] };
 
 /// Changes the source in one place at a time and lists the changes that no test notices (goes on where it was stopped)
 #[derive(Args, Clone, Debug)]
@@ -19,7 +19,7 @@ pub struct MutantsCommand {
     /// By which they are drawn
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Also renew the report in docs/mutants.md
+    /// Also renew the report in docs/architecture.md
     #[arg(long)]
     write: bool,
 }

@@ -14,11 +14,8 @@ const SIMULATORS: Document = Document {
     marks: ["<!-- peers:begin -->", "<!-- peers:end -->"],
     pictures: &["peers.png"],
 };
-const SOLVERS: Document = Document {
-    file: "docs/foreign-solvers.md",
-    marks: ["<!-- foreign:begin -->", "<!-- foreign:end -->"],
-    pictures: &[],
-};
+const SOLVERS: Document =
+    Document { file: "docs/compare.md", marks: ["<!-- foreign:begin -->", "<!-- foreign:end -->"], pictures: &[] };
 const DRIVETRAIN: Document = Document {
     file: "docs/coupling.md",
     marks: ["<!-- drivetrain:begin -->", "<!-- drivetrain:end -->"],
@@ -44,7 +41,7 @@ pub struct CompareSolversCommand {
     /// Two cases, once
     #[arg(long)]
     quick: bool,
-    /// Also renew docs/foreign-solvers.md
+    /// Also renew docs/compare.md
     #[arg(long)]
     write: bool,
 }

@@ -11,7 +11,7 @@ use fmu_build::fmu::package;
 use fmu_build::tools::paths;
 
 const DOCUMENT: Document =
-    Document { file: "docs/prices.md", marks: ["<!-- prices:begin -->", "<!-- prices:end -->"], pictures: &[] };
+    Document { file: "docs/cost.md", marks: ["<!-- prices:begin -->", "<!-- prices:end -->"], pictures: &[] };
 /// Prices of each alone, by which the command `accuracy` counts and the page shows.
 const DATA: &str = "prices.csv";
 /// Runs of each, and for a quick look.
@@ -27,7 +27,7 @@ pub struct PricesCommand {
     /// Three runs of each instead of nine, and no pairs
     #[arg(long, conflicts_with = "write")]
     quick: bool,
-    /// Also renew the tables in docs/prices.md and the prices by which `accuracy` counts
+    /// Also renew the tables in docs/cost.md and the prices by which `accuracy` counts
     #[arg(long)]
     write: bool,
 }

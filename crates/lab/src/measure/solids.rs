@@ -11,7 +11,7 @@ use fmu_build::fmu::package;
 use fmu_build::tools::{paths, sections};
 
 const DOCUMENT: Document = Document {
-    file: "docs/solids.md",
+    file: "docs/cost.md",
     marks: ["<!-- solids:begin -->", "<!-- solids:end -->"],
     pictures: &["solids_convergence.png", "solids_cycle.png"],
 };
@@ -27,7 +27,7 @@ pub struct SolidsCommand {
     /// Only 4 to 32 facets over 0.1 s
     #[arg(long, conflicts_with = "write")]
     quick: bool,
-    /// Also renew docs/solids.md, the table in docs/study.md and the figures
+    /// Also renew docs/cost.md, the table in docs/study.md and the figures
     #[arg(long)]
     write: bool,
     /// Folder for figures and CSV [default: target/solids]

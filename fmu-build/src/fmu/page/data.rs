@@ -171,7 +171,7 @@ fn assignment(setting: &Setting) -> (&'static str, Value) {
     (setting.row.name, value)
 }
 
-/// Price of a step with each effect alone over that of plain teeth, from the last measurement (docs/prices.md).
+/// Price of a step with each effect alone over that of plain teeth, from the last measurement (docs/cost.md).
 fn prices() -> Result<Vec<Price>> {
     let file = paths::workspace().join("crates").join("answers").join("data").join("prices.csv");
     let mut reader =

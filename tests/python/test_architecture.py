@@ -1,0 +1,84 @@
+"""What docs/architecture.md and docs/theory.md name is there: files, folders, types, constants, functions, variables, programs of tests."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+ROOMS = ("src", "crates", "fmu-build", "python", "tests", "benches", "scenes", "examples")
+SOURCES = {".rs", ".py", ".toml", ".js", ".h", ".c", ".csv"}
+FILES = {file.relative_to(ROOT).as_posix(): file for room in ROOMS for file in (ROOT / room).rglob("*")
+         if file.suffix in SOURCES and file != Path(__file__) and not {"target", "node_modules"} & set(file.parts)}
+TEXT = "\n".join(file.read_text(encoding="utf-8") for path, file in FILES.items() if not path.endswith(".csv"))
+PATH = re.compile(r"[\w./*-]+")
+# the standard library's
+STANDARD = {"Arc", "Copy"}
+# a word of a span by its form, and what defines it
+DEFINITIONS = [(r"[A-Z][A-Z0-9_]*", r"const {}\b|static {}\b"), (r"[A-Z]\w+", r"(?:struct|enum|trait|type|macro_rules!) {}\b")]
+
+
+def spans(page):
+    """Code spans outside blocks of code, once each."""
+    prose = re.sub(r"^```.*?^```|^    .*?$", "", (ROOT / "docs" / page).read_text(encoding="utf-8"), flags=re.M | re.S)
+    return sorted({" ".join(span.split()) for span in re.findall(r"`([^`]+)`", prose)})
+
+
+CASES = [(page, span) for page in ("architecture.md", "theory.md") for span in spans(page)]
+
+
+def on_disk(path):
+    """A path from the top, or the end of one, with or without the ending of a file; `*` stands for anything."""
+    plain = path.rstrip("/")
+    if (ROOT / plain).exists():
+        return True
+    pattern = re.escape(plain).replace(r"\*", r"[^/]*")
+    return any(re.search(rf"(^|/){pattern}(\.rs|\.py)?(/|$)", name) for name in FILES)
+
+
+def is_defined(word):
+    if word in STANDARD:
+        return True
+    for form, definition in DEFINITIONS:
+        if re.fullmatch(form, word):
+            return re.search(definition.replace("{}", word), TEXT) is not None
+    return re.search(rf"\b{word}\b", TEXT) is not None
+
+
+def is_there(span):
+    span = re.sub(r"^target/", "", span)  # folders that commands make have the names of the commands
+    if span.startswith("cargo "):
+        # programs of tests, and modules in them
+        program, module = (re.search(pattern, span) for pattern in (r"--test (\w+)", r" (\w+)::"))
+        return (not program or on_disk(f"tests/{program[1]}")) and (not module or on_disk(f"{program[1]}/{module[1]}"))
+    if PATH.fullmatch(span) and ("/" in span or re.search(r"\.(rs|py|toml|h|csv)$", span)):
+        return on_disk(span)
+    if re.fullmatch(r"BEVEL_DIFFERENTIAL_\w+=\w+", span):
+        return span.split("=")[0] in TEXT
+    words = re.findall(r"[A-Za-z_]\w*", re.sub(r'"[^"]*"', "", span))
+    return bool(words) and all(map(is_defined, words))
+
+
+@pytest.mark.parametrize(("page", "span"), CASES)
+def test_what_the_pages_name_is_in_the_repository(page, span):
+    assert is_there(span), f"docs/{page}: `{span}` is nowhere"
+
+
+@pytest.mark.parametrize("name", ["src/variables/parameters.rs", "assembly/bodies.rs", "NO_SUCH_CONSTANT", "NoSuchType", "no.such_variable",
+                                  "cargo test --release --test tooth_finite_elements"])
+def test_a_name_of_nothing_is_found_out(name):
+    assert not is_there(name)
+
+
+def test_numbers_of_the_page_are_those_of_the_source():
+    page = " ".join((ROOT / "docs" / "architecture.md").read_text(encoding="utf-8").split())
+
+    def constant(file, name):
+        return re.search(rf"const {name}: usize = (\d+);", FILES[file].read_text(encoding="utf-8"))[1]
+
+    sizes = {name: constant("src/model/dynamics/sizes.rs", name) for name in ("LEAST", "DIFFERENT", "EXACT", "LARGEST")}
+    assert f"There are {constant('src/model/assembly/shelf.rs', 'PLACES')} places for each kind" in page
+    assert f"| plain teeth | {sizes['LEAST']}, {sizes['DIFFERENT']}, 7 |" in page
+    assert f"half-shafts that twist | {sizes['DIFFERENT']}; {sizes['EXACT']} |" in page
+    assert f"| teeth, `Largest` | up to {sizes['LARGEST']} |" in page
+    assert f"| gears without teeth | up to {constant('src/model/assembly/rigid.rs', 'MOST')} |" in page
