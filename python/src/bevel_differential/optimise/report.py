@@ -37,7 +37,8 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
             changes = [f"{100.0 * each.difference(model, want):+.1f} %" for _, each in chosen]
             lines += _unless(changes, NO_CHANGE, f"… with {model}", compared)
     for model in problem.confirm:
-        lines += _unless(["; ".join(each.models[model].refused) or "–" for _, each in chosen], {"–"}, f"breaks with {model}", compared)
+        broken = ["; ".join(each.models[model].refused) or "–" for _, each in chosen]
+        lines += _unless(broken, {"–"}, f"breaks with {model}", compared)
     head = f"| {' | '.join(lines[0])} |\n|---|{'---:|' * len(columns)}"
     body = "\n".join(f"| {' | '.join(line)} |" for line in lines[1:])
     reasons = "\n".join(f"- {LETTERS[k]}: {reason}." for k, (reason, _) in enumerate(chosen))
