@@ -11,6 +11,8 @@ from bevel_differential.command import main
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
 BEGIN, END = "<!-- choice begin -->", "<!-- choice end -->"
+# rows that the page leaves out: of the models, whose spans are below the table, and of further checks
+LEFT_OUT = ("| …", "| pin.", "| washer.", "| teeth.", "| face.")
 
 
 def run() -> int:
@@ -22,7 +24,8 @@ def run() -> int:
     status = main(["optimise", str(HERE / "study_gears.toml"), "--out", str(given.out), *others])
     if given.write and status == 0:
         page = DOCS / "optimisation.md"
-        table = (given.out / "choice.md").read_text(encoding="utf-8")
+        lines = (given.out / "choice.md").read_text(encoding="utf-8").splitlines(keepends=True)
+        table = "".join(line for line in lines if not line.startswith(LEFT_OUT))
         text = re.sub(f"{BEGIN}.*{END}", lambda _: f"{BEGIN}\n{table}{END}", page.read_text(encoding="utf-8"), flags=re.DOTALL)
         page.write_text(text, encoding="utf-8")
         shutil.copy(given.out / "front.png", DOCS / "figures/optimisation.png")

@@ -1,4 +1,4 @@
-"""The packaged FMU in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the tables.
+"""The packaged FMU in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table.
 
 usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-rust]
 
@@ -30,7 +30,7 @@ PACKAGES = "pip install -r tests/hosts/requirements.txt"
 class Host:
     """A host. `call`: a script of tests/hosts with its arguments, or the name of a host in the program of tests/hosts/rust;
     `language` it is used from, and the one it is written in; `loader`: what imports the FMU; `sets`: what it sets before
-    initialisation and at communication points; `hint`: what to do if it cannot be loaded."""
+    initialisation; `hint`: what to do if it cannot be loaded."""
 
     name: str
     call: tuple[str, ...]
@@ -44,20 +44,20 @@ class Host:
 
 # the others are compared with the first one
 ALL = [
-    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types; inputs at any point"),
-    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference; inputs at any point"),
-    Host("libcosim", ("with_libcosim.py",), "Python, C++", "FMI Library", "initial values but no Enumerations; inputs by manipulator",
+    Host("fmpy", ("with_fmpy.py",), "Python", "its own, ctypes", "all types"),
+    Host("fmuloader", ("with_fmuloader.py",), "Python", "its own, ctypes", "all types, by reference"),
+    Host("libcosim", ("with_libcosim.py",), "Python, C++", "FMI Library", "no Enumerations",
          enumerations=False, reads_start=False),
-    Host("ecos", ("with_ecos.py",), "Python, C++", "fmi4c", "a parameter set but no Enumerations; inputs at any point",
+    Host("ecos", ("with_ecos.py",), "Python, C++", "fmi4c", "no Enumerations",
          "apt install libtbb12", enumerations=False),
-    Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "the same; the FMU in a separate process",
+    Host("ecos, process", ("with_ecos.py", "--process"), "Python, C++", "fmi4c, proxyfmu", "no Enumerations",
          "apt install libtbb12", enumerations=False),
     Host("fmucontainer", ("with_fmu_container.py",), "Python, C", "its own, an FMU around it",
-         "all types, as Integers; inputs at any point"),
-    Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types; inputs at any point", "cargo must reach crates.io"),
-    Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types; inputs at any point",
+         "choices as Integers"),
+    Host("fmu-runner", ("fmu-runner",), "Rust", "libfmi", "all types", "cargo must reach crates.io"),
+    Host("fmi-rs", ("fmi-rs",), "Rust", "its own", "all types",
          "cargo must reach crates.io, and a C compiler is needed"),
-    Host(FMI_SIM, ("with_fmi_sim.py",), "Rust", "fmi", "Reals, Integers, Booleans by --init-values; inputs by file",
+    Host(FMI_SIM, ("with_fmi_sim.py",), "Rust", "fmi", "by --init-values, choices as numbers",
          "cargo must reach crates.io, and libclang is needed"),
 ]
 
@@ -143,7 +143,7 @@ class Bench:
         return not self.with_rust and host.language == "Rust"
 
     def run(self, host, scene):
-        """Runs a host on a scene: its record, its version and the seconds that it took. Raises `Absent`."""
+        """Runs a host on a scene: its record and its version. Raises `Absent`."""
         out = self.folder / f"{scene.name}_{host.name.replace(', ', '_')}.csv"
         program, *arguments = host.call
         environment = dict(os.environ)
@@ -162,7 +162,7 @@ class Bench:
         if ended.returncode:
             raise SystemExit(f"{host.name} fails on {scene.name} ({ended.returncode}):\n{ended.stderr.rstrip()}")
         report = json.loads(last_line(ended.stdout))
-        return read(out), report["version"], report["seconds"]
+        return read(out), report["version"]
 
 
 def last_line(text):
@@ -170,18 +170,18 @@ def last_line(text):
 
 
 def compared(bench, scenes):
-    """By host its version, seconds and deviations by scene; and why others are absent."""
+    """By host its version and deviations by scene; and why others are absent."""
     results, absent, own = {}, {}, []
     for done, host in enumerate(ALL):
         say(done / len(ALL), host.name)
         ran = []
         try:
             for place, scene in enumerate(scenes):
-                record, version, seconds = bench.run(host, scene)
+                record, version = bench.run(host, scene)
                 if host is ALL[0]:
                     own.append(record)
                 try:
-                    ran.append((version, seconds, deviation(own[place], record, not host.reads_start, scene.known["outputs"])))
+                    ran.append(deviation(own[place], record, not host.reads_start, scene.known["outputs"]))
                 except SystemExit as wrong:
                     raise SystemExit(f"{host.name} on {scene.name}: {wrong}") from None
         except Absent as why:
@@ -189,26 +189,21 @@ def compared(bench, scenes):
                 raise SystemExit(f"{host.name}, which the others are compared with, cannot be loaded: {why}") from None
             absent[host] = why
             continue
-        results[host] = (version, sum(seconds for _, seconds, _ in ran), [found for *_, found in ran])
+        results[host] = (version, ran)
     return results, absent
 
 
 def page(results, absent, scenes):
-    """What is written into docs/hosts.md."""
-    deviations = [["host", "version", "language", "import", *(scene.name for scene in scenes), "time, s"]]
-    hosts = [["host", "sets", "enumerations", "outputs at the start"]]
-    for host, (version, seconds, found) in results.items():
-        cells = ["same bits" if not one.different else f"{one.largest:.1e}".replace("e-0", "e-") for one in found]
-        deviations.append([host.name, version, host.language, host.loader, *cells, f"{seconds:.2f}"])
-        enumerations = "yes" if host.enumerations else "no: the FMU with integers"
-        hosts.append([host.name, host.sets, enumerations, "yes" if host.reads_start else "no"])
-    told = [f"{scene.known['description']}; steps of {scene.known['step']} s" for scene in scenes]
-    what = [["scene", "what"], *([f"`{scene.name}`", text] for scene, text in zip(scenes, told))]
-    every = [one for *_, found in results.values() for one in found]
-    text = "\n".join([markdown(deviations, range(4)), markdown(hosts, range(4)), markdown(what, range(2))])
-    text += (f"\nDeviations are from {ALL[0].name}, the largest over all outputs and communication points, relative to the value or, where "
-             f"that is smaller, to the output's natural scale, which the scene states. {sum(one.compared for one in every)} values were "
-             f"compared, {sum(one.different for one in every)} of them have other bits.\n")
+    """What is written into docs/fmi.md."""
+    rows = [["host", "import", "sets before the start", "outputs"]]
+    for host, (version, found) in results.items():
+        differ = [f"{scene.name}: {one.largest:.1e}".replace("e-0", "e-") for scene, one in zip(scenes, found) if one.different]
+        rows.append([f"{host.name} {version}", host.loader, host.sets, "; ".join(differ) or "same bits"])
+    every = [one for _, found in results.values() for one in found]
+    text = markdown(rows, range(4)) + "\n" + "".join(f"- `{scene.name}`: {scene.known['description']}.\n" for scene in scenes)
+    text += (f"\nDeviations from {ALL[0].name} are the largest over all outputs and communication points, relative to the value or, "
+             f"where that is smaller, to the output's natural scale. {sum(one.compared for one in every)} values were compared, "
+             f"{sum(one.different for one in every)} have other bits.\n")
     return text + "".join(f"\n{host.name}: not run: {why}\n" for host, why in absent.items())
 
 
@@ -219,7 +214,7 @@ def main():
     scenes = [Scene(file.stem, file, json.loads(file.read_text(encoding="utf-8"))) for file in files]
     results, absent = compared(bench, scenes)
     text = page(results, absent, scenes)
-    wrong = [f"{host.name} on {scene.name}: {one.largest:.1e}, {one.place}" for host, (*_, found) in results.items()
+    wrong = [f"{host.name} on {scene.name}: {one.largest:.1e}, {one.place}" for host, (_, found) in results.items()
              for one, scene in zip(found, scenes) if one.largest > MOST]
     if wrong:
         raise SystemExit(f"{text}\nhosts differ by more than {MOST:g}:\n" + "\n".join(wrong))

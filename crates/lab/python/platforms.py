@@ -3,7 +3,7 @@
 usage: platforms.py SCENES WINE64 NAME=FMU...
 
 Each FMU holds the library for one platform; the first one is what the others are compared with. One for win64 runs in
-fmpy's server under WINE64. Prints the tables of docs/platforms.md; fails if any bits differ. A line
+fmpy's server under WINE64. Prints the tables of docs/fmi.md; fails if any bits differ. A line
 "progress FRACTION WHAT" on standard error reports progress.
 """
 
@@ -153,7 +153,7 @@ def is_listening():
 
 
 def described(platform):
-    """A row of the table of platforms."""
+    """A row of the table of platforms, and how many symbols the library exports, with those that are not FMI's."""
     if platform.windows:
         exported, needed = binaries.of_windows(platform.binary)
         version = "–"
@@ -162,8 +162,7 @@ def described(platform):
         version = ".".join(str(part) for part in glibc)
     others = [name for name in exported if not name.startswith("fmi2")]
     size = platform.binary.stat().st_size / 1e6
-    return [platform.name, f"{size:.2f} MB", version, ", ".join(needed), str(len(exported)),
-            ", ".join(others) or "none"]
+    return [platform.name, f"{size:.2f}", version, ", ".join(needed)], [len(exported), *others]
 
 
 def compared(one, other):
@@ -196,33 +195,36 @@ def main():
 
 def tables(platforms, scenes):
     first, *others = platforms
-    text = markdown([["library", "size", "glibc", "libraries needed", "symbols exported", "not fmi2*"],
-                     *map(described, platforms)], left=(0, 3, 5)) + "\n"
-    same, columns = True, [platform.name for platform in others]
-    rows = [["scene", "points", "values", *columns]]
-    lines = [["scene", "simulated", first.name, *(f"{name} / that" for name in columns)]]
-    for index, (name, values, *rest) in enumerate(scenes):
+    described_as, exported = zip(*map(described, platforms))
+    text = markdown([["library", "MB", "glibc", "libraries needed"], *described_as], left=(0, 3)) + "\n"
+    counts = " or ".join(sorted({str(count) for count, *_ in exported}))
+    foreign = ", ".join(sorted({name for _, *names in exported for name in names}))
+    text += f"Each exports {counts} symbols, {'not of FMI: ' + foreign if foreign else 'all of FMI'}.\n\n"
+    values, columns = 0, [platform.name for platform in others]
+    rows = [["scene", *columns]]
+    lines = [["one step", "simulated", first.name, *columns]]
+    for index, (name, settings, *rest) in enumerate(scenes):
         say(0.9 * index / len(scenes), name)
-        wanted = first.record(values, *rest)
-        row = [name, str(len(wanted)), str(wanted.size)]
-        for platform in others:
-            agrees, words = compared(wanted, platform.record(values, *rest))
-            same &= agrees
-            row.append(words)
-        rows.append(row)
-    text += markdown(rows, left=(0, *range(3, len(rows[0])))) + "\n"
+        wanted = first.record(settings, *rest)
+        found = [compared(wanted, platform.record(settings, *rest)) for platform in others]
+        values += wanted.size
+        if not all(agrees for agrees, _ in found):
+            rows.append([name, *(words for _, words in found)])
+    same = len(rows) == 1
+    text += f"All outputs of {len(scenes)} scenes at all communication points, {values} values: "
+    text += "the same bits in all libraries.\n\n" if same else f"other bits here.\n\n{markdown(rows, left=range(len(rows[0])))}\n"
     for index, (name, duration) in enumerate(TIMED.items()):
         say(0.9 + 0.1 * index / len(TIMED), f"timing {name}")
-        values = next(scene[1] for scene in scenes if scene[0] == name)
-        seconds = [platform.seconds(values, duration) for platform in platforms]
+        settings = next(scene[1] for scene in scenes if scene[0] == name)
+        seconds = [platform.seconds(settings, duration) for platform in platforms]
         lines.append([name, f"{duration:g} s", f"{1e3 * seconds[0]:.1f} ms",
-                      *(f"{one / seconds[0]:.2f}" for one in seconds[1:])])
+                      *(f"×{one / seconds[0]:.2f}" for one in seconds[1:])])
     text += markdown(lines) + "\n"
     statuses = {tuple(platform.refuses()) for platform in platforms}
     same &= len(statuses) == 1
     words = "; ".join(", ".join(one) for one in statuses)
-    text += (f"A variable that does not exist, a step before initialisation, and a module that is not a number return "
-             f"status: {words} ({'alike on all' if len(statuses) == 1 else 'NOT alike'}).\n")
+    text += (f"An unknown variable, a step before initialisation and a module that is NaN return status {words} "
+             f"{'in all' if len(statuses) == 1 else '(NOT alike)'}.\n")
     return text, same
 
 

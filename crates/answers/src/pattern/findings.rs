@@ -73,10 +73,10 @@ impl PatternFindings {
             if self.drive { "drive" } else { "coast" }.into(),
             format!("{:.1}", 1e-3 * self.force),
             format!("{:+.2}", (1e5 * self.centroid).round() / 100.0 + 0.0),
-            format!("{:.0} / {:.0}", 1e-3 * self.ends[0], 1e-3 * self.ends[1]),
-            format!("{:.0}", 100.0 * self.bearing),
+            format!("{:.0}/{:.0}", 1e-3 * self.ends[0], 1e-3 * self.ends[1]),
             format!("{:.0}", 1e-6 * self.pitch_pressure),
             format!("{:.0} at {:.1}", 1e-6 * self.peak[0], 1e3 * self.peak[1]),
+            format!("{:.0}", 100.0 * self.bearing),
             format!("{:+.2} to {:+.2}", 1e3 * self.heights[0], 1e3 * self.heights[1]),
         ]
     }
@@ -88,34 +88,40 @@ pub fn centroid(line: &[LoadedSection]) -> f64 {
     line.iter().map(|c| c.force() * c.cone).sum::<f64>() / force
 }
 
-/// Columns of the table.
+/// Columns of the table, and of that in the document.
 const CELLS: usize = 9;
+const IN_DOCUMENT: usize = 7;
 const HEAD: [&str; CELLS] = [
     "case",
     "flank",
     "force, kN",
-    "centroid of load, mm toward heel",
-    "line load toe / heel, N/mm",
-    "face in contact, %",
+    "centroid, mm to heel",
+    "line load toe/heel, N/mm",
     "pressure, MPa",
-    "greatest from the pitch line up, MPa at R in mm",
+    "peak, MPa at R, mm",
+    "face in contact, %",
     "carries at heights, mm",
 ];
 
 /// The table of all cases.
 pub fn table(found: &[PatternFindings]) -> Table {
-    let mut table = Table::new(HEAD).all_left();
-    found.iter().for_each(|f| table.push(f.cells()));
+    columns(found, CELLS)
+}
+
+/// The first `count` columns of the table.
+fn columns(found: &[PatternFindings], count: usize) -> Table {
+    let mut table = Table::new(HEAD.into_iter().take(count)).all_left();
+    found.iter().for_each(|f| table.push(f.cells().into_iter().take(count)));
     table
 }
 
 /// The table for the document.
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
-        "{}\nForce, centroid, line loads, face in contact and pressure at the instant at which the pair touches at its \
-         pitch point; the last two columns over the whole engagement, heights along the planet's profile from its pitch \
-         circle, those of the last column at the middle of the face.\n",
-        table(found).markdown()
+        "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure \
+         while it touches at its pitch point; peak: the greatest pressure from the pitch line up over the whole \
+         engagement.\n",
+        columns(found, IN_DOCUMENT).markdown()
     )
 }
 

@@ -51,16 +51,16 @@ def cost(fmu, values, vary, designs):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--designs", type=int, default=40, help="designs of each kind")
-    parser.add_argument("--write", action="store_true", help="renew the table of docs/design.md")
+    parser.add_argument("--write", action="store_true", help="renew the table of docs/optimisation.md")
     given = parser.parse_args()
     fmu = Fmu.of()
-    rows = [("simulated", *(f"{what} drawn, ms" for what in DRAWN), "designs an hour and core")]
+    rows = [("simulated", *(f"{what} drawn, ms" for what in DRAWN))]
     for what, values in MODELS.items():
         taken = [cost(fmu, values, vary, given.designs) for vary in DRAWN.values()]
-        rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken), f"{3600.0 / taken[0]:.2g}"))
+        rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken)))
     print("\n".join(aligned(rows, left=1)))
     if given.write:
-        renew("docs/design.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
+        renew("docs/optimisation.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
 
 
 if __name__ == "__main__":

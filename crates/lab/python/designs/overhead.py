@@ -1,6 +1,6 @@
 """What the Python package costs over the FMU's calls, and what designs cost on workers.
 
-    python crates/lab/python/designs/overhead.py [--runs N] [--designs N] [--write]
+    python crates/lab/python/designs/overhead.py [--runs N] [--designs N]
 
 Needs the package with its extra [sweep], the FMU (BEVEL_DIFFERENTIAL_FMU) and a C compiler. Runs with and without the package
 alternate, and the fastest of each are compared: those that other work of the machine weighs on least. Rows with workers are wall
@@ -16,11 +16,10 @@ from bevel_differential import Differential, Fmu, Scene
 from bevel_differential.designs import Farm, Space, Task
 from bevel_differential.designs.cluster import usual_workers
 from bevel_differential.designs.plan import Plan
-from bevel_differential.text import aligned, markdown
+from bevel_differential.text import aligned
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from calls import TEN, Calls  # noqa: E402
-from tools import renew  # noqa: E402
 
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "scene.start": "rolling"}
@@ -126,7 +125,6 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=200, help="runs of a turn")
     parser.add_argument("--designs", type=int, default=10_000, help="designs of the Monte Carlo; a tenth for the others")
-    parser.add_argument("--write", action="store_true", help="renew the tables of docs/design.md")
     given = parser.parse_args()
     fmu, workers = Fmu.of(), min(2, usual_workers())
     with tempfile.TemporaryDirectory() as folder:
@@ -136,9 +134,6 @@ def main():
         print("\n".join(aligned(rows, left=1)), "\n")
         by_workers = [("workers", "designs/s", "of one process"), *scaling(fmu, max(50, given.designs // 10))]
         print("\n".join(aligned(by_workers, left=1)))
-    if given.write:
-        for name, table in (("overhead", rows), ("workers", by_workers)):
-            renew("docs/design.md", (f"<!-- {name} begin -->", f"<!-- {name} end -->"), markdown(table))
 
 
 if __name__ == "__main__":

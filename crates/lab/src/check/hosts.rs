@@ -9,7 +9,7 @@ use fmu_build::fmu::{package, plain_types};
 use fmu_build::tools::paths;
 
 const DOCUMENT: Document =
-    Document { file: "docs/hosts.md", marks: ["<!-- hosts:begin -->", "<!-- hosts:end -->"], pictures: &[] };
+    Document { file: "docs/fmi.md", marks: ["<!-- hosts:begin -->", "<!-- hosts:end -->"], pictures: &[] };
 
 /// Runs the FMU in other FMI hosts on the same scenes and compares their results with fmpy's
 #[derive(Args, Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ pub struct HostsCommand {
     /// Fail if a host cannot be loaded
     #[arg(long)]
     require: bool,
-    /// Also renew docs/hosts.md
+    /// Also renew docs/fmi.md
     #[arg(long)]
     write: bool,
     /// Also run hosts in Rust: fmi-sim, fmi-rs and fmu-runner (builds for many minutes)

@@ -12,16 +12,13 @@ use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::paths;
 
-const DOCUMENT: Document = Document {
-    file: "docs/platforms.md",
-    marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"],
-    pictures: &[],
-};
+const DOCUMENT: Document =
+    Document { file: "docs/fmi.md", marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"], pictures: &[] };
 
 /// Checks that the libraries of all platforms give the same bits, Windows under wine
 #[derive(Args, Clone, Debug)]
 pub struct PlatformsCommand {
-    /// Also renew docs/platforms.md
+    /// Also renew docs/fmi.md
     #[arg(long)]
     write: bool,
 }
@@ -47,7 +44,7 @@ fn built() -> Result<Vec<OsString>> {
     };
     let own = libraries::for_this_machine()?;
     let mut named: Vec<(String, Library)> =
-        vec![("linux64, plain".into(), own.clone()), ("linux64, vectors narrow".into(), own)];
+        vec![("linux64, plain".into(), own.clone()), ("linux64, narrow".into(), own)];
     let crossed = libraries::build()?.built;
     named.extend(crossed.into_iter().map(|library| {
         let what = if library.platform == "win64" { "wine".into() } else { format!("glibc {}", toolchains::GLIBC) };

@@ -11,15 +11,15 @@ use fmu_build::tools::{paths, script};
 use crate::tools::scripted::Document;
 
 const DOCUMENT: Document = Document {
-    file: "docs/pattern.md",
+    file: "docs/geometry.md",
     marks: ["<!-- pattern:begin -->", "<!-- pattern:end -->"],
     pictures: &["contact_pattern.png", "contact_lines.png"],
 };
 
-/// Shows the contact patterns of docs/pattern.md: aligned teeth, and one thing out of place at a time
+/// Shows the contact patterns of docs/geometry.md: aligned teeth, and one thing out of place at a time
 #[derive(Args, Clone, Debug)]
 pub struct PatternsCommand {
-    /// Also renew docs/pattern.md and its figures
+    /// Also renew docs/geometry.md and its figures
     #[arg(long)]
     write: bool,
 }

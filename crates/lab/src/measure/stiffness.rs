@@ -119,11 +119,11 @@ impl Set {
         let c = &self.columns;
         let face = gears.spec.face_width / gears.pair.outer_cone;
         let held = match c[6].as_str() {
-            "tooth" => "near the root".to_owned(),
-            _ => format!("bores ⌀ {}/{} mm", twice(&c[7]), twice(&c[8])),
+            "tooth" => "root".to_owned(),
+            _ => format!("bores {}/{}", twice(&c[7]), twice(&c[8])),
         };
-        let system = if c[5] == "iso" { "ISO 23509" } else { "Gleason" };
-        [format!("{}/{}, m {} mm, {}°, {system}", c[1], c[2], c[0], c[3]), format!("{face:.2}"), held]
+        let system = if c[5] == "iso" { "ISO" } else { "Gleason" };
+        [format!("{}/{} {system}", c[1], c[2]), format!("{face:.2}"), held]
     }
 }
 
@@ -134,10 +134,10 @@ fn twice(radius: &str) -> String {
 
 /// All tables.
 fn page(sets: &[Set]) -> Result<String> {
-    let head = ["gears", "b/R_e", "held", "`impact`", "`lumped`", "`line`, `line_weber`", "on bodies"];
+    let head = ["gears", "b/R_e", "held", "`impact`", "`lumped`", "`line`", "bodies"];
     let mut single = Table::new(head).left([0, 2]);
     let mut double =
-        Table::new(["gears", "b/R_e", "held", "`line`", "on bodies", "coupling, reference", "coupling, on bodies"])
+        Table::new(["gears", "b/R_e", "held", "`line`", "bodies", "coupling, reference", "coupling, bodies"])
             .left([0, 2]);
     for set in sets {
         let gears = set.gears()?;
@@ -173,8 +173,8 @@ fn page(sets: &[Set]) -> Result<String> {
         ]));
     }
     Ok(format!(
-        "Single pairs along the path: c against the reference, mean (smallest … largest).\n\n{}\n\
-         Two pairs that share a rotation: c of both against the reference; and by how much coupling softens two pairs.\n\n{}",
+        "Single pairs along the path: deviation of c in %, mean (smallest…largest).\n\n{}\n\
+         Two pairs that share a rotation: deviation of c in %, and how much coupling softens them, in %.\n\n{}",
         single.markdown(),
         double.markdown()
     ))
@@ -195,5 +195,5 @@ fn off(ratios: impl Iterator<Item = f64> + Clone) -> String {
     let count = percent.clone().count() as f64;
     let (low, high, sum) =
         percent.fold((f64::INFINITY, f64::NEG_INFINITY, 0.0), |(low, high, sum), x| (low.min(x), high.max(x), sum + x));
-    format!("{:+.1} ({low:+.1} … {high:+.1}) %", sum / count)
+    format!("{:+.1} ({low:+.1}…{high:+.1})", sum / count)
 }

@@ -88,6 +88,7 @@ def _held(confirmed, problem):
         spans = []
         for objective in problem.objectives:
             changes = [100.0 * each.difference(model, str(objective.want)) for each in ran]
-            spans.append(f"{objective.want} by {min(changes):+.1f} to {max(changes):+.1f} %")
+            if not all(abs(change) < 0.05 for change in changes):
+                spans.append(f"{str(objective.want).removesuffix(':final')} by {min(changes):+.1f} to {max(changes):+.1f} %")
         yield (f"with {model}: {len(ran) - len(broken)} of {len(ran)} designs that ran meet all conditions; it changes "
-               f"{', '.join(spans)}")
+               f"{', '.join(spans) or 'nothing'}")

@@ -15,6 +15,7 @@ from .problem import Objective, Problem
 from .quantities import Catalogue
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+NO_CHANGE = {"+0.0 %", "-0.0 %"}
 
 
 def to_csv(confirmed: Iterable[Confirmed], problem: Problem, file: FileName) -> None:
@@ -34,13 +35,11 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
         lines.append(_line(catalogue, want.removesuffix(":final"), want.rpartition(":")[0],
                            [row.figures.get(want) for row in columns]))
         for model in problem.confirm if want in {str(each.want) for each in problem.objectives} else ():
-            changes = [each.difference(model, want) for _, each in chosen]
-            lines.append([f"… with {model}", *(f"{100.0 * change:+.1f} %" for change in changes), *("" for _ in compared)])
+            changes = [f"{100.0 * each.difference(model, want):+.1f} %" for _, each in chosen]
+            lines += _unless(changes, NO_CHANGE, f"… with {model}", compared)
     for model in problem.confirm:
-        lines.append([f"breaks with {model}", *("; ".join(each.models[model].refused) or "–" for _, each in chosen),
-                      *("" for _ in compared)])
-    if compared:
-        lines.append(["refused by", *("–" for _ in chosen), *("; ".join(row.refused) or "–" for row in compared.values())])
+        broken = ["; ".join(each.models[model].refused) or "–" for _, each in chosen]
+        lines += _unless(broken, {"–"}, f"breaks with {model}", compared)
     head = f"| {' | '.join(lines[0])} |\n|---|{'---:|' * len(columns)}"
     body = "\n".join(f"| {' | '.join(line)} |" for line in lines[1:])
     reasons = "\n".join(f"- {LETTERS[k]}: {reason}." for k, (reason, _) in enumerate(chosen))
@@ -58,6 +57,11 @@ def standing(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Prob
         numbers = ", ".join(str(each.run) for each in better[:8])
         return f"{name}: {len(better)} of {len(best)} designs of the front are better in all objectives (run {numbers}){checks}."
     return f"{name}: no design of the front is better in all objectives{checks}."
+
+
+def _unless(cells, nothing, label, compared):
+    """A row of the chosen designs, unless all its cells say nothing."""
+    return [] if nothing.issuperset(cells) else [[label, *cells, *("" for _ in compared)]]
 
 
 def _with_heights(values):
