@@ -23,7 +23,7 @@ class NoConvergence(Exception):
 class Jacobi:
     """All parts at once, inputs held at the values of the begin: what plain hosts do."""
 
-    label, order, states = "Jacobi, inputs held", 1, False
+    label, order, states = "Jacobi, held", 1, False
 
     def step(self, system, time, size, y, before):
         for part, feeds in zip(system.parts, system.feeds):
@@ -34,7 +34,7 @@ class Jacobi:
 class GaussSeidel:
     """One part after the other; each is fed with what those before it have reached by the end of the step."""
 
-    label, order, states = "Gauss-Seidel, inputs held", 1, False
+    label, order, states = "Gauss-Seidel, held", 1, False
 
     def step(self, system, time, size, y, before):
         y = y.copy()
@@ -47,7 +47,7 @@ class GaussSeidel:
 class Lines:
     """All parts at once, inputs go on along the line through the last two communication points."""
 
-    label, order, states = "Jacobi, lines from the last two points", 2, False
+    label, order, states = "Jacobi, lines", 2, False
 
     def step(self, system, time, size, y, before):
         slope = (y - before) / size
@@ -61,7 +61,7 @@ class Lines:
 class IteratedHeld:
     """The step again and again from its begin, with inputs held at what the last time gave for the end."""
 
-    label, order, states = "rollback, end values held", 1, True
+    label, order, states = "rollback, held", 1, True
     lines = False
 
     def __init__(self):
@@ -104,7 +104,7 @@ class IteratedHeld:
 class IteratedLines(IteratedHeld):
     """The same, with lines from the values of the begin to those of the end."""
 
-    label, order = "rollback, lines between both ends", 2
+    label, order = "rollback, lines", 2
     lines = True
 
 

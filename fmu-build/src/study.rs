@@ -15,13 +15,13 @@ use crate::tools::{paths, script, sections};
 
 /// The document with the whole comparison.
 const DOCUMENT: &str = "docs/study.md";
-/// The lines between which it and README.md have their table.
+/// The lines between which it has its table.
 const MARKS: [&str; 2] = ["<!-- study table begin -->", "<!-- study table end -->"];
 
 /// Packages the FMU, simulates the study and compares the results with it (the default command)
 #[derive(Args, Clone, Debug, Default)]
 pub struct StudyCommand {
-    /// Also write the comparison into README.md and docs/study.md, and renew the pictures
+    /// Also write the comparison into docs/study.md, and renew the pictures
     #[arg(long)]
     pub readme: bool,
 }
@@ -51,12 +51,10 @@ impl StudyCommand {
         let program = paths::shown(&environment.launcher(&fmu)?);
         println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");
         if self.readme {
-            for (document, table) in [(DOCUMENT, "table.md"), ("README.md", "excerpt.md")] {
-                let text = fs::read_to_string(folder.join(table)).with_context(|| format!("{table} cannot be read"))?;
-                sections::renew(document, MARKS, &text)?;
-            }
+            let table = fs::read_to_string(folder.join("table.md")).context("table.md cannot be read")?;
+            sections::renew(DOCUMENT, MARKS, &table)?;
             copy_pictures(&folder)?;
-            println!("renewed: README.md, docs/study.md, docs/figures");
+            println!("renewed: docs/study.md, docs/figures");
         }
         Ok(())
     }

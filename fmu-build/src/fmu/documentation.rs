@@ -212,7 +212,7 @@ fn row(row: &Variable) -> Element {
 }
 
 /// Unit of a variable, with the unit that hosts show.
-pub fn unit(row: &Variable) -> String {
+fn unit(row: &Variable) -> String {
     let unit = row.unit.map_or("", |unit| if unit.name == "1" { "" } else { unit.name });
     row.display.map_or(unit.to_owned(), |shown| format!("{unit} [{}]", shown.name))
 }

@@ -6,23 +6,31 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use bevel_differential::model::{EFFECTS, GearContact, InputField, effects};
-use bevel_differential::variables::{Causality, Variability, Variable, table};
+use bevel_differential::variables::{Causality, Variable, table};
 use serde_json::{Value, json};
 
-use crate::fmu::documentation::{start, unit};
+use crate::fmu::documentation::start;
 use crate::tools::paths;
 use crate::tools::sections::{self, MarkedSection};
 use answers::text::table::Table;
 
 type Declared = bevel_differential::model::effects::Declared;
 
+/// Most letters of a description in a table of the documents, so that no line is longer than 160.
+const LONGEST: usize = 96;
+
 /// The sections of documents that list the effects.
-fn sections() -> [MarkedSection; 2] {
+fn sections() -> [MarkedSection; 3] {
     [
         MarkedSection {
             document: "README.md",
             marks: ["<!-- effects begin -->", "<!-- effects end -->"],
             text: overview().markdown(),
+        },
+        MarkedSection {
+            document: "docs/effects.md",
+            marks: ["<!-- interface:begin -->", "<!-- interface:end -->"],
+            text: interface().markdown(),
         },
         MarkedSection {
             document: "docs/effects.md",
@@ -93,26 +101,72 @@ fn inputs(effect: &Declared) -> Vec<bevel_differential::declaration::Row<InputFi
     effects::inputs_of(effect.name)
 }
 
-/// Switch, what it adds, and what it brings to the interface.
+/// Name, what it adds, and the levels of gear contact that it works with.
 fn overview() -> Table {
-    let mut table = Table::new(["switch", "what it adds", "own inputs and outputs"]).all_left();
+    let mut table = Table::new(["`effects.`…", "what it adds", "gear contact"]).all_left();
     for effect in EFFECTS {
-        let inputs = inputs(effect);
-        let heat = effect.heat.map(|heat| heat.output);
-        let own = inputs.iter().map(|row| row.name).chain(heat).chain(effect.readings.iter().map(|r| r.name));
-        let own: Vec<String> = own.map(|name| format!("`{name}`")).collect();
-        let switch = effect.switch.map_or_else(|| "by its input".to_owned(), |switch| format!("`{switch}`"));
-        table.push([switch, effect.description.to_owned(), own.join(", ")]);
+        let name = effect.switch.map_or_else(|| "by its input".to_owned(), |_| format!("`{}`", effect.name));
+        let contact = if effect.needs.is_some() { contacts(effect).join(", ") } else { "all".to_owned() };
+        table.push([name, effect.description.to_owned(), contact]);
     }
     table
 }
 
-/// Every parameter of every effect.
-fn parameters() -> Table {
-    let mut table = Table::new(["parameter", "unit [shown]", "start", "tunable", "what it is"]).all_left();
-    for row in EFFECTS.iter().flat_map(own_parameters) {
-        let tunable = if row.variability == Variability::Tunable { "yes" } else { "" };
-        table.push([format!("`{}`", row.name), unit(row), start(row), tunable.to_owned(), row.description.to_owned()]);
+/// What each effect brings to the interface beside its parameters.
+fn interface() -> Table {
+    let mut table = Table::new(["effect", "own inputs and outputs"]).all_left();
+    for effect in EFFECTS {
+        let own = own_names(effect);
+        if !own.is_empty() {
+            table.push([format!("`{}`", effect.name), own]);
+        }
     }
     table
+}
+
+/// Own inputs and outputs of an effect: of both sides those of the left, of all planets `planet[i]`, of a group `GROUP.*`.
+fn own_names(effect: &Declared) -> String {
+    let inputs = inputs(effect);
+    let heat = effect.heat.map(|heat| heat.output);
+    let all = inputs.iter().map(|row| row.name).chain(heat).chain(effect.readings.iter().map(|reading| reading.name));
+    let of_right = |name: &&str| name.split('.').any(|part| part.starts_with("right"));
+    let of_other_planets = |name: &&str| name.starts_with("planet[") && !name.starts_with("planet[1]");
+    let names: Vec<&str> = all.filter(|name| !of_right(name) && !of_other_planets(name)).collect();
+    let shown = names.chunk_by(|a, b| group(a) == group(b)).map(|same| match same {
+        [name] => format!("`{}`", name.replace("[1]", "[i]")),
+        [first, ..] => format!("`{}.*`", group(first)),
+        [] => String::new(),
+    });
+    shown.collect::<Vec<_>>().join(", ")
+}
+
+/// The part of a variable's name before the first dot.
+fn group(name: &str) -> &str {
+    name.split_once('.').map_or(name, |(group, _)| group)
+}
+
+/// Every parameter of every effect.
+fn parameters() -> Table {
+    let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
+    for row in EFFECTS.iter().flat_map(own_parameters) {
+        table.push([format!("`{}`", row.name), start_with_unit(row), brief(row.description).to_owned()]);
+    }
+    table
+}
+
+/// Start value of a parameter with its unit.
+fn start_with_unit(row: &Variable) -> String {
+    match row.unit {
+        Some(unit) if row.display.is_none() && unit.name != "1" => format!("{} {}", start(row), unit.name),
+        _ => start(row),
+    }
+}
+
+/// A description, of a long one what stands before the explanation.
+fn brief(description: &str) -> &str {
+    if description.chars().count() <= LONGEST {
+        return description;
+    }
+    let ends = [": ", " ("].iter().filter_map(|mark| description.find(*mark)).min();
+    ends.map_or(description, |end| &description[..end])
 }
