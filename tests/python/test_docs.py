@@ -1,0 +1,73 @@
+"""Pages as a reader walks them: links lead somewhere, commands run, and what is long is said by few words."""
+
+import importlib
+import re
+import subprocess
+import sys
+
+import pytest
+from bevel_differential import command
+from documents import PAGES, ROOT, anchors, commands, links, saved
+
+# what takes minutes, opens a browser, or waits for a file that another command makes
+LONG = ("optimise", "tolerance", "sweep", "page", "accuracy", "report", "study")
+WORDS, LINES, WIDEST = 45_000, 130, 160
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_link_leads_somewhere(page):
+    for address in links(page):
+        file, _, anchor = address.partition("#")
+        there = (page.parent / file).resolve() if file else page
+        assert there.exists(), address
+        assert not anchor or there.suffix != ".md" or anchor in anchors(there), address
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_tables_fit_a_page(page):
+    wide = [line for line in page.read_text(encoding="utf-8").splitlines() if line.startswith("|") and len(line) > WIDEST]
+    assert not wide, wide[0]
+
+
+def test_there_is_no_more_to_read_than_a_user_reads():
+    texts = [page.read_text(encoding="utf-8") for page in PAGES]
+    assert sum(len(text.split()) for text in texts) <= WORDS
+    assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= LINES
+
+
+@pytest.mark.parametrize("shown", commands("bevel-differential"), ids=str)
+def test_a_command_of_the_package_is_understood(shown):
+    name, *arguments = shown.words[1:]
+    if name.isupper() or name.startswith("-"):
+        return
+    module = importlib.import_module(command.COMMANDS[name][0], command.PACKAGE)
+    parser = command.Parser(prog=name)
+    module.add_arguments(parser)
+    parser.parse_args([word for word in arguments if word not in ("…", "...")])
+
+
+@pytest.mark.parametrize("shown", [one for one in commands("bevel-differential") if one.words[1] not in LONG
+                                   and not one.words[1].isupper()], ids=str)
+def test_a_quick_command_of_the_package_runs(shown, fmu_file, tmp_path):
+    for name, text in saved(shown.page).items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    done = subprocess.run([sys.executable, "-m", *("bevel_differential", *shown.words[1:])], cwd=tmp_path, capture_output=True, text=True,
+                          timeout=300, check=False)
+    # a page may show a refusal
+    assert done.returncode == 0 or done.stderr.strip().splitlines()[0] in (ROOT / shown.page).read_text(encoding="utf-8"), done.stderr
+
+
+@pytest.mark.parametrize("shown", commands("cargo run"), ids=str)
+def test_a_command_of_the_builder_or_the_laboratory_is_there(shown):
+    words = list(shown.words)
+    given = words[words.index("--") + 1:] if "--" in words else []
+    if not given or given[0].isupper() or given[0].startswith("-"):
+        return
+    crate = "crates/lab" if "lab" in words else "fmu-build"
+    source = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / crate / "src").rglob("*.rs"))
+    spoken = "".join(part.capitalize() for part in given[0].split("-"))
+    assert re.search(rf"\b{spoken}\b|\b{spoken}Command\b|\"{given[0]}\"", source), given[0]
+    for option in (word for word in given[1:] if word.startswith("--")):
+        field = option[2:].replace("-", "_")
+        assert re.search(rf"\b{field}\b|\"{option[2:]}\"", source), option
