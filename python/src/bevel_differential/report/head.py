@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..extras import version
-from . import run_in, words
+from . import strength, words
 from .blocks import Section, Table, Text
 from .simulated import Simulated
 
@@ -31,7 +31,7 @@ def verdicts(run: Simulated) -> list[Text]:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:
         root, flank = float(run.record["safety.root_min"][-1]), float(run.record["safety.flank_min"][-1])
-        found.append(Text(f"Smallest safety factors of the run{run_in.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
+        found.append(Text(f"Smallest safety factors of the run{strength.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
                           "below 1 "
                           "the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
     found.append(Text(_split(run), "verdict"))

@@ -38,6 +38,5 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.picture:
-        from . import picture
-        print(f"picture: {picture.draw(plan, result, arguments.picture)}")
+        print(f"picture: {report.draw(plan, result, arguments.picture)}")
     return 0
