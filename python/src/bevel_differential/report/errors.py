@@ -25,10 +25,8 @@ def section(run: Simulated) -> Section:
         part = rolling(run.time, run.series(ANGLE), int(run.value("geometry.planet_teeth")))
         orders, sizes = spectrum(run, part)
     except DifferentialError as reason:
-        orders, sizes, part = None, None, None
         found.add(Picture("error", _draw(run, None, None, None), _over_time(run)))
-        found.say(f"There are no orders of the mesh: {reason}. The run-up below has them." if run.has_pairs
-                  else f"There are no orders of the mesh: {reason}.")
+        found.say(f"There are no orders of the mesh: {reason}.{' The run-up below has them.' if run.has_pairs else ''}")
         return found
     found.add(Picture("error", _draw(run, part, orders, sizes), f"{_over_time(run)} {_by_order(run, part, orders, sizes)}"))
     return found

@@ -32,8 +32,7 @@ def verdicts(run: Simulated) -> list[Text]:
     else:
         root, flank = float(run.record["safety.root_min"][-1]), float(run.record["safety.flank_min"][-1])
         found.append(Text(f"Smallest safety factors of the run{strength.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
-                          "below 1 "
-                          "the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
+                          "below 1 the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
     found.append(Text(_split(run), "verdict"))
     return found
 
@@ -62,26 +61,21 @@ def _facts(run):
     real = run.scene.stop / run.seconds
     counts = [("solver.steps", "steps"), ("solver.rejected", "rejected"), ("solver.rhs_calls", "evaluations of the tooth forces")]
     steps = ", ".join(f"{int(last[name])} {what}" for name, what in counts)
-    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.of(fmu, name, run.value(name))}"
+    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.shown(fmu.variable(name), run.value(name))}"
                        for name in SOLVER if name != "solver.fixed_step" or run.literal("solver.method") == "fixed_step")
-    added = words.listed(run.added) if run.added else ""
     rows = [
         ("package", f"bevel-differential {version() or '(from sources)'}"),
         ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
         ("SHA-256 of the FMU", fmu.sha256),
         ("solver", f"{solver}; {steps}"),
-        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of {_step(run)}"),
+        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of "
+                           f"{words.quantity(1e3 * run.scene.step, 'ms')}"),
         ("took", f"{words.quantity(1e3 * run.seconds, 'ms', 3)}: {words.number(real, 2)} × real time"),
     ]
-    if added:
-        rows.append(("switched on for this report", f"{added}: they only add outputs. The scene's own outputs with and without "
-                                                    "them "
+    if run.added:
+        rows.append(("switched on for this report", f"{words.listed(run.added)}: they only add outputs. The scene's own outputs with and without them "
                      + ("are the same to the last bit." if run.difference == 0.0 else
                         f"differ by {run.difference:.1e} of their largest values.")))
     rows += [("not available here", reason) for reason in run.refused.values()]
     return rows
-
-
-def _step(run):
-    return words.quantity(1e3 * run.scene.step, "ms")
 

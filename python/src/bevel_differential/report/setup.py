@@ -24,10 +24,9 @@ def section(run: Simulated) -> Section:
         found.add(_inputs(run, changing))
     else:
         found.say("All inputs are constant.")
-    tuned = [f"{name} = {words.of(run.scene.fmu, name, run.scene.fmu.variable(name).number(value))} at "
-             f"{words.quantity(time, 's')}"
-             for time, values in run.scene.changes for name, value in values.items()
-             if run.scene.fmu.variable(name).causality == "parameter"]
+    tuned = [f"{variable.name} = {words.shown(variable, number)} at {words.quantity(time, 's')}"
+             for time, values in run.scene.changes for variable, number in run.scene.fmu.numbers(values)
+             if variable.causality == "parameter"]
     if tuned:
         found.say(f"Parameters that change during the run: {words.listed(tuned)}.")
     return found

@@ -18,8 +18,8 @@ LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", style.BLUE)
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
-         ("damage.planet_flank", "Miner sum of pitting, worst planet"), ("damage.side_flank", "Miner sum of pitting, worse side "
-                                                                                              "gear"))
+         ("damage.planet_flank", "Miner sum of pitting, worst planet"),
+         ("damage.side_flank", "Miner sum of pitting, worse side gear"))
 # what the FMU's message begins with where ratings count a start out of equilibrium
 MESSAGE = "strength.rate_from: "
 # by how much the rest of the run must be better for the start to be the worst of it
@@ -72,8 +72,7 @@ def section(run: Simulated) -> Section:
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
-                    "of the "
-                    "solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
+                    "of the solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
     if told := advice(run):
         found.say(told)
     return found

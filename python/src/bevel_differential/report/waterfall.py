@@ -72,7 +72,8 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
     try:
         up = run_up(run, progress)
         expected = theory(run, up.ratio)
-        spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW, _highest(expected))
+        spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW,
+                            1.06 * max(expected.values()))
     except DifferentialError as reason:
         found.say(f"The run-up could not be made: {reason_of(reason)}.")
         return found
@@ -80,10 +81,6 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
     found.add(Picture("waterfall", _draw(run, spectra, expected), _caption(run, up, spectra, expected)))
     found.add(_table(run, spectra, expected))
     return found
-
-
-def _highest(expected):
-    return 1.06 * max(expected.values())
 
 
 def _how(up: RunUp):
@@ -179,7 +176,7 @@ def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np
     """`values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
 
     A point is the mean over its step, so that orders far above do not come back as low ones: those at multiples of `per_turn`,
-    which would fall on the lowest, vanish in it. `damped` says what it does to the others."""
+    which would fall on the lowest, vanish in it. Of the others it leaves sin x / x with x = π order / per_turn."""
     angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
     if np.any(np.diff(angle) <= 0.0):
         raise DifferentialError("orders are counted by an angle that turns one way")
@@ -196,11 +193,6 @@ def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np
     low, high, rise, fall = total[place], total[place + 1], width * values[place], width * values[place + 1]
     integral = low + share * (rise + share * (3.0 * (high - low) - 2.0 * rise - fall + share * (2.0 * (low - high) + rise + fall)))
     return 0.5 * (edges[1:] + edges[:-1]), np.diff(integral) / step
-
-
-def damped(orders: np.ndarray, per_turn: int) -> np.ndarray:
-    """What the mean over a step leaves of orders: sin x / x with x = π order / per_turn."""
-    return np.sinc(orders / per_turn)
 
 
 def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, highest: float) -> Waterfall:
@@ -228,5 +220,6 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
     speeds = np.array([labels[begin:begin + size].mean() for begin in begins])
     orders = np.arange(size // 2 + 1) / turns
     shown = orders <= highest
-    amplitudes = np.array(spectra)[:, shown] / damped(orders[shown], per_turn)
+    # what the mean over a step leaves of orders
+    amplitudes = np.array(spectra)[:, shown] / np.sinc(orders[shown] / per_turn)
     return Waterfall(orders[shown], speeds, amplitudes, 1.0 / turns)

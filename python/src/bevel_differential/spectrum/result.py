@@ -185,7 +185,9 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     as `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    given = {**_of_scene(scene, fmu), **(parameters or {})}
+    # events begin in their steady state, not as the scene does
+    of_scene = {} if scene is None else {name: value for name, value in Scene.load(scene, fmu).values.items() if name != "scene.start"}
+    given = {**of_scene, **(parameters or {})}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
     variables = Fmu.of(fmu).variables
@@ -223,10 +225,3 @@ def _slow_by_event(cycles, strength, events):
     np.add.at(found, cycles.low_event, damage * share)
     np.add.at(found, cycles.high_event, damage * (1.0 - share))
     return found
-
-
-def _of_scene(scene, fmu):
-    if scene is None:
-        return {}
-    # events begin in their steady state, not as the scene does
-    return {name: value for name, value in Scene.load(scene, fmu).values.items() if name != "scene.start"}

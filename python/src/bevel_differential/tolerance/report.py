@@ -22,8 +22,12 @@ ROW, LINE = 1.6, 0.16
 
 def text(plan: Plan, result: Result) -> str:
     """All of a result: tolerances, spread of the figures, yield, indices and what each alternative gives."""
-    parts = [f"{plan.name}: {plan.description}", _table(_tolerances(plan)), _table(_spreads(plan, result)), _yields(plan, result)]
-    parts += [_indices(plan, result), _alternatives(plan, result), _answers(plan, result), _failures(result)]
+    tolerances = [("factor", "tolerance"), *((name, factor.text) for name, factor in plan.study.factors.items())]
+    parts = [f"{plan.name}: {plan.description}", _table(tolerances), _table(_spreads(plan, result)), _yields(plan, result)]
+    parts += [_indices(plan, result), _alternatives(plan, result)]
+    before, messages = float(result.base.good.mean()), Counter(row.message for row in result.rows if row.message)
+    parts.append("\n".join(verdict.line(before) for verdict in verdicts(plan.study, result)))
+    parts.append("\n".join(f"{count} of {len(result.rows)} runs failed: {message}" for message, count in messages.most_common(5)))
     parts += [f"note: {note}" for note in plan.notes]
     return "\n\n".join(part for part in parts if part)
 
@@ -41,10 +45,6 @@ def shown(plan: Plan, name: str, estimate: Estimate) -> tuple[str, Estimate]:
     variable = plan.scene.fmu.variable(name)
     unit, _ = variable.shown(0.0)
     return unit, Estimate(*(variable.shown(value)[1] for value in (estimate.value, estimate.low, estimate.high)))
-
-
-def _tolerances(plan):
-    return [("factor", "tolerance"), *((name, factor.text) for name, factor in plan.study.factors.items())]
 
 
 def _spreads(plan, result):
@@ -116,16 +116,6 @@ def _alternatives(plan, result):
     return _table(lines)
 
 
-def _answers(plan, result):
-    before = float(result.base.good.mean())
-    return "\n".join(verdict.line(before) for verdict in verdicts(plan.study, result))
-
-
-def _failures(result):
-    messages = Counter(row.message for row in result.rows if row.message)
-    return "\n".join(f"{count} of {len(result.rows)} runs failed: {message}" for message, count in messages.most_common(5))
-
-
 def _interval(estimate):
     ends = (f"{end:.4g}" if math.isfinite(end) else "?" for end in (estimate.low, estimate.high))
     return f"{estimate.value:.4g} [{', '.join(ends)}]"
@@ -152,7 +142,7 @@ def draw(plan: Plan, result: Result, file: FileName) -> Path:
             _histogram(style, panels[i, 0], plan, result, want)
             _bars(style, panels[i, 1], result, want, i == 0)
         if found:
-            _yields(style, next(parts).subplots(), result, found)
+            _draw_yields(style, next(parts).subplots(), result, found)
         style.save(picture, file)
     return Path(file)
 
@@ -188,7 +178,7 @@ def _bars(style, axes, result, want, with_legend):
         axes.legend(loc="lower right")
 
 
-def _yields(style, axes, result, found):
+def _draw_yields(style, axes, result, found):
     base = proportion(result.base.good)
     names = ["as it is", *(textwrap.shorten(verdict.alternative.name, 60) for verdict in found)]
     yields = [base, *(verdict.yield_ for verdict in found)]
