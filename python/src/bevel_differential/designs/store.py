@@ -191,13 +191,15 @@ def _replace(file, write):
     temporary = file.with_name(f".{file.name}.{os.getpid()}")
     try:
         write(temporary)
-        for path in (temporary, file.parent):
-            handle = os.open(path, os.O_RDONLY)
+        with open(temporary, "rb+") as written:
+            os.fsync(written.fileno())
+        os.replace(temporary, file)
+        # Windows has no handles of folders
+        if os.name == "posix":
+            folder = os.open(file.parent, os.O_RDONLY)
             try:
-                os.fsync(handle)
+                os.fsync(folder)
             finally:
-                os.close(handle)
-            if path is temporary:
-                os.replace(temporary, file)
+                os.close(folder)
     finally:
         temporary.unlink(missing_ok=True)

@@ -166,7 +166,8 @@ def _evaluated(designs, task, farm, store):
     numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
     try:
-        arrived.extend(evaluated(farm, task, numbered))
+        for row in evaluated(farm, task, numbered):
+            arrived.append(row)
     finally:
         rows = sorted([*store.rows.values(), *arrived], key=lambda row: row.run)
         store.rows = {tuple(row.values.values()): row for row in rows}
