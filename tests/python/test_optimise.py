@@ -16,6 +16,7 @@ from pymoo.indicators.hv import HV
 from bevel_differential import DifferentialError, Fmu, Scene
 from bevel_differential.command import main
 from bevel_differential.designs.farm import Farm
+from bevel_differential.designs.task import Row
 from bevel_differential.optimise import front
 from bevel_differential.optimise.design_task import DesignRow, DesignTask, confirm
 from bevel_differential.optimise.pair import Pair, tool_room, violations
@@ -213,6 +214,23 @@ class Interrupted:
                 raise KeyboardInterrupt
             self.left -= 1
             yield task.evaluate(run, values)
+
+
+class Dying:
+    """A farm one of whose designs kills its worker each time."""
+
+    def rows(self, task, designs):
+        for run, values in designs:
+            yield Row(run, dict(values), message="its worker process died each time") if run == 3 else task.evaluate(run, values)
+
+
+def test_a_design_that_kills_its_worker_is_out_of_reach_and_the_search_goes_on(two, folder):
+    store = Store(folder / "dying", two.sized(population=8, generations=2))
+    best = search(store.problem, Dying(), store)
+    dead = next(row for row in store.rows.values() if row.run == 3)
+    assert not dead.feasible and dead.refused == ("its worker process died each time",) and dead not in best
+    assert dead.violation > max(row.violation for row in store.rows.values() if row.figures)
+    assert len(Store(folder / "dying", store.problem, resume=True).rows) == len(store.rows)
 
 
 def test_a_generation_that_was_interrupted_keeps_the_numbers_of_its_designs(two, folder):

@@ -8,7 +8,7 @@ from bevel_differential import DifferentialError, Scene
 from bevel_differential.report.drawings import outline, unrolled
 from bevel_differential.report.forces import bands, share
 from bevel_differential.report.gears import pair_of
-from bevel_differential.report.orders import TURN, waterfall
+from bevel_differential.report.waterfall import TURN, waterfall
 from bevel_differential.report.pattern import Contacts
 from bevel_differential.report.runup import ANGLE, SIGNAL, run_up
 from bevel_differential.report.simulated import Simulated

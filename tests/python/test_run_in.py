@@ -4,7 +4,7 @@ import pytest
 
 from bevel_differential import Scene
 from bevel_differential.optimise.problem import Problem
-from bevel_differential.report import run_in
+from bevel_differential.report import strength
 from bevel_differential.report.head import verdicts
 from bevel_differential.report.simulated import Simulated
 from bevel_differential.report.strength import section
@@ -16,7 +16,7 @@ def turn(fmu, **values):
     """The study's turn, its ratings at the end, and what the FMU said of them."""
     scene = Scene.load("study_turning", fmu=fmu).set({"effects.strength": True, **values})
     record = scene.run(RATED)
-    return {name: record[name][-1] for name in RATED}, [text for text in scene.warnings if text.startswith(run_in.MESSAGE)]
+    return {name: record[name][-1] for name in RATED}, [text for text in scene.warnings if text.startswith(strength.MESSAGE)]
 
 
 def test_a_run_without_its_start_is_rated_as_one_from_equilibrium(fmu):
@@ -38,7 +38,7 @@ def test_the_report_says_that_the_smallest_factor_is_in_the_start(fmu):
         text = " ".join(block.text for block in section(run).blocks if hasattr(block, "text"))
         assert ("is in the start" in text) == told
         assert any("in the start" in verdict.text for verdict in verdicts(run)) == told
-        assert len(run_in.notes(run)) == (2 if told else 0)
+        assert len(strength.notes(run)) == (2 if told else 0)
 
 
 def test_optimise_says_that_it_would_optimise_the_blow(fmu, tmp_path):

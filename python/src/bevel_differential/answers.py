@@ -3,7 +3,6 @@
 Each question is a dict with the key "ask"; crates/answers/src/ask of the repository has all of them."""
 
 import ctypes
-import importlib.resources
 import json
 import os
 import signal
@@ -73,8 +72,8 @@ def scenes() -> Path:
     """The folder of the shipped scenes: in this package, or of the repository that it is used from."""
     if folder := os.environ.get("BEVEL_DIFFERENTIAL_SCENES"):
         return Path(folder)
-    package = Path(str(importlib.resources.files(__package__)))
-    return package / "scenes" if (package / "scenes").is_dir() else package.parents[2] / "scenes"
+    shipped = Path(__file__).with_name("scenes")
+    return shipped if shipped.is_dir() else shipped.parents[3] / "scenes"
 
 
 @contextmanager
@@ -93,7 +92,7 @@ def _interrupts(raised):
 @cache
 def _library() -> ctypes.CDLL:
     platform, name = _PLATFORMS.get(sys.platform, ("linux64", "libanswers.so"))
-    shipped = Path(str(importlib.resources.files(__package__))) / "answers" / platform / name
+    shipped = Path(__file__).with_name("answers") / platform / name
     file = Path(os.environ.get("BEVEL_DIFFERENTIAL_ANSWERS") or shipped)
     if not file.is_file():
         raise DifferentialError(f"{file} is missing: this package was built without its library of answers for {platform}; install "

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from .points import PER_SECOND
-from .values import DifferentialError, FileName, Number, Variable, suggestion
+from .values import DifferentialError, FileName, Number, Variable
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
 
@@ -123,11 +123,6 @@ class CsvTable:
                 except DifferentialError as failure:
                     raise self.problem(line, column.head, _reason(failure), cell) from None
         return values
-
-
-def unknown(name: str, names: Iterable[str]) -> DifferentialError:
-    """The error of a column that nobody knows."""
-    return DifferentialError(f"{name}: there is no such column{suggestion(name, names)}")
 
 
 def _lines(file):

@@ -24,61 +24,20 @@ if TYPE_CHECKING:
 USUAL_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
 
 
-class Differential(Closing):
-    """A bevel gear differential with its parameters.
+class Runner(Closing):
+    """What runs the FMU with values that have been set. An instance is kept for all runs and reset in between; each thread has its
+    own."""
 
-    Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
-    `Differential({"geometry.module": "4.5 mm"}, contact__law="line_weber")`. Values are SI numbers, pairs (number, unit), text with
-    a unit, literals by name. What is not given has its start value. An instance is kept for all runs and reset in between; each
-    thread has its own."""
-
-    def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None, **keywords: Value):
+    def __init__(self, fmu: FileName | Fmu | None):
         self.fmu = Fmu.of(fmu)
         self._values: dict[Variable, Number] = {}
         self._instances = threading.local()
         self._all: list[Instance] = []
-        self.set(parameters, **keywords)
 
     def set(self, parameters: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and start values of inputs."""
         self._values.update(self.fmu.numbers(parameters, **keywords))
         return self
-
-    @overload
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
-            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
-            frame: Literal[False] = False) -> np.ndarray: ...
-
-    @overload
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
-            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None, *,
-            frame: Literal[True]) -> "pandas.DataFrame": ...
-
-    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
-            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
-            frame: bool = False) -> "np.ndarray | pandas.DataFrame":
-        """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
-
-        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
-        Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
-        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
-        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has
-        all that the FMU warned of."""
-        stop, step = span("stop", stop), None if step is None else span("step", step)
-        signals = Signals.of(self.fmu, inputs)
-        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
-        self._warn()
-        return as_frame(record) if frame else record
-
-    def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
-              values: Mapping[str, Value] | None = None) -> dict[str, Number]:
-        """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
-        last = self.run(inputs, outputs, stop, None, values)[-1]
-        return {name: last[name].item() for name in outputs}
-
-    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
-        """Draws a record; see `plot.plot`."""
-        return plot(self.fmu, record, file=file)
 
     @property
     def values(self) -> dict[str, Number]:
@@ -125,6 +84,54 @@ class Differential(Closing):
             self._instances.own = Instance(self.fmu)
             self._all.append(self._instances.own)
         return self._instances.own
+
+
+class Differential(Runner):
+    """A bevel gear differential with its parameters.
+
+    Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
+    `Differential({"geometry.module": "4.5 mm"}, contact__law="line_weber")`. Values are SI numbers, pairs (number, unit), text with
+    a unit, literals by name. What is not given has its start value."""
+
+    def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None, **keywords: Value):
+        super().__init__(fmu)
+        self.set(parameters, **keywords)
+
+    @overload
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
+            frame: Literal[False] = False) -> np.ndarray: ...
+
+    @overload
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None, *,
+            frame: Literal[True]) -> "pandas.DataFrame": ...
+
+    def run(self, inputs: Inputs | None = None, outputs: Sequence[str] = USUAL_OUTPUTS, stop: TimeValue = 0.5,
+            step: TimeValue | None = 0.001, values: Mapping[str, Value] | None = None,
+            frame: bool = False) -> "np.ndarray | pandas.DataFrame":
+        """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms").
+
+        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. `values`: parameters for this run alone.
+        Returns a structured array: field "time" (s) and one of each output, in SI; shape (points,). `step=None` takes one step to
+        the end and gives two points, at 0 and at `stop`. With `frame` it is a pandas DataFrame, by time. Raises
+        `DifferentialError` with the FMU's message. A value that changes nothing in the run is a Python warning, `DifferentialWarning`; `warnings` has
+        all that the FMU warned of."""
+        stop, step = span("stop", stop), None if step is None else span("step", step)
+        signals = Signals.of(self.fmu, inputs)
+        record = self._simulate(Steps.of(stop, step, signals.jumps), signals, outputs, values)
+        self._warn()
+        return as_frame(record) if frame else record
+
+    def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
+              values: Mapping[str, Value] | None = None) -> dict[str, Number]:
+        """Values of `outputs` at `stop`, after one long step: the cheapest way where only the end counts. A dict by name."""
+        last = self.run(inputs, outputs, stop, None, values)[-1]
+        return {name: last[name].item() for name in outputs}
+
+    def plot(self, record: np.ndarray, file: FileName | None = None) -> "Figure":
+        """Draws a record; see `plot.plot`."""
+        return plot(self.fmu, record, file=file)
 
     def __getstate__(self) -> dict[str, Any]:
         # to other processes go the values alone

@@ -2,7 +2,6 @@
 
 import atexit
 import hashlib
-import importlib.resources
 import os
 import shutil
 import threading
@@ -113,7 +112,7 @@ def usual() -> FileName:
 
 def shipped() -> Path:
     """The FMU in this package."""
-    return Path(str(importlib.resources.files(__package__) / "BevelDifferential.fmu"))
+    return Path(__file__).with_name("BevelDifferential.fmu")
 
 
 @atexit.register

@@ -55,8 +55,8 @@ class Signals:
                  changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = ()):
         self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
-        times = [table.jumps() for table in self.tables] + [np.array([time for time, _ in self.changes])]
-        self.jumps = np.unique(np.concatenate(times)) if self.tables or self.changes else np.empty(0)
+        times = [time for table in self.tables for time in table.jumps().tolist()] + [time for time, _ in self.changes]
+        self.jumps = tuple(sorted(set(times)))
 
     @classmethod
     def of(cls, fmu: Fmu, inputs: Inputs | None) -> Self:
@@ -65,7 +65,7 @@ class Signals:
         constants, tables = [], []
         for name, given in _pairs(inputs):
             variable = input_variable(fmu, name)
-            if _is_table(given):
+            if isinstance(given, tuple) and len(given) == 2 and np.ndim(given[0]) == 1:
                 tables.append(Table(variable, *given))
             else:
                 constants.append((variable, variable.number(given)))
@@ -96,7 +96,3 @@ def _pairs(inputs):
             raise DifferentialError("inputs: a structured array needs a field \"time\"")
         return [(name, (inputs["time"], inputs[name])) for name in names if name != "time"]
     return list((inputs or {}).items())
-
-
-def _is_table(given):
-    return isinstance(given, tuple) and len(given) == 2 and np.ndim(given[0]) == 1

@@ -55,32 +55,24 @@ class Steps:
     begins: np.ndarray
     slack: float
 
-    @classmethod
-    def of(cls, stop: float, step: float | None, jumps: np.ndarray, exact: bool = False) -> "Steps":
-        """Steps to multiples of `step`, to jumps of inputs, and to `stop`; without a step to jumps and to `stop` alone.
+    @staticmethod
+    @lru_cache(64)
+    def of(stop: float, step: float | None, jumps: tuple[float, ...], exact: bool = False) -> "Steps":
+        """Steps to multiples of `step`, to jumps of inputs, and to `stop`; without a step to jumps and to `stop` alone. They are
+        kept: designs of a sweep share them.
 
         Hosts begin a step where the one before was asked to end. With `exact` beginning and size add up to the end to the last
         bit, as in the library itself."""
-        if len(jumps) == 0:
-            return _regular_steps(stop, step, exact)
         slack = SLACK * (step or stop)
-        regular = _regular(stop, step, slack)
-        inner = jumps[(jumps > 0.0) & (jumps < stop)]
-        near = np.abs(inner[:, None] - regular).min(axis=1, initial=np.inf) < slack
-        return cls._between(np.union1d(regular, inner[~near]), slack, exact)
-
-    @classmethod
-    def _between(cls, points: np.ndarray, slack: float, exact: bool) -> "Steps":
-        return cls(points, points[1:] - np.diff(points) if exact else points[:-1], slack)
-
-
-@lru_cache(64)
-def _regular_steps(stop, step, exact):
-    """Steps without jumps, kept: designs of a sweep share them."""
-    slack = SLACK * (step or stop)
-    steps = Steps._between(_regular(stop, step, slack), slack, exact)
-    steps.points.flags.writeable = steps.begins.flags.writeable = False
-    return steps
+        points = _regular(stop, step, slack)
+        inner = np.array([jump for jump in jumps if 0.0 < jump < stop])
+        if len(inner):
+            after = np.searchsorted(points, inner)
+            near = np.minimum(points[after] - inner, inner - points[after - 1]) < slack
+            points = np.union1d(points, inner[~near])
+        begins = points[1:] - np.diff(points) if exact else points[:-1]
+        points.flags.writeable = begins.flags.writeable = False
+        return Steps(points, begins, slack)
 
 
 def _regular(stop, step, slack):

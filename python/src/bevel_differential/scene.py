@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
 
-from .differential import Differential, as_frame
+from .differential import Runner, as_frame
 from .extras import needed
 from .fmu import Fmu
 from .inputs import Signals, Table, Values, input_variable
-from .instance import Closing
 from .plot import plot
 from .points import Steps, TimeValue, seconds, span
 from .records import write
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-class Scene(Closing):
+class Scene(Runner):
     """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
 
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
@@ -34,15 +33,15 @@ class Scene(Closing):
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
                  tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), fmu: FileName | Fmu | None = None):
+        super().__init__(fmu)
         self.name, self.description = name, description
-        self.fmu = Fmu.of(fmu)
         self.stop, self.step = span("stop_time", stop), span("step", step)
         if self.step > self.stop:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
         self.outputs = [self.fmu.variable(output).name for output in outputs]
         self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
         self.tables = [(name, times, values, period) for name, times, values, period in tables]
-        self._differential = Differential(set, fmu=self.fmu)
+        super().set(set)
         self._signals = self._checked_signals()
 
     @classmethod
@@ -54,8 +53,7 @@ class Scene(Closing):
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
         """Changes parameters and inputs at the start."""
         self.check_settable({**(values or {}), **{name.replace("__", "."): None for name in keywords}})
-        self._differential.set(values, **keywords)
-        return self
+        return super().set(values, **keywords)
 
     def check_settable(self, names: Iterable[str]) -> None:
         """Refuses names of inputs that follow a table, as a value for them would change nothing."""
@@ -63,11 +61,6 @@ class Scene(Closing):
         for name in names:
             if name in driven:
                 raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
-
-    @property
-    def values(self) -> dict[str, Number]:
-        """What is set at the start, as the FMU takes it."""
-        return self._differential.values
 
     @overload
     def run(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None,
@@ -84,13 +77,13 @@ class Scene(Closing):
         Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
         DataFrame, by time."""
         record = self._record(outputs, values, stop)
-        self._differential._warn()
+        self._warn()
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
         found = self._final(outputs, values)
-        self._differential._warn()
+        self._warn()
         return found
 
     def says(self, values: Mapping[str, Value] | None = None) -> str:
@@ -105,16 +98,6 @@ class Scene(Closing):
         with self.fmu.open() as instance:
             self._initialise(instance, values)
             return instance.unfelt
-
-    @property
-    def warnings(self) -> list[str]:
-        """What the FMU warned of in the last run of this thread."""
-        return self._differential.warnings
-
-    @property
-    def unfelt(self) -> dict[str, str]:
-        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's words why."""
-        return self._differential.unfelt
 
     def summary(self, record: np.ndarray) -> str:
         """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown."""
@@ -158,10 +141,6 @@ class Scene(Closing):
                 "set": plain(self.values if values is None else values),
                 "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables}
 
-    def close(self) -> None:
-        """Frees all instances."""
-        self._differential.close()
-
     def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
                 "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
@@ -175,7 +154,7 @@ class Scene(Closing):
         self.check_settable(values or ())
         stop = self.stop if stop is None else span("stop", stop)
         steps = Steps.of(stop, self.step, self._signals.jumps, exact=True)
-        return self._differential._simulate(steps, self._signals, self._named(outputs), values)
+        return self._simulate(steps, self._signals, self._named(outputs), values)
 
     def _final(self, outputs=None, values=None):
         """`final` without Python warnings."""
@@ -183,7 +162,7 @@ class Scene(Closing):
         names = self._named(outputs)
         step = self.step if self._signals.tables else None
         steps = Steps.of(self.stop, step, self._signals.jumps, exact=True)
-        last = self._differential._simulate(steps, self._signals, names, values)[-1]
+        last = self._simulate(steps, self._signals, names, values)[-1]
         return {name: last[name].item() for name in names}
 
     def _initialise(self, instance, values):

@@ -1,7 +1,7 @@
 """Scenes from TOML files, as the library of answers reads them; and TOML files of commands."""
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -46,10 +46,10 @@ def read_toml(file: Path) -> dict[str, Any]:
         raise DifferentialError(f"{file}: {error}") from None
 
 
-def flat(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    """Values by their dotted names."""
+def flat(table: Mapping[str, Any], prefix: str = "", ends: Set[str] = frozenset()) -> dict[str, Any]:
+    """Values by their dotted names. A table with one of the keys `ends` is a value."""
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
-        values.update(flat(value, f"{name}.") if isinstance(value, dict) else {name: value})
+        values.update(flat(value, f"{name}.", ends) if isinstance(value, dict) and not value.keys() & ends else {name: value})
     return values

@@ -1,8 +1,9 @@
 """The gears for other programs: solids as STEP, meshes as STL, 3MF and GLB, drawings as DXF. All are made from one dictionary, the
 `shape` in the answer about gears."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from importlib.util import find_spec
+from itertools import product
 from pathlib import Path
 from typing import Any
 
@@ -50,19 +51,15 @@ def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), 
     """Writes the files of an answer about gears, and of these kinds for these parts; all are made before the first is written.
     Returns their names."""
     made = {name: content.encode() for name, content in found["files"].items()}
-    for part in parts:
-        made.update(file for kind in kinds for file in _files(found["shape"], part, kind))
+    for part, kind in product(parts, kinds):
+        if kind == "step":
+            made[f"{part}.step"] = step(found["shape"], part)
+        elif kind in MESHES:
+            made[f"{part}.{kind}"] = mesh(found["shape"], part, kind)
+        elif part in GEARS:
+            made[f"{part}.dxf"] = drawing(found["shape"], part)
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in made.items():
         (folder / name).write_bytes(content)
     return list(made)
-
-
-def _files(shape: dict[str, Any], part: str, kind: str) -> Iterator[tuple[str, bytes]]:
-    if kind == "step":
-        yield f"{part}.step", step(shape, part)
-    elif kind in MESHES:
-        yield f"{part}.{kind}", mesh(shape, part, kind)
-    elif part in GEARS:
-        yield f"{part}.dxf", drawing(shape, part)

@@ -45,7 +45,10 @@ def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iter
         try:
             yield opened
         finally:
-            _closed(opened, own=not scheduler)
+            cluster = opened.cluster
+            opened.close()
+            if not scheduler:
+                cluster.close()
 
 
 def usual_workers() -> int:
@@ -113,10 +116,3 @@ def _connected(distributed, scheduler):
         client.close()
         raise DifferentialError(f"scheduler {scheduler}: it has no workers; start some by dask worker {scheduler}") from None
     return client
-
-
-def _closed(client, own):
-    cluster = client.cluster
-    client.close()
-    if own:
-        cluster.close()

@@ -32,8 +32,6 @@ class Columns:
     def __init__(self, task: Task, space: Space):
         fmu = task.scene.fmu
         self._variables = [fmu.variable(name) for name in space.names]
-        self._literals = {variable.name: {number: word for word, number in variable.literals.items()}
-                          for variable in self._variables if variable.literals}
         self._figures = [(str(want), want.unit(fmu)) for want in task.figures]
         fields = [pa.field("run", pa.int64())]
         fields += [_field(variable.name, TYPES[variable.kind], variable.unit or "1") for variable in self._variables]
@@ -45,16 +43,11 @@ class Columns:
         """The table of rows, in order of run. Figures of designs that failed are null."""
         rows = sorted(rows, key=lambda row: row.run)
         columns: list[list] = [[row.run for row in rows]]
-        columns += [self._values(variable.name, rows) for variable in self._variables]
+        columns += [[variable.written(row.values[variable.name]) for row in rows] for variable in self._variables]
         columns += [[row.figures.get(name) for row in rows] for name, _ in self._figures]
         columns += [[row.feasible for row in rows], [row.message for row in rows], [row.seconds for row in rows]]
         arrays = [pa.array(column, field.type) for column, field in zip(columns, self.schema)]
         return pa.Table.from_arrays(arrays, schema=self.schema)
-
-    def _values(self, name, rows):
-        words = self._literals.get(name)
-        return [words[row.values[name]] if words else row.values[name] for row in rows]
-
 
 def _field(name, kind, unit):
     return pa.field(name, kind, metadata={"unit": unit})
@@ -201,13 +194,15 @@ def _replace(file, write):
     temporary = file.with_name(f".{file.name}.{os.getpid()}")
     try:
         write(temporary)
-        for path in (temporary, file.parent):
-            handle = os.open(path, os.O_RDONLY)
+        with open(temporary, "rb+") as written:
+            os.fsync(written.fileno())
+        os.replace(temporary, file)
+        # Windows has no handles of folders
+        if os.name == "posix":
+            folder = os.open(file.parent, os.O_RDONLY)
             try:
-                os.fsync(handle)
+                os.fsync(folder)
             finally:
-                os.close(handle)
-            if path is temporary:
-                os.replace(temporary, file)
+                os.close(folder)
     finally:
         temporary.unlink(missing_ok=True)

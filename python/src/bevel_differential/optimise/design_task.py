@@ -97,26 +97,20 @@ class DesignTask(Task):
                                     "faster")
         warned = [text for text in self.scene.warnings
                   if text.startswith(REFUSED_WARNINGS) and text.partition(":")[0] not in self.scene.unfelt
-                  and not self._told(row, text)]
+                  # the checks of the dimensions may have found it already
+                  and (not row.refused or text.startswith("geometry.root_fillet"))]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
         return {name.rpartition(":")[0]: value for name, value in figures.items()}
-
-    @staticmethod
-    def _told(row, warning):
-        """Whether the checks of the dimensions have found what the FMU warns of."""
-        return bool(row.refused) and not warning.startswith("geometry.root_fillet")
-
-    def _stage(self, stage):
-        """What a violation of a stage begins with: more than all violations of later ones together."""
-        return stage * (len(self.problem.conditions) + len(REFUSED_WARNINGS) + 1.0)
 
     def _fails(self, row, found, stage):
         """Notes violations; whether the design ends here."""
         if not found:
             return False
         row.refused += tuple(found)
+        # a stage begins with more than all violations of later ones together
+        least = stage * (len(self.problem.conditions) + len(REFUSED_WARNINGS) + 1.0)
         # each counts less than 1, so that one that is far off does not hide the others
-        row.violation = max(row.violation, self._stage(stage)) + sum(excess / (1.0 + excess) for excess in found.values())
+        row.violation = max(row.violation, least) + sum(excess / (1.0 + excess) for excess in found.values())
         return not self.thorough
 
 

@@ -45,25 +45,20 @@ def dominates(one: np.ndarray, other: np.ndarray) -> bool:
     return bool(np.all(one <= other) and np.any(one < other))
 
 
-def relative(cost: np.ndarray) -> np.ndarray:
-    """Costs between the best (0) and the worst (1) of the rows, shape as given."""
-    low, high = cost.min(axis=0), cost.max(axis=0)
-    return (cost - low) / np.where(high > low, high - low, 1.0)
-
-
 def choice(rows: Sequence[DesignRow], objectives: Sequence[Objective], compared: DesignRow | None) -> list[tuple[str, DesignRow]]:
     """Up to CHOICES designs of a front with the reason for each: the knee, what dominates the compared design, ends.
 
     The knee is nearest to the point that has the best of all objectives. Of the designs that dominate, that one is taken whose
     smallest gain is largest, gains measured by the front's extent."""
     cost = costs(rows, objectives)
-    scaled = relative(cost)
+    extent = np.where(np.ptp(cost, axis=0) > 0.0, np.ptp(cost, axis=0), 1.0)
+    # between the best (0) and the worst (1)
+    scaled = (cost - cost.min(axis=0)) / extent
     found = [("knee: nearest to the best of all objectives", int(np.argmin(np.linalg.norm(scaled, axis=1))))]
     if compared is not None and len(compared.figures) and all(str(each.want) in compared.figures for each in objectives):
         old = costs([compared], objectives)[0]
         better = [i for i in range(len(rows)) if dominates(cost[i], old)]
         if better:
-            extent = np.where(np.ptp(cost, axis=0) > 0.0, np.ptp(cost, axis=0), 1.0)
             gains = ((old - cost[better]) / extent).min(axis=1)
             found.append(("better in all than the compared design", better[int(np.argmax(gains))]))
     found += [(f"{'least' if each.sign > 0 else 'most'} {each.want.name}", int(np.argmin(cost[:, k])))

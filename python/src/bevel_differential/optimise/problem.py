@@ -17,6 +17,8 @@ from .quantities import QUANTITIES, Catalogue
 
 KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "starts", "seed", "front", "set", "vary",
         "follow", "compare", "confirm"}
+# of an entry of [follow]
+FOLLOW = {"from", "factor", "plus", "table"}
 NEEDED = ("description", "scene", "objectives", "vary")
 SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
 # outputs that add up, or keep the worst of, what was since ratings began
@@ -57,7 +59,7 @@ class Follower:
     @classmethod
     def parse(cls, fmu: Fmu, name: str, given: Mapping[str, Any]) -> "Follower":
         """Of { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
-        unknown = set(given) - {"from", "factor", "plus", "table"} if isinstance(given, Mapping) else {"?"}
+        unknown = set(given) - FOLLOW if isinstance(given, Mapping) else {"?"}
         if unknown or "from" not in given or ("table" in given and len(given) > 2):
             raise DifferentialError(f"[follow] {name}: write {{ from = \"NAME\", factor = 1.0, plus = 0.0 }} or "
                                     "{ from = \"NAME\", table = { VALUE = VALUE } }")
@@ -180,7 +182,7 @@ class _Reader:
         vary = flat(self.found.get("vary", {}))
         dimensions = [self.attempt(self.dimension, name, given) for name, given in vary.items()]
         followers = [self.attempt(Follower.parse, self.fmu, name, given)
-                     for name, given in _entries(self.found.get("follow", {}))]
+                     for name, given in flat(self.found.get("follow", {}), ends=FOLLOW).items()]
         objectives = [self.attempt(Objective.parse, self.catalogue, text) for text in self.found.get("objectives", [])]
         if len(objectives) == 1:
             self.problems.append("objectives: name two or more; one alone has no front")
@@ -245,12 +247,3 @@ class _Reader:
 
     def number(self, name, value):
         return self.fmu.variable(name).number(value)
-
-
-def _entries(table, prefix=""):
-    """Pairs (dotted name, entry) of [follow]; an entry is a table with `from`."""
-    for key, value in table.items():
-        if isinstance(value, dict) and "from" not in value and not value.keys() & {"factor", "plus", "table"}:
-            yield from _entries(value, f"{prefix}{key}.")
-        else:
-            yield f"{prefix}{key}", value

@@ -93,11 +93,13 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
     across = next((each for each in objectives if each.sign > 0.0), objectives[0])
     others = [each for each in objectives if each is not across]
     compared = {name: row for name, row in compared.items() if all(str(each.want) in row.figures for each in objectives)}
+
     def shown(rows, objective):
         variable = catalogue.variable(objective.want.name)
         return [variable.shown(row.figures[str(objective.want)])[1] for row in rows]
 
-    better = _dominating(front, compared, objectives)
+    olds = costs(list(compared.values()), objectives)
+    better = [row for row, cost in zip(front, costs(front, objectives)) if any(dominates(cost, old) for old in olds)]
     plain = [row for row in front if row not in better]
     with style.styled():
         figure, panels = style.panels(1, len(others), 4.8, squeeze=False)
@@ -123,11 +125,6 @@ def _label(catalogue, objective: Objective) -> str:
     better = "less" if objective.sign > 0.0 else "more"
     name = str(objective.want).removesuffix(":final").replace("_transmission_error", "\n_transmission_error")
     return f"{name}{f', {unit}' if unit else ''}\n({better} is better)"
-
-
-def _dominating(front, compared, objectives):
-    olds = costs(list(compared.values()), objectives)
-    return [row for row, cost in zip(front, costs(front, objectives)) if any(dominates(cost, old) for old in olds)]
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:

@@ -136,7 +136,9 @@ class _Run:
         algorithm.setup(self.cube, termination=("n_gen", self.problem.generations), seed=seed, verbose=False)
         while algorithm.has_next():
             asked = algorithm.ask()
-            rows = self._rows(asked.get("X"))
+            points = asked.get("X")
+            rows = _evaluated(self.problem.space.at(points), self.task, self.farm, self.store)
+            self.known.update((row.run, point) for row, point in zip(rows, points))
             Evaluator().eval(self._figures(rows), asked)
             algorithm.tell(infills=asked)
             self.best = front(list({row.run: row for row in [*self.best, *rows]}.values()), self.problem.objectives)
@@ -146,11 +148,6 @@ class _Run:
     def shares(self, rows):
         """Points of the unit cube that were evaluated as these rows, shape (rows, dimensions)."""
         return np.array([self.known[row.run] for row in rows])
-
-    def _rows(self, points):
-        rows = _evaluated(self.problem.space.at(points), self.task, self.farm, self.store)
-        self.known.update((row.run, point) for row, point in zip(rows, points))
-        return rows
 
     def _figures(self, rows):
         """Costs and violations as pymoo takes them. It compares infeasible designs by their violation alone."""
@@ -169,7 +166,8 @@ def _evaluated(designs, task, farm, store):
     numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
     try:
-        arrived.extend(evaluated(farm, task, numbered))
+        for row in evaluated(farm, task, numbered):
+            arrived.append(row)
     finally:
         rows = sorted([*store.rows.values(), *arrived], key=lambda row: row.run)
         store.rows = {tuple(row.values.values()): row for row in rows}

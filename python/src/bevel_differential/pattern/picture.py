@@ -97,7 +97,7 @@ def patterns(folder, data, outlines, cases):
                           aspect=50, extend="max", pad=0.01)
     bar.set_label("largest Hertz pressure of the engagement, MPa")
     legend(figure, first)
-    where = "the study's turn (835 N·m on each half-shaft)" if documented(cases) else "the given scenes"
+    where = "the study's turn (835 N·m on each half-shaft)" if REMARKS.keys() >= dict(cases).keys() else "the given scenes"
     style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, solid teeth. The planet's flank is a "
                   "trapezoid with the small end (toe) left; colour is the largest pressure at each spot while one pair goes from "
                   "first touch to parting, as marking compound would show it. One scale for all panels; only the seam at the base "
@@ -135,10 +135,6 @@ def line_load(axes, tip, points, result, most):
 def legend(figure, axes):
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(handles, labels, loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.0))
-
-
-def documented(cases):
-    return all(name in REMARKS for name, _ in cases)
 
 
 def top_of(data, cases):

@@ -145,7 +145,8 @@ def _teeth(axes, pair, gear, first, place, colour, label):
     # the tooth that stands nearest to the pitch point
     middle = min(range(gear.teeth), key=lambda k: math.hypot(*unrolled(pair, place(gear.pitch, first + k * step))))
     points = np.vstack([outline(gear) + (0.0, first + (middle + k) * step) for k in range(-NEIGHBOURS, NEIGHBOURS + 1)])
-    if _falls(pair, place, points):
+    first_end, last_end = (unrolled(pair, place(*points[k]))[0] for k in (0, -1))
+    if last_end < first_end:
         points = points[::-1]
     curve = np.array([unrolled(pair, place(polar, azimuth)) for polar, azimuth in points])
     below = np.array([unrolled(pair, place(gear.root - 0.35 * (gear.tip - gear.root), azimuth)) for azimuth in points[::-1, 1]])
@@ -154,11 +155,6 @@ def _teeth(axes, pair, gear, first, place, colour, label):
     axes.plot(*curve.T, color=colour, lw=1.5)
     circle = np.array([unrolled(pair, place(gear.pitch, azimuth)) for azimuth in np.linspace(*points[[0, -1], 1], 60)])
     axes.plot(*circle.T, color=colour, lw=0.8, ls="-.", label=f"pitch circle, {label}")
-
-
-def _falls(pair, place, points):
-    ends = [unrolled(pair, place(*points[k]))[0] for k in (0, -1)]
-    return ends[1] < ends[0]
 
 
 def _planet(polar, azimuth):

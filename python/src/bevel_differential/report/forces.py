@@ -1,7 +1,12 @@
-"""Force histories of the meshes, with the stretches in which teeth are in the lash."""
+"""Force histories of the meshes, with the stretches in which teeth are in the lash; and the transmission error of planet 1's left
+mesh, over time and by orders of the mesh."""
+
+from itertools import pairwise
 
 import numpy as np
 
+from ..values import DifferentialError
+from ..want import COARSEST, figures
 from . import style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
@@ -9,6 +14,9 @@ from .simulated import Simulated
 # inches
 PANEL = 1.9
 SIDES = ("left", "right")
+SIGNAL, ANGLE = "planet[1].left_transmission_error", "planet[1].spin_angle"
+HIGHEST = 12
+UM = 1e6
 
 
 def section(run: Simulated) -> Section:
@@ -75,3 +83,85 @@ def bands(times: np.ndarray, force: np.ndarray) -> list[tuple[float, float]]:
 def share(times: np.ndarray, found: list[tuple[float, float]]) -> float:
     """Part of the time that they take."""
     return sum(end - begin for begin, end in found) / (times[-1] - times[0])
+
+
+def transmission_error(run: Simulated) -> Section:
+    """The picture, or why there is none."""
+    found = Section("error", "Transmission error and its orders")
+    if not run.has_teeth:
+        found.say("Ideal gears do not deflect: there is no transmission error.")
+        return found
+    try:
+        part = rolling(run.time, run.series(ANGLE), int(run.value("geometry.planet_teeth")))
+        orders, sizes = spectrum(run, part)
+    except DifferentialError as reason:
+        found.add(Picture("error", _draw_error(run, None, None, None), _over_time(run)))
+        found.say(f"There are no orders of the mesh: {reason}.{' The run-up below has them.' if run.has_pairs else ''}")
+        return found
+    found.add(Picture("error", _draw_error(run, part, orders, sizes), f"{_over_time(run)} {_by_order(run, part, orders, sizes)}"))
+    return found
+
+
+def rolling(times: np.ndarray, angle: np.ndarray, teeth: int) -> slice:
+    """The longest stretch in which the planet turns one way, by at least one pitch. Raises `DifferentialError` with the reason."""
+    sense = np.sign(np.diff(angle))
+    edges = np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])
+    best, turned = slice(0, 0), 0.0
+    for begin, end in pairwise(edges):
+        if abs(angle[end] - angle[begin]) > turned:
+            best, turned = slice(int(begin), int(end) + 1), abs(float(angle[end] - angle[begin]))
+    pitches = turned * teeth / (2.0 * np.pi)
+    if pitches < 1.0:
+        what = ("the planets stand still on their pins" if pitches < 1e-3 else
+                f"the planets turn by {words.number(pitches, 2)} of a pitch at most before they stop or turn back")
+        raise DifferentialError(f"{what}, and a period of the mesh is one pitch")
+    return best
+
+
+def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitudes (m) of whole orders of the mesh over the last whole mesh cycles of a stretch: (orders, amplitudes)."""
+    teeth = int(run.value("geometry.planet_teeth"))
+    phase, values = run.series(ANGLE)[part] * teeth, run.series(SIGNAL)[part]
+    coarsest = float(np.abs(np.diff(phase)).max())
+    highest = min(HIGHEST, int(COARSEST / coarsest))
+    if highest < 1:
+        raise DifferentialError(f"a period of the mesh has only {2.0 * np.pi / coarsest:.1f} points of the record; the scene's "
+                                "step is too long")
+    orders = np.arange(1, highest + 1)
+    return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
+
+
+@style.drawn("error")
+def _draw_error(picture, run, part, orders, sizes):
+    picture.set_figheight(2.6 if orders is None else 3.0)
+    panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
+    panels[0].plot(run.time, UM * run.series(SIGNAL), color=style.BLUE)
+    panels[0].set(xlabel="time, s", ylabel="transmission error, µm", title="planet 1 with the left side gear")
+    if orders is not None:
+        panels[0].axvspan(run.time[part][0], run.time[part][-1], color=style.GREEN, alpha=0.12, lw=0)
+        panels[1].bar(orders, UM * sizes, color=style.BLUE, width=0.5)
+        panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders, yscale="log")
+        panels[1].set_ylim(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0)
+
+
+def _over_time(run):
+    error = UM * run.series(SIGNAL)
+    loaded = error[error > 0.0]
+    lifted = (f"; below 0, {words.percent(float(np.mean(error < 0.0)), 2)} of the points, the drive flanks are apart"
+              if error.min() < 0.0 else "")
+    if not len(loaded):
+        return f"Approach of the drive flanks: they never touch, {words.number(-error.max(), 3)} µm apart at least."
+    return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(float(np.mean(loaded)), 'µm')} on the "
+            f"mean while they touch, {words.quantity(error.max(), 'µm')} at most{lifted}.")
+
+
+def _by_order(run, part, orders, sizes):
+    teeth = int(run.value("geometry.planet_teeth"))
+    angle = run.series(ANGLE)[part]
+    cycles = int(abs(angle[-1] - angle[0]) * teeth / (2.0 * np.pi))
+    mesh = abs(float((angle[-1] - angle[0]) / (run.time[part][-1] - run.time[part][0]))) * teeth / (2.0 * np.pi)
+    top = int(np.argmax(sizes))
+    first = "" if top == 0 else f"; order 1 has {words.quantity(UM * sizes[0], 'µm', 3)}"
+    return (f"Right: amplitudes over the last {cycles} whole mesh cycles of the shaded stretch, in which the planets roll one "
+            f"way ({words.quantity(mesh, 'Hz')} on the mean). The largest is order {orders[top]} with "
+            f"{words.quantity(UM * sizes[top], 'µm', 3)}{first}.")

@@ -26,13 +26,9 @@ def pair_of(run: Simulated) -> Pair:
     """The pair with the cones that the FMU has."""
     names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
     pair = Pair.of({name: run.value(name) for name in names})
-    planet, side = (_with_cones(run, gear, name) for gear, name in zip(pair.gears, GEARS))
+    planet, side = (replace(gear, **{cone: run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch", "base", "tip", "root")})
+                    for gear, name in zip(pair.gears, GEARS))
     return replace(pair, gears=(planet, side), outer_cone=run.constant("geometry.outer_cone_distance"))
-
-
-def _with_cones(run, gear, name):
-    pitch, base, tip, root = (run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch", "base", "tip", "root"))
-    return replace(gear, pitch=pitch, base=base, tip=tip, root=root)
 
 
 def _deg(angle):

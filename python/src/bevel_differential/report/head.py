@@ -1,15 +1,17 @@
-"""The head of a report: what was run with what, how long it took, and whether it can be trusted."""
+"""The head of a report: what was run with what, how long it took, whether it can be trusted, and what the scene sets up."""
 
 import numpy as np
 
 from ..extras import version
-from . import run_in, words
-from .blocks import Section, Table, Text
+from . import strength, style, words
+from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
 # work and heat that the balance of energy misses, as a share of what went through
 BALANCED = 1e-4
 SOLVER = ("solver.method", "solver.relative_tolerance", "solver.fixed_step")
+# inches
+PANEL = 1.7
 
 
 def section(run: Simulated) -> Section:
@@ -31,9 +33,8 @@ def verdicts(run: Simulated) -> list[Text]:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:
         root, flank = float(run.record["safety.root_min"][-1]), float(run.record["safety.flank_min"][-1])
-        found.append(Text(f"Smallest safety factors of the run{run_in.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
-                          "below 1 "
-                          "the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
+        found.append(Text(f"Smallest safety factors of the run{strength.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
+                          "below 1 the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
     found.append(Text(_split(run), "verdict"))
     return found
 
@@ -62,26 +63,72 @@ def _facts(run):
     real = run.scene.stop / run.seconds
     counts = [("solver.steps", "steps"), ("solver.rejected", "rejected"), ("solver.rhs_calls", "evaluations of the tooth forces")]
     steps = ", ".join(f"{int(last[name])} {what}" for name, what in counts)
-    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.of(fmu, name, run.value(name))}"
+    solver = ", ".join(f"{name.removeprefix('solver.').replace('_', ' ')} {words.shown(fmu.variable(name), run.value(name))}"
                        for name in SOLVER if name != "solver.fixed_step" or run.literal("solver.method") == "fixed_step")
-    added = words.listed(run.added) if run.added else ""
     rows = [
         ("package", f"bevel-differential {version() or '(from sources)'}"),
         ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
         ("SHA-256 of the FMU", fmu.sha256),
         ("solver", f"{solver}; {steps}"),
-        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of {_step(run)}"),
+        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of "
+                           f"{words.quantity(1e3 * run.scene.step, 'ms')}"),
         ("took", f"{words.quantity(1e3 * run.seconds, 'ms', 3)}: {words.number(real, 2)} × real time"),
     ]
-    if added:
-        rows.append(("switched on for this report", f"{added}: they only add outputs. The scene's own outputs with and without "
-                                                    "them "
+    if run.added:
+        rows.append(("switched on for this report", f"{words.listed(run.added)}: they only add outputs. The scene's own outputs with and without them "
                      + ("are the same to the last bit." if run.difference == 0.0 else
                         f"differ by {run.difference:.1e} of their largest values.")))
     rows += [("not available here", reason) for reason in run.refused.values()]
     return rows
 
 
-def _step(run):
-    return words.quantity(1e3 * run.scene.step, "ms")
+def setup(run: Simulated) -> Section:
+    """Plan, values that differ from the start values, and inputs over time."""
+    found = Section("setup", "Set-up and plan")
+    found.say(f"The FMU says that it simulates: {run.says}.")
+    if not run.scene.values:
+        found.say("All values are the start values of the FMU.")
+    else:
+        found.add(_values(run))
+    changing = [name for name, variable in run.scene.fmu.variables.items()
+                if variable.causality == "input" and np.ptp(run.series(name)) > 0.0]
+    if changing:
+        found.add(_inputs(run, changing))
+    else:
+        found.say("All inputs are constant.")
+    tuned = [f"{variable.name} = {words.shown(variable, number)} at {words.quantity(time, 's')}"
+             for time, values in run.scene.changes for variable, number in run.scene.fmu.numbers(values)
+             if variable.causality == "parameter"]
+    if tuned:
+        found.say(f"Parameters that change during the run: {words.listed(tuned)}.")
+    return found
 
+
+def _values(run):
+    fmu = run.scene.fmu
+    rows = []
+    for name, value in run.scene.values.items():
+        variable = fmu.variable(name)
+        start = "" if variable.start is None else words.shown(variable, variable.start)
+        rows.append((name, variable.description or "", words.shown(variable, value),
+                     start if variable.start != value else "the same"))
+    driven = ", ".join(dict.fromkeys(name for name, *_ in run.scene.tables))
+    return Table(("name", "meaning", "scene", "start value of the FMU"), rows,
+                 f"{len(rows)} values that the scene sets; all others have the start values of the FMU."
+                 + (f" {driven}: by a table over time." if driven else ""), left=2)
+
+
+def _inputs(run, names):
+    changes = []
+    for name in names:
+        values = run.shown(name)
+        changes.append(f"{name} between {words.number(values.min())} and {words.quantity(values.max(), run.unit(name))}, "
+                       f"{words.number(values[-1])} at the end")
+    return Picture("inputs", _draw(run, names), f"Inputs that change: {'; '.join(changes)}. All others are constant.")
+
+
+@style.drawn("inputs")
+def _draw(picture, run, names):
+    # the FMU holds an input between communication points
+    for panel in style.over_time(picture, run, names, PANEL, held=True):
+        panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))

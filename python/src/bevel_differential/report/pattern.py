@@ -161,11 +161,9 @@ def _caption(name, contacts):
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
         return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, "
-                f"{words.quantity(low, 'mm', 3)} from the pitch "
-                f"line at the mean cone distance, as wide as Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
+                f"{words.quantity(low, 'mm', 3)} from the pitch line at the mean cone distance, as wide as Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
     return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} "
-            "at the mean cone distance, in strips "
-            f"up to {words.quantity(widest, 'mm', 2)} wide.")
+            f"at the mean cone distance, in strips up to {words.quantity(widest, 'mm', 2)} wide.")
 
 
 def _reading(pair, loaded):

@@ -52,7 +52,8 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     loads, why_loads = loads_of(run)
     values, changed = _values(run, ratio, loads)
     changed = [*why_ratio, *why_loads, *changed]
-    per_turn = _per_turn(run, ratio)
+    # enough points for the orders that theory expects
+    per_turn = max(PER_TURN, int(PER_ORDER * max(theory(run, ratio).values())))
     step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
     for turns in (TURNS, FEWER):
         # with a constant rate of all speeds the turns are mean spin times duration
@@ -103,12 +104,6 @@ def _values(run, ratio, loads):
             values[f"{side}.brake_torque"] = 0.0
             changed.append(f"the {side} brake is released")
     return values, changed
-
-
-def _per_turn(run, ratio):
-    """Enough points for the orders that theory expects."""
-    highest = max(theory(run, ratio).values())
-    return max(PER_TURN, int(PER_ORDER * highest))
 
 
 def theory(run: Simulated, ratio: float) -> dict[str, float]:

@@ -1,4 +1,5 @@
-"""Stresses that the rating uses, each with the strength that it is compared with (docs/theory.md, section 10), and safety."""
+"""Stresses that the rating uses, each with the strength that it is compared with (docs/theory.md, section 10), and safety; and
+whether safety and damage are those of the start, where teeth that carried nothing met their load with a blow."""
 
 import math
 from dataclasses import dataclass
@@ -6,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..spectrum.damage import pushed_along
-from . import run_in, style, words
+from . import style, words
 from .blocks import Picture, Section, Table
 from .simulated import Simulated
 
@@ -17,8 +18,12 @@ LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", style.BLUE)
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
-         ("damage.planet_flank", "Miner sum of pitting, worst planet"), ("damage.side_flank", "Miner sum of pitting, worse side "
-                                                                                              "gear"))
+         ("damage.planet_flank", "Miner sum of pitting, worst planet"),
+         ("damage.side_flank", "Miner sum of pitting, worse side gear"))
+# what the FMU's message begins with where ratings count a start out of equilibrium
+MESSAGE = "strength.rate_from: "
+# by how much the rest of the run must be better for the start to be the worst of it
+BETTER = 1.1
 
 
 @dataclass(frozen=True)
@@ -67,10 +72,9 @@ def section(run: Simulated) -> Section:
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
-                    "of the "
-                    "solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
-    if advice := run_in.advice(run):
-        found.say(advice)
+                    "of the solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
+    if told := advice(run):
+        found.say(told)
     return found
 
 
@@ -107,3 +111,38 @@ def _caption(run, stresses):
             f"{words.number(float(run.value('strength.idler_factor')))} of their bending strength (strength.idler_factor). Flanks are "
             "rated as one pair at the inner point of single contact. Where pairs touch nearer to a base circle Hertz's formula gives up "
             f"to {words.quantity(highest, 'MPa')} (stress.contact_max), for which there is no strength.")
+
+
+def notes(run: Simulated) -> list[str]:
+    """A sentence for each of roots and flanks whose smallest safety factor is in the start; none where none is."""
+    if not any(warning.startswith(MESSAGE) for warning in run.warnings):
+        return []
+    bending, contact = (float(run.value(f"strength.{kind}_strength")) for kind in ("bending", "contact"))
+    planet = float(run.value("strength.idler_factor")) * bending
+    found = []
+    for what, name, stresses in (("roots", "safety.root_min", {"stress.root_planet_max": planet, "stress.root_side_max": bending}),
+                                 ("flanks", "safety.flank_min", {"stress.contact_rated": contact})):
+        factor, half = run.series(name), len(run.time) // 2
+        least = factor[-1]
+        # the factor only falls: it is the smallest from here on
+        moment = int(np.argmax(factor <= least * (1.0 + 1e-6)))
+        largest = max(float(np.max(run.series(stress)[half:])) / strength for stress, strength in stresses.items())
+        if moment < half and largest > 0.0 and 1.0 / largest > BETTER * least:
+            found.append(f"The smallest safety factor of the {what}, {words.number(float(least), 3)}, is in the start, before "
+                         f"{words.quantity(1e3 * float(run.time[moment]), 'ms', 3)}; from the middle of the run on the communication "
+                         f"points have {words.number(1.0 / largest, 3)} or more.")
+    return found
+
+
+def advice(run: Simulated) -> str:
+    """The same with what helps; empty where the start is not the worst of the run."""
+    found = notes(run)
+    if not found:
+        return ""
+    return " ".join([*found, "This start is not in equilibrium, and damage counts its blow as well: strength.rate_from lets "
+                             "ratings begin after the run-in, scene.start = equilibrium has none."])
+
+
+def where(run: Simulated) -> str:
+    """What to add to figures of the whole run."""
+    return " (in the start, see stresses and safety)" if notes(run) else ""

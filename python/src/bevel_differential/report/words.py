@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 
-from ..fmu import Fmu
 from ..values import Number, Variable
 
 DIGITS = 4
@@ -39,11 +38,6 @@ def shown(variable: Variable, value: Number, digits: int = DIGITS) -> str:
         return str(variable.written(value))
     unit, given = variable.shown(float(value))
     return quantity(given, unit, digits)
-
-
-def of(fmu: Fmu, name: str, value: Number, digits: int = DIGITS) -> str:
-    """The same for the variable of this name."""
-    return shown(fmu.variable(name), value, digits)
 
 
 def percent(part: float, digits: int = 3) -> str:

@@ -12,7 +12,7 @@ from ..values import DifferentialError, Number
 from . import style, words
 from .blocks import Picture, Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
-from .summary import main_outputs
+from .traces import main_outputs
 
 # effects that say what is built in, broken or driven: part of the question, not of how closely it is looked at. A test holds the
 # command `accuracy` to the same ones

@@ -8,12 +8,12 @@ from ..extras import needed
 from ..progress import part, silent
 from ..scene import Scene
 from ..values import DifferentialError, FileName
-from . import energy, errors, forces, gears, head, pattern, setup, strength, summary, traces, waterfall, worth
+from . import energy, forces, gears, head, pattern, strength, traces, waterfall, worth
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
 # sections that need no other run, before and after those that do
-FIRST = (head.section, setup.section, gears.section, summary.section, traces.section, forces.section, errors.section)
+FIRST = (head.section, head.setup, gears.section, traces.key_figures, traces.section, forces.section, forces.transmission_error)
 LAST = (pattern.section, strength.section, energy.section)
 # parts of the work when pictures of the scene, the run-up and the other effects begin
 PICTURES, RUN_UP, REST, EFFECTS = 0.05, 0.3, 0.5, 0.65

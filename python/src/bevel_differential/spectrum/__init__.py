@@ -5,7 +5,6 @@
 """
 
 from .damage import Event
-from .result import SpectrumResult
-from .total import spectrum
+from .result import SpectrumResult, spectrum
 
 __all__ = ["Event", "SpectrumResult", "spectrum"]

@@ -5,8 +5,7 @@ import sys
 
 from ..command.arguments import add_files, add_fmu, assignment, once
 from ..output_file import checked, checked_picture
-from .slow import ORDERS
-from .total import spectrum
+from .result import ORDERS, spectrum
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -20,9 +20,9 @@ from math import nan, pi
 
 import numpy as np
 
-from ..csv_table import CsvTable, Quantity, Text, Time, unknown
+from ..csv_table import CsvTable, Quantity, Text, Time
 from ..fmu import Fmu
-from ..values import DifferentialError, FileName, Variable
+from ..values import DifferentialError, FileName, Variable, suggestion
 from .damage import Event
 
 LENGTH = {"m": 1.0, "mm": 1e-3, "km": 1e3}
@@ -64,8 +64,7 @@ def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tu
 
 def _drives(row, drives, fmu):
     """Literals of the drives in an event."""
-    literals = {name: {number: literal for literal, number in fmu.variable(name).literals.items()} for name in DRIVES}
-    return {name: literals[name][int(row.get(name, drives[name]))] for name in DRIVES}
+    return {name: fmu.variable(name).written(int(row.get(name, drives[name]))) for name in DRIVES}
 
 
 def _event(table, line, row, fmu, vehicle, gears):
@@ -166,7 +165,7 @@ def _variable(name, fmu, causalities):
     if name in QUANTITIES:
         return QUANTITIES[name]
     if name not in fmu.variables:
-        raise unknown(name, [*OWN, *QUANTITIES, *fmu.variables])
+        raise DifferentialError(f"{name}: there is no such column{suggestion(name, [*OWN, *QUANTITIES, *fmu.variables])}")
     variable = fmu.variables[name]
     if variable.causality not in causalities:
         raise DifferentialError(f"{name}: it is none of the {' and '.join(each + 's' for each in causalities)} of the FMU")

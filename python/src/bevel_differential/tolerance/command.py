@@ -37,6 +37,5 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.csv:
         print(f"\nruns: {report.write_runs(plan, result, arguments.csv)}")
     if arguments.plot:
-        from . import picture
-        print(f"picture: {picture.draw(plan, result, arguments.plot)}")
+        print(f"picture: {report.draw(plan, result, arguments.plot)}")
     return 0

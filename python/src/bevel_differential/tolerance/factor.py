@@ -84,12 +84,9 @@ class Reader:
     def _grade(self, name, written):
         if name != PITCH and name not in RUNOUT:
             raise DifferentialError(f"{name}: it has no accuracy grade; {PITCH} and {', '.join(RUNOUT)} have; {_USAGE}")
-        try:
-            number = grade(name, int(written))
-        except ValueError as error:
-            if isinstance(error, DifferentialError):
-                raise
-            raise DifferentialError(f"{name} = grade {written}: a grade is a whole number") from None
+        if not written.lstrip("-").isdecimal():
+            raise DifferentialError(f"{name} = grade {written}: a grade is a whole number")
+        number = grade(name, int(written))
         self._gears = self._gears or gears(self._scene)
         for gear in self._gears.values() if name == PITCH else [self._gears[RUNOUT[name]]]:
             gear.check(name)

@@ -139,21 +139,16 @@ class Given(Law):
         return Given(replace(self.dimension, numbers=numbers))
 
 
-@dataclass(frozen=True)
-class PitchGrade(Law):
+class PitchGrade(Fixed):
     """Gears that just meet a grade of pitch deviations. Which deviations they have is for the seed to say."""
 
-    number: int
-    varies = False
-
-    def at(self, shares: np.ndarray) -> list[Number]:
-        return [self.number] * len(shares)
-
-    def scaled(self, ratio: float) -> Law:
-        raise DifferentialError("the pitch has grades: write the grade")
+    @property
+    def number(self) -> Number:
+        """The grade."""
+        return self.value
 
     def graded(self, steps: int) -> Law:
-        return PitchGrade(grade("pitch", self.number + steps))
+        return PitchGrade(grade("pitch", int(self.value) + steps))
 
 
 @dataclass(frozen=True)

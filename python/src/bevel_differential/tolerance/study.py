@@ -136,8 +136,7 @@ class Study:
             return f"none, as {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
         if np.ptp(figures) <= 1e-10 * np.abs(figures).max():
             return "none, as the figure does not vary"
-        found = analyse(len(self.names), figures, self.seed)
-        return Indices(found["S1"], found["S1_conf"], found["ST"], found["ST_conf"])
+        return analyse(len(self.names), figures, self.seed)
 
 
 def _figures(rows, want):
@@ -172,10 +171,9 @@ def _problem(factors):
     return {"num_vars": factors, "names": [str(i) for i in range(factors)], "bounds": [[0.0, 1.0]] * factors}
 
 
-def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> dict[str, np.ndarray]:
-    """Sobol indices of figures at `crossed`, shape (rows,): "S1", "ST" and the half widths "S1_conf", "ST_conf" of their
-    intervals, shape (factors,)."""
+def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> Indices:
+    """Sobol indices of figures at `crossed`, shape (rows,)."""
     sobol = needed("SALib.analyze.sobol", "design")
     # SALib takes a seed of 0 for none
     found = sobol.analyze(_problem(factors), figures, calc_second_order=False, num_resamples=500, conf_level=level, seed=seed + 1)
-    return {name: np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")}
+    return Indices(*(np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")))
