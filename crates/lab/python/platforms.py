@@ -190,8 +190,9 @@ def main():
     finally:
         for platform in platforms:
             platform.close()
-    print(text, end="", file=sys.stdout if same else sys.stderr)
-    return 0 if same else 1
+    if not same:
+        sys.exit(f"the libraries do not agree:\n{text}")
+    print(text, end="")
 
 
 def tables(platforms, scenes):
@@ -227,4 +228,4 @@ def tables(platforms, scenes):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()
