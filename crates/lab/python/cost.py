@@ -39,7 +39,6 @@ def main():
     if not alone:
         draw(folder)
         tell(f"{summary(folder)}{measured}", folder / "summary.md")
-    print("files:", *sorted([*folder.glob("*.csv"), *folder.glob("*.png")]), sep="\n  ")
 
 
 def tell(text, file):

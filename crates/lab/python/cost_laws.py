@@ -35,9 +35,9 @@ def figures(fmu, scene, values, law, bodies):
         record = turn.run(outputs=names, stop=scene.stop, step=scene.step)
     record = record[record["time"] > (START + 1e-9) * scene.stop]
     for want in wants:
-        value, size = want.of(record, values["geometry.planet_teeth"]), np.abs(record[want.name])
-        whole = {"mean": math.sqrt(np.mean(size**2)), "max": size.max()}.get(want.statistic.word, value)
-        yield value, whole
+        value = want.of(record, values["geometry.planet_teeth"])
+        wholes = {"mean": Want.parse(fmu, f"{want.name}:rms").of(record, 1), "max": float(np.abs(record[want.name]).max())}
+        yield value, wholes.get(want.statistic.word, value)
 
 
 def laws(fmu, begin, end):
