@@ -1,6 +1,6 @@
 """What solvers written by others need for the same equations, compared with this program.
 
-    python compare.py LIBRARY FOLDER [--quick] [--cases a,b] [--reference CSV]
+    python compare.py LIBRARY FOLDER [--quick] [--cases "a;b"] [--ours]
 
 LIBRARY is foreign-solvers as cargo built it. Writes FOLDER/foreign.csv and prints the table.
 """
@@ -24,15 +24,32 @@ import solvers as all_of  # noqa: E402
 import table  # noqa: E402
 from library import Library, Run  # noqa: E402
 
-# case, level of the teeth, end [s], distance of the samples [s]
+sys.path.append(str(Path(__file__).resolve().parents[2] / "crates" / "lab" / "python"))
+from tools import say  # noqa: E402
+
+STRAIGHT_SPEED, TURN_SPEED, SPIN = np.radians([2861.0, 954.0, 200.0])
+TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": TURN_SPEED, "planet.spin_command": SPIN}
+# scenes/clunk.toml; before the blow the coast flanks lie against each other, integrated as closely as can be
+CLUNK = {"scene.carrier_drive": "torque", "geometry.backlash": 0.1885e-3, "effects.half_shaft": "true",
+         "half_shaft.left_stiffness": 1e4, "half_shaft.right_stiffness": 1e4, "half_shaft.left_damping": 0.0,
+         "half_shaft.right_damping": 0.0, "inertia.from_geometry": "false", "inertia.carrier": 0.05, "inertia.side_gear": 1e-5,
+         "inertia.planet": 1e-6, "inertia.left_end": 0.5, "inertia.right_end": 0.5, "contact.damping": 0.0,
+         "carrier.speed_command": 0.0, "carrier.torque_command": -0.002, "left.load_torque": -0.001, "right.load_torque": -0.001,
+         "solver.relative_tolerance": 1e-11}
+# when the blow comes [s], and what it is
+BLOW_TIME, BLOW = 1e-5, {"carrier.torque_command": 100.0, "left.load_torque": 0.0, "right.load_torque": 0.0}
+# case, speed of gears in it [rad/s], end [s], distance of the samples [s]; a blow of 100 N·m through the lash brings gears to some 10 rad/s
 CASES = {
-    "turn_equilibrium": ("turn_equilibrium", "tooth_impact", 0.5, 1e-2),
-    "turn_rolling": ("turn_rolling", "tooth_impact", 0.5, 1e-2),
-    "straight_rolling": ("straight_rolling", "tooth_impact", 0.5, 1e-2),
-    "clunk": ("clunk", "tooth_impact", 0.02, 1e-4),
-    "clunk, every 10 us": ("clunk", "tooth_impact", 0.02, 1e-5),
-    "turn, force along a line": ("turn_equilibrium", "tooth_line", 0.5, 1e-2),
+    "turn_equilibrium": (TURN, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
+    "turn_rolling": (TURN | {"scene.start": "rolling"}, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
+    "straight_rolling": ({"scene.start": "rolling"}, 2.0 * STRAIGHT_SPEED, 0.5, 1e-2),
+    "clunk": (CLUNK, 10.0, 0.02, 1e-4),
+    "clunk, every 10 us": (CLUNK, 10.0, 0.02, 1e-5),
+    "turn, force along a line": (TURN | {"contact.law": "line"}, 2.0 * TURN_SPEED + SPIN, 0.5, 1e-2),
 }
+# natural magnitudes of positions: how far loaded teeth come closer, as an angle of a gear; the carrier's angle, which is the third;
+# the twist of half-shafts, which come after the gears [rad]
+APPROACH, TURNED, TWIST, CARRIER, ENDS = 2e-3, 1.0, 1e-2, 2, 4
 QUICK = ("turn_equilibrium", "clunk")
 TOLERANCES = [10.0**-k for k in range(3, 14)]
 QUICK_TOLERANCES = [1e-4, 1e-6, 1e-8]
@@ -61,13 +78,26 @@ def main():
     rows, checks = [], {}
     for k, name in enumerate(names):
         def progress(fraction, what, k=k, name=name):
-            print(f"progress {(k + fraction) / len(names):.4f} {name}: {what}", file=sys.stderr, flush=True)
+            say((k + fraction) / len(names), f"{name}: {what}")
 
         # what Python's calls cost is the same everywhere
         wanted = [solver for solver in solvers if name in QUICK or not solver.slow]
         rows += compare(library, name, wanted, arguments, progress, checks)
         write(arguments.folder / "foreign.csv", rows)
     print(table.markdown(rows, names, checks, missing), end="")
+
+
+def started(library, name, method="adaptive", tolerance=1e-6):
+    """A run of a case; method and tolerance are those of the program's own solver."""
+    values, speed, *_ = CASES[name]
+    solver = {"solver.method": method, "solver.relative_tolerance": tolerance}
+    run = Run(library, values, BLOW | solver, BLOW_TIME) if values is CLUNK else Run(library, values | solver)
+    magnitudes = np.full(run.size, speed)
+    magnitudes[:run.size // 2] = APPROACH
+    magnitudes[ENDS:run.size // 2] = TWIST
+    magnitudes[CARRIER] = TURNED
+    run.scale(magnitudes)
+    return run
 
 
 def samples(run, end, step):
@@ -105,8 +135,8 @@ def fingerprint(run):
 
 def compare(library, name, solvers, arguments, progress, checks):
     quick = arguments.quick
-    case, level, end, step = CASES[name]
-    run = Run(library, case, level)
+    *_, end, step = CASES[name]
+    run = started(library, name)
     times = samples(run, end, step)
     progress(0.0, "reference by DOP853")
     exact = reference(run, times, arguments.folder / f"reference_{name.replace(' ', '_').replace(',', '')}.csv")
@@ -117,7 +147,7 @@ def compare(library, name, solvers, arguments, progress, checks):
         for tolerance in wanted:
             key = (solver.own_method, tolerance) if solver.own_method else None
             if key and key not in runs:
-                runs[key] = Run(library, case, level, *key)
+                runs[key] = started(library, name, *key)
             jobs.append((solver, tolerance, runs.get(key, run)))
     outcomes, tired = {}, set()
     rounds = 1 if quick else REPEATS
@@ -137,9 +167,9 @@ def compare(library, name, solvers, arguments, progress, checks):
     # how far the closest solver of a different family stays from the reference, without this program
     others = [r for r in rows if not r["solver"].startswith(all_of.OURS) and r["status"] == 0]
     checks[name] = min((max(r["speed_error"], r["force_error"]) for r in others), default=float("nan"))
-    for on in {run, *runs.values()}:
+    for on in [run, *runs.values()]:
         on.close()
-        return rows
+    return rows
 
 
 def row(name, solver, tolerance, outcomes, exact):

@@ -9,6 +9,7 @@ from scipy.integrate import odeint, solve_ivp
 
 import lsoda
 import sundials
+from library import OUTPUTS
 
 # shares of a solver's tolerance that go to what grows with the solution and to what does not: for every solver the error
 # allowed is rtol·|u| + atol, u in units of its natural magnitude. "absolute" is what this program's own control does.
@@ -16,6 +17,7 @@ SHARES = {"absolute": (0.0, 1.0), "relative": (1.0, 1.0)}
 # the smallest relative tolerance that every solver takes without a remark
 LEAST_RTOL = 1e-13
 OURS = "this program"
+MOST_STEPS = 10_000_000
 
 
 @dataclass
@@ -65,17 +67,18 @@ def all_solvers(folder):
             found.append(Solver("LSODA, compiled", share, compiled_lsoda(library, share)))
     except OSError as problem:
         missing.append(f"compiled LSODA: {problem}")
+    solvers = {"scipy odeint (LSODA)": scipy_odeint, "scipy solve_ivp LSODA": scipy_ivp("LSODA"),
+               "scipy solve_ivp Radau": scipy_ivp("Radau")}
     for share in SHARES:
         for exact in (True, False):
             variant = f"{'exact Jacobian' if exact else 'differences'}, {share}"
-            found.append(Solver("scipy odeint (LSODA)", variant, scipy_odeint(exact, share), slow=True))
-            for method in ("LSODA", "Radau"):
-                found.append(Solver(f"scipy solve_ivp {method}", variant, scipy_ivp(method, exact, share), slow=True))
+            found += [Solver(name, variant, in_python(solve, exact, share), slow=True) for name, solve in solvers.items()]
     try:
         from sksundae.cvode import CVODE
 
         for share in SHARES:
-            found.append(Solver("scikit-SUNDAE CVODE BDF", f"exact Jacobian, {share}", sundae(CVODE, share), slow=True))
+            integrate = in_python(sundae(CVODE), True, share)
+            found.append(Solver("scikit-SUNDAE CVODE BDF", f"exact Jacobian, {share}", integrate, slow=True))
     except ImportError as problem:
         missing.append(f"scikit-SUNDAE: {problem}")
     return found, missing
@@ -88,8 +91,7 @@ def tolerances(share, tolerance):
 
 def own(run, times, tolerance):
     cost, outputs, status, account = run.own(times)
-    calls, jacobians = run.counts()
-    return Outcome(cost, outputs, calls, jacobians, status, account)
+    return Outcome(cost, outputs, *run.counts(), status, account)
 
 
 def cvode(library, method, exact, share):
@@ -114,62 +116,47 @@ def compiled_lsoda(library, share):
     return integrate
 
 
-def scipy_ivp(method, exact, share):
+def in_python(solve, exact, share):
+    """A solver that calls Python: `solve(rhs, jacobian, u0, at, rtol, atol)` gives the states at all of `at`, the start first, and what
+    hindered it."""
     def integrate(run, times, tolerance):
-        rtol, atol = tolerances(share, tolerance)
-        rhs, jacobian = run.python_rhs(), run.python_jacobian() if exact else None
-        run.counts()
-        begin = time.thread_time()
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            result = solve_ivp(rhs, (run.t0, times[-1]), run.u0, method=method, t_eval=times, rtol=rtol, atol=atol,
-                               jac=jacobian)
-        cost = time.thread_time() - begin
-        counts = run.counts()
-        complete = result.success and len(result.t) == len(times)
-        outputs = run.outputs(result.y.T) if complete else np.full((len(times), 6), np.nan)
-        return Outcome(cost, outputs, *counts, 0 if complete else 1, "" if complete else result.message)
-
-    return integrate
-
-
-def scipy_odeint(exact, share):
-    def integrate(run, times, tolerance):
-        rtol, atol = tolerances(share, tolerance)
         rhs, jacobian = run.python_rhs(), run.python_jacobian() if exact else None
         at = np.concatenate(([run.t0], times))
         run.counts()
         begin = time.thread_time()
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            states, information = odeint(rhs, run.u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=10_000_000,
-                                  full_output=True)
-        cost = time.thread_time() - begin
-        counts = run.counts()
-        return Outcome(cost, run.outputs(states[1:]), *counts, 0 if "successful" in information["message"] else 1)
+            states, problem = solve(rhs, jacobian, run.u0, at, *tolerances(share, tolerance))
+        cost, counts = time.thread_time() - begin, run.counts()
+        complete = not problem and len(states) == len(at)
+        outputs = run.outputs(states[1:]) if complete else np.full((len(times), OUTPUTS), np.nan)
+        return Outcome(cost, outputs, *counts, 0 if complete else 1, problem)
 
     return integrate
 
 
-def sundae(solver, share):
-    def integrate(run, times, tolerance):
-        rtol, atol = tolerances(share, tolerance)
-        rhs, jacobian = run.python_rhs(), run.python_jacobian()
+def scipy_ivp(method):
+    def solve(rhs, jacobian, u0, at, rtol, atol):
+        result = solve_ivp(rhs, (at[0], at[-1]), u0, method=method, t_eval=at, rtol=rtol, atol=atol, jac=jacobian)
+        return result.y.T, "" if result.success else result.message
 
+    return solve
+
+
+def scipy_odeint(rhs, jacobian, u0, at, rtol, atol):
+    states, told = odeint(rhs, u0, at, Dfun=jacobian, rtol=rtol, atol=atol, tfirst=True, mxstep=MOST_STEPS, full_output=True)
+    return states, "" if "successful" in told["message"] else told["message"]
+
+
+def sundae(solver):
+    def solve(rhs, jacobian, u0, at, rtol, atol):
         def rates(t, u, rate):
             rate[:] = rhs(t, u)
 
         def slopes(t, u, rate, matrix):
             matrix[:, :] = jacobian(t, u)
 
-        at = np.concatenate(([run.t0], times))
-        run.counts()
-        begin = time.thread_time()
-        result = solver(rates, rtol=rtol, atol=atol, method="BDF", jacfn=slopes, max_num_steps=10_000_000).solve(at, run.u0)
-        cost = time.thread_time() - begin
-        complete = result.success and len(result.t) == len(at)
-        counts = run.counts()
-        outputs = run.outputs(result.y[1:]) if complete else np.full((len(times), 6), np.nan)
-        return Outcome(cost, outputs, *counts, 0 if complete else 1, "" if complete else str(result.message))
+        result = solver(rates, rtol=rtol, atol=atol, method="BDF", jacfn=slopes, max_num_steps=MOST_STEPS).solve(at, u0)
+        return result.y, "" if result.success else str(result.message)
 
-    return integrate
+    return solve

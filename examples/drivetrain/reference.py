@@ -5,7 +5,6 @@ here too (`Ideal`), or the teeth of this program, whose rates the library foreig
 States: torque and speed of the engine, twist of the prop shaft, differential, speed and slip of each wheel, speed.
 """
 
-import ctypes as c
 import sys
 from math import atan, sin, sqrt, tanh
 from pathlib import Path
@@ -13,10 +12,10 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from parameters import CONTACT, DIFFERENTIAL, FRICTION
+from parameters import AT_REST, CONTACT, DIFFERENTIAL, FRICTION
 
 sys.path.append(str(Path(__file__).parents[2] / "benches" / "foreign"))
-from library import Library, Run, declare  # noqa: E402
+from library import Library, Run  # noqa: E402
 
 GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0
 WHEEL_INERTIA, RADIUS, LOAD, SLIP_STIFFNESS, SHAPE, RELAXATION = 1.0, 0.334, 3568.0, 70000.0, 1.4, 0.4
@@ -81,28 +80,14 @@ class Teeth(Run):
     """The program's own equations: positions and velocities of side gears, carrier, planets, ends of half-shafts."""
 
     def __init__(self, library, contact):
-        declare(library.c, "foreign_driven", c.c_void_p, c.c_char_p, c.c_char_p, c.c_size_t)
-        declare(library.c, "foreign_drive", None, c.c_void_p, c.c_double, c.c_double, c.c_double)
-        declare(library.c, "foreign_inertias", None, c.c_void_p, c.c_void_p)
-        values = DIFFERENTIAL | {"scene.gear_contact": CONTACT[contact]}
-        text, problem = "".join(f"{name} {value!r}\n" for name, value in values.items()), c.create_string_buffer(1000)
-        self.lib = library.c
-        self.handle = self.lib.foreign_driven(text.encode(), problem, 1000)
-        if not self.handle:
-            raise ValueError(problem.value.decode())
-        self.size = self.lib.foreign_size(self.handle)
-        self.start = np.zeros(self.size)
-        self.lib.foreign_start(self.handle, self.start.ctypes.data)
+        still = AT_REST | {"left.load_torque": 0.0, "right.load_torque": 0.0}
+        super().__init__(library, DIFFERENTIAL | still | {"scene.gear_contact": CONTACT[contact]})
+        self.start = self.u0
         self.n = self.size // 2
         # where states stand: side gears, carrier, planets, ends
         self.twists = slice(self.n - 2, self.n)
         self.ends = slice(2 * self.n - 2, 2 * self.n)
         self.rhs = self.python_rhs()
-
-    def inertias(self):
-        values = np.empty(3)
-        self.lib.foreign_inertias(self.handle, values.ctypes.data)
-        return values
 
     def carrier_speed(self, x):
         return x[self.n + 2]

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 
 use anyhow::Result;
-use clap::{Args as _, Parser, Subcommand};
+use clap::{Args as _, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::fmu::BuildCommand;
 use crate::study::StudyCommand;
@@ -48,7 +48,7 @@ pub const IN_THE_LABORATORY: [&str; 24] = [
 ];
 
 #[derive(Parser)]
-#[command(name = "fmu-build", bin_name = PROGRAM, version, disable_help_subcommand = true)]
+#[command(name = "fmu-build", version, disable_help_subcommand = true)]
 #[command(args_conflicts_with_subcommands = true)]
 struct CommandLine {
     #[command(subcommand)]
@@ -99,10 +99,12 @@ pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand
         )));
     }
     let program = program();
-    let CommandLine { command, study } = program.parse(arguments)?;
+    let matches = program.parse(arguments)?;
+    let CommandLine { command, study } =
+        CommandLine::from_arg_matches(&matches).map_err(|error| program.stop(&error))?;
     match command {
         None => Ok(AnyCommand::Study(study)),
-        Some(AnyCommand::Help { command }) => Err(program.help::<CommandLine>(command)),
+        Some(AnyCommand::Help { command }) => Err(program.help(command)),
         Some(command) => Ok(command),
     }
 }
@@ -111,6 +113,7 @@ fn program() -> Program {
     let blank = || clap::Command::new("room");
     Program {
         call: PROGRAM,
+        root: CommandLine::command(),
         groups: vec![
             ("For users of the gears:", blank().subcommand(StudyCommand::augment_args(clap::Command::new("study")))),
             ("Building the FMU:", BuildCommand::augment_subcommands(blank())),
@@ -140,7 +143,7 @@ mod tests {
 
     #[test]
     fn the_declared_options_are_consistent() {
-        program().command::<CommandLine>().debug_assert();
+        program().command().debug_assert();
     }
 
     #[test]

@@ -2,7 +2,6 @@
 //! reports of both cases come with the comparison, and the package's own program for this checkout.
 
 use std::fs;
-use std::path::Path;
 
 use answers::text;
 use anyhow::{Context, Result};
@@ -51,9 +50,9 @@ impl StudyCommand {
         let program = paths::shown(&environment.launcher(&fmu)?);
         println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");
         if self.readme {
-            let table = fs::read_to_string(folder.join("table.md")).context("table.md cannot be read")?;
-            sections::renew(DOCUMENT, MARKS, &table)?;
-            copy_pictures(&folder)?;
+            let text = fs::read_to_string(folder.join("table.md")).context("table.md cannot be read")?;
+            sections::renew(DOCUMENT, MARKS, &text)?;
+            sections::copy_pictures(&folder)?;
             println!("renewed: docs/study.md, docs/figures");
         }
         Ok(())
@@ -64,16 +63,4 @@ impl StudyCommand {
 fn expected() -> Vec<f64> {
     let environment = if Environment::is_ready() { 0.3 } else { 17.0 };
     vec![environment, 0.7, 11.5]
-}
-
-fn copy_pictures(folder: &Path) -> Result<()> {
-    let figures = paths::workspace().join("docs").join("figures");
-    fs::create_dir_all(&figures).context("docs/figures cannot be made")?;
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
-            fs::copy(&path, figures.join(name)).with_context(|| format!("{} cannot be copied", path.display()))?;
-        }
-    }
-    Ok(())
 }

@@ -2,8 +2,7 @@
 
 use std::ffi::{c_int, c_void};
 
-use crate::boundary::guarded;
-use crate::run::{Entries, MatrixData, Run};
+use crate::run::{Entries, Run};
 
 /// `int CVode(void *mem, double tout, N_Vector y, double *t, int task)`.
 type Cvode = unsafe extern "C" fn(*mut c_void, f64, *mut c_void, *mut f64, c_int) -> c_int;
@@ -12,32 +11,21 @@ type Cvode = unsafe extern "C" fn(*mut c_void, f64, *mut c_void, *mut f64, c_int
 const NORMAL: c_int = 1;
 
 /// Sets the access to the entries of SUNDIALS' vectors and dense matrices.
-///
-/// # Safety
-/// `run` came from [`foreign_new`]; the functions are those of SUNDIALS.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn foreign_sundials(run: *mut Run, entries: Entries, data: MatrixData) {
-    // SAFETY: as promised by the caller
-    let run = unsafe { &mut *run };
-    (run.entries, run.data) = (Some(entries), Some(data));
+pub extern "C" fn foreign_sundials(run: &mut Run, entries: Entries, data: Entries) {
+    run.entries = Some([entries, data]);
 }
 
 /// CVODE's `CVRhsFn`.
 ///
 /// # Safety
-/// Called by CVODE with vectors of the run's size; `user` is the run after [`foreign_sundials`].
+/// Called by CVODE with vectors of the run's size, and the run after [`foreign_sundials`].
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, user: *mut c_void) -> c_int {
-    guarded(|| {
-        // SAFETY: as promised by the caller
-        unsafe {
-            let run = &mut *user.cast::<Run>();
-            let (size, Some(entries)) = (run.size(), run.entries) else { return -1 };
-            let (u, rate) = (entries(u), entries(rate));
-            run.rates(std::slice::from_raw_parts(u, size), std::slice::from_raw_parts_mut(rate, size));
-        }
-        0
-    })
+pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, run: &mut Run) -> c_int {
+    let Some([entries, _]) = run.entries else { return -1 };
+    // SAFETY: as promised by the caller
+    unsafe { run.rates(entries(u), entries(rate)) };
+    0
 }
 
 /// CVODE's `CVLsJacFn` for dense matrices.
@@ -50,25 +38,15 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
     u: *mut c_void,
     _rate: *mut c_void,
     matrix: *mut c_void,
-    user: *mut c_void,
+    run: &mut Run,
     _spare: *mut c_void,
     _another: *mut c_void,
     _third: *mut c_void,
 ) -> c_int {
-    guarded(|| {
-        // SAFETY: as promised by the caller
-        unsafe {
-            let run = &mut *user.cast::<Run>();
-            let (size, Some(entries), Some(data)) = (run.size(), run.entries, run.data) else { return -1 };
-            let (u, matrix) = (entries(u), data(matrix));
-            run.jacobian(
-                std::slice::from_raw_parts(u, size),
-                true,
-                std::slice::from_raw_parts_mut(matrix, size * size),
-            );
-        }
-        0
-    })
+    let Some([entries, data]) = run.entries else { return -1 };
+    // SAFETY: as promised by the caller
+    unsafe { run.jacobian(entries(u), true, data(matrix)) };
+    0
 }
 
 /// Steps CVODE to each of `count` times and copies u there to `out`; its first error, or 0.
@@ -77,7 +55,7 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
 /// `step` is `CVode`, `memory` what it works on, `vector` has the run's size; the arrays have room for `count` times and states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode(
-    run: *mut Run,
+    run: *const Run,
     step: Cvode,
     memory: *mut c_void,
     vector: *mut c_void,
@@ -85,19 +63,17 @@ pub unsafe extern "C" fn foreign_cvode(
     count: usize,
     out: *mut f64,
 ) -> c_int {
-    guarded(|| {
-        // SAFETY: as promised by the caller; CVODE uses the run by its own pointer, so none is held here meanwhile
-        unsafe {
-            let (size, Some(entries)) = ((*run).magnitudes.len(), (*run).entries) else { return -1 };
-            let mut reached = 0.0;
-            for k in 0..count {
-                let status = step(memory, *times.add(k), vector, &mut reached, NORMAL);
-                if status < 0 {
-                    return status;
-                }
-                std::ptr::copy_nonoverlapping(entries(vector), out.add(k * size), size);
+    // SAFETY: as promised by the caller; CVODE uses the run by its own pointer, so none is held here meanwhile
+    unsafe {
+        let (size, Some([entries, _])) = ((*run).size(), (*run).entries) else { return -1 };
+        let mut reached = 0.0;
+        for k in 0..count {
+            let status = step(memory, *times.add(k), vector, &mut reached, NORMAL);
+            if status < 0 {
+                return status;
             }
+            std::ptr::copy_nonoverlapping(entries(vector), out.add(k * size), size);
         }
-        0
-    })
+    }
+    0
 }

@@ -3,12 +3,9 @@
 //!
 //! Solvers see u = y / magnitude with y = (q, v), so that one absolute tolerance means the same for every component.
 //! No run switches its equations, as none of the cases has dry friction. Runs are autonomous except driven ones.
+//!
+//! Functions take a run by a pointer that `foreign_new` returned. A panic ends the program; none unwinds into C.
 
-mod boundary;
-mod cases;
+mod calls;
 mod cvode;
-mod driven;
-mod equations;
-mod life;
-mod own;
 mod run;

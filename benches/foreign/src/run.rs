@@ -1,53 +1,83 @@
 //! A run with its equations in scaled unknowns, and the outputs of its states.
 
-use std::ffi::c_void;
+use std::ffi::{CString, c_void};
 
-use bevel_differential::model::Simulation;
-
-use crate::cases::Case;
+use bevel_differential::integrate::{Control, Statistics};
+use bevel_differential::model::{Inputs, Parameters, Simulation};
+use bevel_differential::problem::{self, Problem};
+use bevel_differential::variables::{assign, named, number_of};
 
 /// Largest number of positions and velocities of the cases.
 const MOST: usize = 16;
-/// Outputs of a state: speeds of the side gears, normal forces of the meshes of one planet, torques of the half-shafts.
-pub const OUTPUTS: usize = 6;
+/// First step tried by this program's methods, as after any start [s].
+const FIRST_STEP: f64 = 1e-6;
 
-/// `double *N_VGetArrayPointer(N_Vector)` of SUNDIALS.
+/// Speeds of the side gears, normal forces of the meshes of one planet, torques of the half-shafts.
+pub type Outputs = [f64; 6];
+/// `double *N_VGetArrayPointer(N_Vector)` and `double *SUNDenseMatrix_Data(SUNMatrix)` of SUNDIALS.
 pub type Entries = unsafe extern "C" fn(*mut c_void) -> *mut f64;
-/// `double *SUNDenseMatrix_Data(SUNMatrix)`.
-pub type MatrixData = unsafe extern "C" fn(*mut c_void) -> *mut f64;
 
 /// A run with what solvers need of it.
 pub struct Run {
-    /// The run at its start.
+    /// The run at its start, and the inputs that act.
     pub start: Simulation,
+    pub inputs: Inputs,
     /// Natural magnitudes of positions and velocities.
     pub magnitudes: Vec<f64>,
-    /// States at the requested times, by the program's own method.
-    pub reached: Vec<Simulation>,
     /// Access to the entries of SUNDIALS' vectors and matrices.
-    pub entries: Option<Entries>,
-    pub data: Option<MatrixData>,
+    pub entries: Option<[Entries; 2]>,
     /// Evaluations of the right-hand side and of the Jacobian since they were last read.
-    pub calls: u64,
-    pub jacobians: u64,
+    pub counts: [u64; 2],
     /// Last message to the caller.
-    pub message: String,
+    pub message: CString,
 }
 
 impl Run {
+    /// From the start with `values`, or from the time `from` on, when `later` values come; both are lines of a variable's name and a
+    /// number, or the name of a choice.
+    pub fn new(values: &str, later: &str, from: f64) -> Result<Self, String> {
+        let listed = |problems: Vec<Problem>| problem::list(&problems);
+        let (mut p, mut inputs) = (Parameters::default(), Inputs::default());
+        assign_all(values, &mut p, &mut inputs)?;
+        let mut start = Simulation::start(&p, &inputs, 0.0).map_err(listed)?;
+        if from > 0.0 {
+            start.advance(from).map_err(|failure| failure.message)?;
+            let mut state = *start.state();
+            (state.control, state.statistics) = (Control::new(FIRST_STEP), Statistics::default());
+            assign_all(later, &mut p, &mut inputs)?;
+            start = Simulation::resume(&p, &inputs, state).map_err(listed)?;
+        }
+        let magnitudes = vec![1.0; 2 * start.freedoms()];
+        Ok(Self { start, inputs, magnitudes, entries: None, counts: [0; 2], message: CString::default() })
+    }
+
     /// Number of positions and velocities.
     pub fn size(&self) -> usize {
         self.magnitudes.len()
     }
 
-    /// Rates of u.
-    pub fn rates(&mut self, u: &[f64], rate: &mut [f64]) {
-        let (size, n) = (self.size(), self.size() / 2);
-        self.calls += 1;
+    /// Positions and velocities at `u`.
+    ///
+    /// # Safety
+    /// `u` has the run's size.
+    pub unsafe fn place(&self, u: *const f64) -> [f64; MOST] {
         let mut y = [0.0; MOST];
-        for i in 0..size {
-            y[i] = u[i] * self.magnitudes[i];
+        for (i, magnitude) in self.magnitudes.iter().enumerate() {
+            // SAFETY: as promised by the caller
+            y[i] = unsafe { *u.add(i) } * magnitude;
         }
+        y
+    }
+
+    /// Rates of u.
+    ///
+    /// # Safety
+    /// `u` and `rate` have the run's size and do not overlap.
+    pub unsafe fn rates(&mut self, u: *const f64, rate: *mut f64) {
+        let (size, n) = (self.size(), self.size() / 2);
+        self.counts[0] += 1;
+        // SAFETY: as promised by the caller
+        let (y, rate) = unsafe { (self.place(u), std::slice::from_raw_parts_mut(rate, size)) };
         let (dq, dv) = rate.split_at_mut(n);
         self.start.rates(&y[..n], &y[n..size], [dq, dv]);
         for i in 0..size {
@@ -56,13 +86,14 @@ impl Run {
     }
 
     /// ∂(rates of u)/∂u, row by row, or column by column.
-    pub fn jacobian(&mut self, u: &[f64], by_column: bool, out: &mut [f64]) {
+    ///
+    /// # Safety
+    /// `u` has the run's size, `out` its square.
+    pub unsafe fn jacobian(&mut self, u: *const f64, by_column: bool, out: *mut f64) {
         let (size, n) = (self.size(), self.size() / 2);
-        self.jacobians += 1;
-        let mut y = [0.0; MOST];
-        for i in 0..size {
-            y[i] = u[i] * self.magnitudes[i];
-        }
+        self.counts[1] += 1;
+        // SAFETY: as promised by the caller
+        let (y, out) = unsafe { (self.place(u), std::slice::from_raw_parts_mut(out, size * size)) };
         let mut rows = [0.0; MOST * MOST];
         self.start.slopes(&y[..n], &y[n..size], &mut rows[..size * size]);
         for i in 0..size {
@@ -74,25 +105,21 @@ impl Run {
     }
 }
 
+fn assign_all(values: &str, p: &mut Parameters, i: &mut Inputs) -> Result<(), String> {
+    for line in values.lines() {
+        let (name, text) = line.split_once(' ').ok_or_else(|| format!("\"{line}\" is not a name and a value"))?;
+        let row = named(name).ok_or_else(|| format!("there is no variable {name}"))?;
+        let value = text.parse().or_else(|_| number_of(row, text));
+        value.and_then(|value| assign(row, value, p, i)).map_err(|problem| problem.to_string())?;
+    }
+    Ok(())
+}
+
 /// Outputs of a state.
-pub fn outputs(simulation: &mut Simulation) -> [f64; OUTPUTS] {
+pub fn outputs(simulation: &mut Simulation) -> Outputs {
     let [left, right] = simulation.motion().side_speed;
     let forces = simulation.forces();
     let [normal_left, normal_right] = forces.mesh[0].map(|mesh| mesh.normal);
     let [torque_left, torque_right] = forces.shaft_torque;
     [left, right, normal_left, normal_right, torque_left, torque_right]
-}
-
-/// A case on the heap, for the caller to hold.
-pub fn boxed(case: Case) -> *mut Run {
-    Box::into_raw(Box::new(Run {
-        start: case.start,
-        magnitudes: case.magnitudes,
-        reached: Vec::new(),
-        entries: None,
-        data: None,
-        calls: 0,
-        jacobians: 0,
-        message: String::new(),
-    }))
 }

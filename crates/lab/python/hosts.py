@@ -1,6 +1,6 @@
 """The packaged FMU in other hosts: each host on each scene, in a process of its own, all compared with fmpy; the table.
 
-usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-rust]
+usage: hosts.py FMU PLAIN_FMU FOLDER [--require] [--with-fmi-sim]
 
 PLAIN_FMU is the FMU described with Integers, for hosts that set no Enumerations. Fails if hosts differ, or with --require if one
 cannot be loaded."""
@@ -209,7 +209,7 @@ def page(results, absent, scenes):
 
 def main():
     fmu, plain, folder = (Path(text).resolve() for text in sys.argv[1:4])
-    bench = Bench(fmu, plain, folder, "--with-rust" in sys.argv)
+    bench = Bench(fmu, plain, folder, "--with-fmi-sim" in sys.argv)
     files = sorted((HOSTS / "scenes").glob("*.json"))
     scenes = [Scene(file.stem, file, json.loads(file.read_text(encoding="utf-8"))) for file in files]
     results, absent = compared(bench, scenes)

@@ -189,8 +189,9 @@ def main():
     finally:
         for platform in platforms:
             platform.close()
-    print(text, end="", file=sys.stdout if same else sys.stderr)
-    return 0 if same else 1
+    if not same:
+        sys.exit(f"the libraries do not agree:\n{text}")
+    print(text, end="")
 
 
 def tables(platforms, scenes):
@@ -229,4 +230,4 @@ def tables(platforms, scenes):
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -1,13 +1,13 @@
 """What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
 
-usage: prices.py FMU FOLDER RUNS PAIRS [OTHER_FMU]
+usage: prices.py [--against OTHER_FMU] FMU FOLDER [--quick]
 
 Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
 also writes FOLDER/prices.csv, and all columns and pairs to FOLDER/alone.csv and pairs.csv."""
 
+import argparse
 import csv
 import statistics
-import sys
 from pathlib import Path
 
 from bevel_differential import Differential, Fmu
@@ -21,6 +21,8 @@ STEP = 1e-3
 COUNTED = 0.5
 # from here on an evaluation of a pair over the sum of both alone is told
 DEAR = 1.3
+# runs of each, and for a quick look
+RUNS, FEW = 9, 3
 # seconds of the processor that a timed run is to take, and its steps
 LONG, FEWEST, MOST = 0.1, 100, 20_000
 TURN = {"scene.planet_spin": "imposed", "planet.spin_command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
@@ -167,10 +169,18 @@ def builds(bench, fmu, other, switches):
 
 
 def main():
-    file, folder, runs, with_pairs, *other = sys.argv[1:]
-    bench, fmu = Bench(folder, int(runs)), Fmu.of(file)
-    switches = {effect.name: effect.on for effect in effects(file)}
-    text = builds(bench, fmu, Fmu.of(other[0]), switches) if other else prices(bench, fmu, switches, with_pairs == "pairs", folder)
+    parser = argparse.ArgumentParser()
+    for name in ("--against", "fmu", "folder"):
+        parser.add_argument(name)
+    parser.add_argument("--quick", action="store_true")
+    given = parser.parse_args()
+    runs = FEW if given.quick else RUNS
+    bench, fmu = Bench(given.folder, runs), Fmu.of(given.fmu)
+    switches = {effect.name: effect.on for effect in effects(given.fmu)}
+    if given.against:
+        text = builds(bench, fmu, Fmu.of(given.against), switches)
+    else:
+        text = prices(bench, fmu, switches, not given.quick, given.folder)
     print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
 
 

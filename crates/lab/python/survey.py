@@ -2,11 +2,14 @@
 setting runs in the packaged FMU, started from the parameter set that the answer writes, and is compared with a reference
 that the search did not use: the richest model by another method (Radau) at a tenth of the tolerance.
 
-usage: survey.py FMU FOLDER SCENES SEED    writes FOLDER/cases.csv, prints the verdict
-       survey.py --shipped                 answers for the shipped scenes, and what that takes"""
+usage: survey.py FMU FOLDER SCENES SEED [--shipped]
+
+Prints the verdict, and writes it to FOLDER/survey.md beside FOLDER/cases.csv; or answers for the shipped scenes, and writes what that
+takes to FOLDER/shipped.md."""
 
 import csv
 import os
+import shutil
 import statistics
 import sys
 import textwrap
@@ -193,18 +196,26 @@ def counted(setting):
 
 
 def main():
-    if sys.argv[1:] == ["--shipped"]:
-        print(shipped())
+    fmu, folder, scenes, seed = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
+    if "--shipped" in sys.argv:
+        tell(f"{shipped()}\n", folder / "shipped.md")
         return
+    # what an earlier survey left
+    shutil.rmtree(folder)
+    folder.mkdir()
     # the richest model has effects that a drawn scene cannot feel
     warnings.simplefilter("ignore", DifferentialWarning)
-    fmu, folder, scenes, seed = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
     cases, failed = surveyed(fmu, folder, scenes, seed)
     with open(folder / "cases.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(Case.__annotations__)
         writer.writerows([str(value).lower() if isinstance(value, bool) else value for value in vars(one).values()] for one in cases)
-    print(verdict(cases, failed))
+    tell(f"{verdict(cases, failed)}\n", folder / "survey.md")
+
+
+def tell(text, file):
+    file.write_text(text, encoding="utf-8")
+    print(text, end="")
 
 
 if __name__ == "__main__":

@@ -3,91 +3,53 @@
 use std::ffi::OsString;
 
 use anyhow::Result;
-use clap::{Parser, Subcommand};
+use clap::{Arg, ArgMatches};
 use fmu_build::command_line::LABORATORY;
 use fmu_build::tools::program::{Program, Stop};
 
 use crate::all::AllCommand;
-use crate::check::CheckCommand;
-use crate::measure::MeasureCommand;
+use crate::tools::command::Command;
+use crate::{check, measure};
 
-/// Commands of a room, each of which has a method `run`.
-#[macro_export]
-macro_rules! commands {
-    ($(#[$told:meta])* $name:ident { $($(#[$more:meta])* $variant:ident($command:ty),)+ }) => {
-        $(#[$told])*
-        #[derive(clap::Subcommand)]
-        #[allow(missing_docs)] // each command describes itself
-        pub enum $name {
-            $($(#[$more])* $variant($command)),+
-        }
+/// A command, and the options that were given.
+pub struct Called(Command, ArgMatches);
 
-        impl $name {
-            /// Runs the command.
-            pub fn run(self) -> anyhow::Result<()> {
-                match self {
-                    $(Self::$variant(command) => command.run()),+
-                }
-            }
-        }
-    };
-}
-
-#[derive(Parser)]
-#[command(name = "lab", bin_name = LABORATORY, version, disable_help_subcommand = true)]
-struct CommandLine {
-    #[command(subcommand)]
-    command: Option<AnyCommand>,
-}
-
-/// A command of any room.
-#[derive(Subcommand)]
-#[allow(missing_docs)] // each command describes itself
-pub enum AnyCommand {
-    #[command(flatten)]
-    Measure(MeasureCommand),
-    #[command(flatten)]
-    Check(CheckCommand),
-    All(AllCommand),
-    /// Shows this overview, or the options of a command
-    #[command(hide = true)]
-    Help {
-        /// A command
-        command: Option<String>,
-    },
-}
-
-impl AnyCommand {
+impl Called {
     /// Runs the command.
-    pub fn run(self) -> Result<()> {
-        match self {
-            Self::Measure(command) => command.run(),
-            Self::Check(command) => command.run(),
-            Self::All(command) => command.run(),
-            // answered while the command line is read
-            Self::Help { .. } => Ok(()),
-        }
+    pub fn run(&self) -> Result<()> {
+        (self.0.run)(&self.1)
     }
 }
 
 /// The command that `arguments`, the program's name first, ask for: the overview if they name none.
-pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<AnyCommand, Stop> {
+pub fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Called, Stop> {
     let program = program();
-    match program.parse::<CommandLine>(arguments)?.command {
-        None => Err(program.help::<CommandLine>(None)),
-        Some(AnyCommand::Help { command }) => Err(program.help::<CommandLine>(command)),
-        Some(command) => Ok(command),
+    let mut matches = program.parse(arguments)?;
+    let (name, options) = matches.remove_subcommand().unwrap_or(("help".to_owned(), ArgMatches::default()));
+    match commands().into_iter().find(|command| command.declared.get_name() == name) {
+        Some(command) => Ok(Called(command, options)),
+        None => Err(program.help(options.try_get_one::<String>("command").ok().flatten().cloned())),
     }
 }
 
+fn commands() -> impl Iterator<Item = Command> {
+    let all = Command::of("all", AllCommand::run);
+    measure::commands().into_iter().chain(check::commands()).chain([all])
+}
+
 fn program() -> Program {
-    let blank = || clap::Command::new("room");
+    let group = |commands: Vec<Command>| {
+        clap::Command::new("room").subcommands(commands.into_iter().map(|command| command.declared))
+    };
+    let help = clap::Command::new("help").about("Shows this overview, or the options of a command").hide(true);
     Program {
         call: LABORATORY,
-        groups: vec![
-            ("Measuring:", MeasureCommand::augment_subcommands(blank())),
-            ("Checking:", CheckCommand::augment_subcommands(blank())),
-        ],
+        root: clap::Command::new("lab")
+            .version(env!("CARGO_PKG_VERSION"))
+            .disable_help_subcommand(true)
+            .subcommands(commands().map(|command| command.declared))
+            .subcommand(help.arg(Arg::new("command").value_name("COMMAND").help("A command"))),
+        groups: vec![("Measuring:", group(measure::commands())), ("Checking:", group(check::commands()))],
         end: format!(
             "All of them in one go, in short forms, and one table: {LABORATORY} all\n\
              Options of a command: {LABORATORY} COMMAND --help"
@@ -111,13 +73,13 @@ mod tests {
 
     use super::*;
 
-    fn parsed(words: &[&str]) -> Result<AnyCommand, Stop> {
+    fn parsed(words: &[&str]) -> Result<Called, Stop> {
         parse(["lab"].iter().chain(words).map(OsString::from))
     }
 
     #[test]
     fn the_declared_options_are_consistent() {
-        program().command::<CommandLine>().debug_assert();
+        program().command().debug_assert();
     }
 
     #[test]

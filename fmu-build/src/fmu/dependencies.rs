@@ -10,22 +10,15 @@ const BY_POSITION: [&str; 1] = ["transmission_error"];
 const BY_MOTION_OF_TEETH: [&str; 1] = ["stress."];
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Commands that speeds follow at once, and the endings of their names; sides of unequal inertia couple both.
-const FOLLOWERS: [(&str, &[&str]); 2] = [
-    (
-        "carrier.speed_command",
-        &["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"],
-    ),
-    (
-        "planet.spin_command",
-        &["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"],
-    ),
-];
+const COMMANDS: [&str; 2] = ["carrier.speed_command", "planet.spin_command"];
+const FOLLOWERS: [&str; 6] =
+    ["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"];
 /// Ends of half-shafts whose speed is commanded: the command's ending and that of the output, both of one side.
 const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 
 /// Whether speeds follow the input at once.
 fn is_followed(input: &Variable) -> bool {
-    FOLLOWERS.iter().any(|(command, _)| *command == input.name)
+    COMMANDS.contains(&input.name)
 }
 
 /// Whether the input is a torque.
@@ -61,10 +54,8 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     match row.access {
         Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
             let own_side = input.name.strip_suffix(OF_END.0).zip(row.name.strip_suffix(OF_END.1));
-            own_side.is_some_and(|(of, side)| of == side)
-                || FOLLOWERS
-                    .iter()
-                    .any(|(command, by)| *command == input.name && by.iter().any(|end| row.name.ends_with(end)))
+            let follows = FOLLOWERS.iter().any(|end| row.name.ends_with(end));
+            own_side.is_some_and(|(of, side)| of == side) || follows && is_followed(input)
         }),
         Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
         Access::Output(OutputSource::Forces(_) | OutputSource::Parts(_) | OutputSource::Reading(_))

@@ -1,7 +1,7 @@
 //! Licences of everything that is linked into the library: the project's own, those of its crates, read where cargo keeps
 //! their sources, and those of what the compilers add.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -17,14 +17,6 @@ const NAMES: [&str; 6] = ["license", "licence", "copying", "copyright", "notice"
 /// A licence whose text is the same for all that use it, and the file with it.
 const COMMON: (&str, &str) = ("Apache-2.0", "LICENSE-APACHE");
 
-/// A file of documentation/licenses.
-pub struct Licence {
-    /// Its path there.
-    pub path: String,
-    /// Its text.
-    pub text: Vec<u8>,
-}
-
 /// What is linked in, and under which licence.
 pub struct LinkedPart {
     /// Name and version.
@@ -37,8 +29,8 @@ pub struct LinkedPart {
 
 /// All licence files, and the parts they belong to.
 pub struct Licences {
-    /// The files, sorted by path.
-    pub files: Vec<Licence>,
+    /// The files of documentation/licenses with their texts, sorted by path.
+    pub files: Vec<(String, Vec<u8>)>,
     /// What is linked in.
     pub linked: Vec<LinkedPart>,
 }
@@ -46,33 +38,29 @@ pub struct Licences {
 /// Collects the licences of `libraries` of the crate `package`. A part without a text is an error.
 pub fn collected(package: &str, libraries: &[Library]) -> Result<Licences> {
     let mut found = Licences { files: Vec::new(), linked: Vec::new() };
-    for (name, folder) in linked_crates(package)? {
-        let own = folder.path == paths::workspace();
-        let place = if own { String::new() } else { format!("{name}/") };
-        let mut texts = texts_in(&folder.path)?;
+    for (name, (folder, licence)) in linked_crates(package)? {
+        let place = if folder == paths::workspace() { String::new() } else { format!("{name}/") };
+        let texts = texts_in(&folder)?;
         let mut files: Vec<String> = texts.iter().map(|(file, _)| format!("{place}{file}")).collect();
-        for (file, text) in texts.drain(..) {
-            found.files.push(Licence { path: format!("{place}{file}"), text });
-        }
-        if files.is_empty() && folder.licence.contains(COMMON.0) {
+        found.files.extend(files.iter().cloned().zip(texts.into_iter().map(|(_, text)| text)));
+        if files.is_empty() && licence.contains(COMMON.0) {
             files.push(COMMON.1.to_owned());
         }
         ensure!(
             !files.is_empty(),
-            "{name} ({}) has no file with the text of its licence \"{}\"; do not link it",
-            folder.path.display(),
-            folder.licence
+            "{name} ({}) has no file with the text of its licence \"{licence}\"; do not link it",
+            folder.display()
         );
-        found.linked.push(LinkedPart { name, licence: folder.licence, files });
+        found.linked.push(LinkedPart { name, licence, files });
     }
     standard_library(&mut found)?;
     for library in libraries {
         for part in &library.added {
-            let file = part.name.replace(' ', "-");
-            add(&mut found, part.name, part.licence, library.platform, &[(&file, part.text.clone())])?;
+            let file = format!("{}/{}.txt", library.platform, part.name.replace(' ', "-"));
+            add(&mut found, part.name, part.licence, file, &part.text)?;
         }
     }
-    found.files.sort_by(|a, b| a.path.cmp(&b.path));
+    found.files.sort();
     Ok(found)
 }
 
@@ -91,55 +79,39 @@ fn standard_library(found: &mut Licences) -> Result<()> {
         });
         return Ok(());
     };
-    let name = notice.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    add(found, "Rust standard library", "MIT OR Apache-2.0", "std", &[(&name, notice.clone())])
+    let name = notice.file_name().unwrap_or_default().display();
+    // extensions that no program opens are text
+    let ending = if notice.extension().is_some() { "" } else { ".txt" };
+    add(found, "Rust standard library", "MIT OR Apache-2.0", format!("std/{name}{ending}"), notice)
 }
 
-fn add(found: &mut Licences, name: &str, licence: &str, place: &str, texts: &[(&str, PathBuf)]) -> Result<()> {
-    let mut files = Vec::new();
-    for (file, source) in texts {
-        let text =
-            fs::read(source).with_context(|| format!("the licence of {name}, {}, is missing", source.display()))?;
-        // extensions that no program opens are text
-        let ending = if file.ends_with(".html") { "" } else { ".txt" };
-        let path = format!("{place}/{file}{ending}");
-        found.files.push(Licence { path: path.clone(), text });
-        files.push(path);
-    }
-    found.linked.push(LinkedPart { name: name.into(), licence: licence.into(), files });
+fn add(found: &mut Licences, name: &str, licence: &str, path: String, source: &Path) -> Result<()> {
+    let text = fs::read(source).with_context(|| format!("the licence of {name}, {}, is missing", source.display()))?;
+    found.files.push((path.clone(), text));
+    found.linked.push(LinkedPart { name: name.into(), licence: licence.into(), files: vec![path] });
     Ok(())
 }
 
-/// A crate's sources.
-struct CrateSource {
-    path: PathBuf,
-    licence: String,
-}
-
-/// The crates linked into the library on any platform, by name and version.
-fn linked_crates(package: &str) -> Result<BTreeMap<String, CrateSource>> {
+/// The crates linked into the library on any platform, by name and version: the folder of each, and its licence.
+fn linked_crates(package: &str) -> Result<BTreeMap<String, (PathBuf, String)>> {
     let tree =
         cargo_output(&["tree", "-p", package, "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none"])?;
-    let mut wanted: Vec<(&str, &str)> = tree
-        .lines()
-        .filter_map(|line| {
-            let mut words = line.split(' ');
-            Some((words.next()?, words.next()?.strip_prefix('v')?))
-        })
-        .collect();
-    wanted.sort_unstable();
-    wanted.dedup();
+    let crate_of = |line: &str| {
+        let (name, rest) = line.split_once(' ')?;
+        Some((name.to_owned(), rest.split(' ').next()?.strip_prefix('v')?.to_owned()))
+    };
+    let wanted: BTreeSet<(String, String)> = tree.lines().filter_map(crate_of).collect();
     let metadata: Value = serde_json::from_str(&cargo_output(&["metadata", "--format-version", "1"])?)?;
     let packages = metadata["packages"].as_array().context("cargo metadata names no packages")?;
     let mut crates = BTreeMap::new();
     for (name, version) in wanted {
-        let package = packages.iter().find(|p| p["name"] == name && p["version"] == version);
+        let package = packages.iter().find(|p| p["name"] == *name && p["version"] == *version);
         let manifest = package.and_then(|p| p["manifest_path"].as_str());
         let Some(folder) = manifest.and_then(|manifest| Path::new(manifest).parent()) else {
             bail!("cargo metadata does not know {name} {version}")
         };
         let licence = package.and_then(|p| p["license"].as_str()).unwrap_or("not named").replace('/', " OR ");
-        crates.insert(format!("{name}-{version}"), CrateSource { path: folder.to_path_buf(), licence });
+        crates.insert(format!("{name}-{version}"), (folder.to_path_buf(), licence));
     }
     ensure!(crates.len() > 1, "cargo tree names no crates that the library links");
     Ok(crates)

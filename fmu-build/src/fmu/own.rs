@@ -8,6 +8,7 @@ use std::time::SystemTime;
 use anyhow::{Context, Result, ensure};
 
 use crate::fmu::libraries::{CRATES, folders};
+use crate::tools::files::write_whole;
 use crate::tools::paths;
 
 /// Shorter paths are not looked for: a few bytes may mean something else.
@@ -49,13 +50,8 @@ fn cleaned(library: &Path) -> Result<PathBuf> {
         overwrite(&mut content, folder.as_os_str().as_encoded_bytes(), name.as_bytes());
     }
     let folder = paths::target().join("cross").join("this-machine");
-    paths::create_folder(&folder)?;
     let copy = folder.join(library.file_name().unwrap_or_default());
-    // complete or not there, as others may pack at the same time
-    let partial = copy.with_extension(format!("{}.part", std::process::id()));
-    fs::write(&partial, content)
-        .and_then(|()| fs::rename(&partial, &copy))
-        .with_context(|| format!("{} cannot be written", paths::shown(&copy)))?;
+    write_whole(&copy, &content)?;
     Ok(copy)
 }
 

@@ -10,9 +10,10 @@ use clap::Args;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
-use crate::fmu::libraries::{self, CRATES, Library};
-use crate::fmu::page::{self, Page};
+use crate::fmu::libraries::{self, CRATES, Libraries, Library};
+use crate::fmu::page;
 use crate::fmu::{describe, documentation, effect_list, licences, plain_types};
+use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 
@@ -22,30 +23,13 @@ pub use crate::fmu::libraries::build_library;
 const PLAIN: u32 = 0o644;
 const EXECUTABLE: u32 = 0o755;
 
-/// How an archive is compressed.
+/// How an archive is compressed: the level of deflate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packing {
     /// In little time, for this machine.
-    Quick,
+    Quick = 1,
     /// To little size, for shipping.
-    Small,
-}
-
-impl Packing {
-    /// The level of deflate.
-    fn level(self) -> i64 {
-        match self {
-            Self::Quick => 1,
-            Self::Small => 9,
-        }
-    }
-}
-
-/// A file of the archive.
-struct ArchiveFile {
-    path: String,
-    content: Vec<u8>,
-    permissions: u32,
+    Small = 9,
 }
 
 /// Builds target/fmu/BevelDifferential.fmu for every platform whose tool chain is installed
@@ -60,95 +44,71 @@ impl PackageCommand {
     /// Packages the FMU and prints where it is.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("packaging the FMU");
-        let packed = packed()?;
-        let plain = if self.integers { Some(plain_types::package(&packed.fmu)?) } else { None };
+        let (fmu, left_out) = packed()?;
+        let plain = if self.integers { Some(plain_types::package(&fmu)?) } else { None };
         progress.finish();
-        for file in std::iter::once(&packed.fmu).chain(&plain) {
+        for file in std::iter::once(&fmu).chain(&plain) {
             println!("{}", paths::shown(file));
         }
-        if !packed.left_out.is_empty() {
-            println!("{}", packed.left_out.join("; "));
+        if !left_out.is_empty() {
+            println!("{}", left_out.join("; "));
         }
         Ok(())
     }
 }
 
-/// A packed FMU.
-pub struct PackedFmu {
-    /// The archive.
-    pub fmu: PathBuf,
-    /// What it holds no library for, and how to get it.
-    pub left_out: Vec<String>,
-}
-
 /// Builds the library with every installed tool chain and packs the FMU to its usual place.
 pub fn package() -> Result<PathBuf> {
-    packed().map(|packed| packed.fmu)
+    packed().map(|(fmu, _)| fmu)
 }
 
-/// The same, with what was left out.
-pub fn packed() -> Result<PackedFmu> {
-    let libraries = libraries::build()?;
-    let fmu = paths::fmu();
-    let page = Page::found()?;
-    let packing = if libraries.ships { Packing::Small } else { Packing::Quick };
-    write_archive(&libraries.built, page.text(), packing, &fmu)?;
+/// The same, with what it holds no library for, and how to get it.
+fn packed() -> Result<(PathBuf, Vec<String>)> {
+    let Libraries { built, mut left_out, ships } = libraries::build()?;
+    let (fmu, (page, remark)) = (paths::fmu(), page::made()?);
+    let packing = if ships { Packing::Small } else { Packing::Quick };
+    write_archive(&built, page.as_deref(), packing, &fmu)?;
     effect_list::write_json(&fmu)?;
-    let mut left_out = libraries.left_out;
-    if page.text().is_none() {
-        left_out.push(page.remark());
+    if page.is_none() {
+        left_out.push(remark);
     }
-    Ok(PackedFmu { fmu, left_out })
+    Ok((fmu, left_out))
 }
 
 /// Packs the FMU around `libraries`, and with the page if it is given, into `target`, which is complete or not there.
 pub fn write_archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing, target: &Path) -> Result<()> {
-    let bytes = archive(&entries(libraries, page)?, packing).context("the archive cannot be created")?;
-    let folder = target.parent().unwrap_or(Path::new("."));
-    paths::create_folder(folder)?;
-    let partial = target.with_extension(format!("{}.part", std::process::id()));
-    fs::write(&partial, bytes)
-        .and_then(|()| fs::rename(&partial, target))
-        .with_context(|| format!("{} cannot be written", target.display()))
+    write_whole(target, &archive(libraries, page, packing).context("the archive cannot be created")?)
 }
 
-fn entries(libraries: &[Library], page: Option<&[u8]>) -> Result<Vec<ArchiveFile>> {
-    let plain = |path: String, content: Vec<u8>| ArchiveFile { path, content, permissions: PLAIN };
+fn archive(libraries: &[Library], page: Option<&[u8]>, packing: Packing) -> Result<Vec<u8>> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    let mut add = |path: &str, content: &[u8], permissions: u32| -> Result<()> {
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Deflated)
+            .compression_level(Some(packing as i64))
+            .last_modified_time(DateTime::default())
+            .unix_permissions(permissions);
+        zip.start_file(path, options)?;
+        Ok(zip.write_all(content)?)
+    };
     let read = |file: &Path| fs::read(file).with_context(|| format!("{} cannot be read", file.display()));
-    let mut entries = vec![plain("modelDescription.xml".into(), describe::model_description()?.into_bytes())];
-    for library in libraries {
-        let path = format!("binaries/{}/{MODEL_NAME}.{}", library.platform, library.ending);
-        entries.push(ArchiveFile { path, content: read(&library.file)?, permissions: EXECUTABLE });
+    add("modelDescription.xml", describe::model_description()?.as_bytes(), PLAIN)?;
+    for Library { platform, ending, file, .. } in libraries {
+        add(&format!("binaries/{platform}/{MODEL_NAME}.{ending}"), &read(file)?, EXECUTABLE)?;
     }
     let licences = licences::collected(CRATES[0], libraries)?;
-    let live = page.map(|_| page::FILE);
-    let index = documentation::page(libraries, &licences.linked, live)?;
-    entries.push(plain("documentation/index.html".into(), index.into_bytes()));
+    let index = documentation::page(libraries, &licences.linked, page.map(|_| page::FILE))?;
+    add("documentation/index.html", index.as_bytes(), PLAIN)?;
     if let Some(page) = page {
-        entries.push(plain(format!("documentation/{}", page::FILE), page.to_vec()));
+        add(&format!("documentation/{}", page::FILE), page, PLAIN)?;
     }
     for figure in documentation::FIGURES {
         let file = figure.file.iter().fold(paths::workspace(), |path, part| path.join(part));
-        entries.push(plain(format!("documentation/{}", figure.name()), read(&file)?));
+        add(&format!("documentation/{}", figure.name()), &read(&file)?, PLAIN)?;
     }
-    for licence in licences.files {
-        entries.push(plain(format!("documentation/licenses/{}", licence.path), licence.text));
+    for (path, text) in licences.files {
+        add(&format!("documentation/licenses/{path}"), &text, PLAIN)?;
     }
-    let picture = paths::workspace().join("fmu-build").join("model.png");
-    entries.push(plain("model.png".into(), read(&picture)?));
-    Ok(entries)
-}
-
-fn archive(entries: &[ArchiveFile], packing: Packing) -> Result<Vec<u8>> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    for entry in entries {
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Deflated)
-            .compression_level(Some(packing.level()))
-            .last_modified_time(DateTime::default())
-            .unix_permissions(entry.permissions);
-        zip.start_file(entry.path.as_str(), options)?;
-        zip.write_all(&entry.content)?;
-    }
+    add("model.png", &read(&paths::workspace().join("fmu-build").join("model.png"))?, PLAIN)?;
     Ok(zip.finish()?.into_inner())
 }

@@ -3,7 +3,7 @@
 //! libcosim and Ecos skip Enumeration variables, so that they cannot set any choice. FMI sets both types by fmi2SetInteger,
 //! so that the library needs no change.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
 
@@ -12,6 +12,7 @@ use zip::write::SimpleFileOptions;
 use zip::{DateTime, ZipArchive, ZipWriter};
 
 use crate::fmu::describe::{Choices, described};
+use crate::tools::files::write_whole;
 
 const DESCRIPTION: &str = "modelDescription.xml";
 
@@ -20,10 +21,7 @@ pub fn package(fmu: &Path) -> Result<PathBuf> {
     let name = fmu.file_stem().unwrap_or_default().to_string_lossy();
     let target = fmu.with_file_name(format!("{name}_integers.fmu"));
     let bytes = variant(fmu).with_context(|| format!("{} cannot be given another description", fmu.display()))?;
-    let partial = target.with_extension(format!("{}.part", std::process::id()));
-    fs::write(&partial, bytes)
-        .and_then(|()| fs::rename(&partial, &target))
-        .with_context(|| format!("{} cannot be written", target.display()))?;
+    write_whole(&target, &bytes)?;
     Ok(target)
 }
 

@@ -42,35 +42,33 @@ pub struct ToolchainsCommand {
 impl ToolchainsCommand {
     /// Installs what is missing and prints where it is.
     pub fn run(&self) -> Result<()> {
-        run(self.platform.as_deref())
+        if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
+            bail!(
+                "the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone"
+            );
+        }
+        let wanted = |name: &str| self.platform.as_deref().is_none_or(|only| only == name);
+        let progress = Progress::start("looking for Python");
+        let mut made = Vec::new();
+        if wanted("linux64") {
+            let linux = old_linux().made(|what| progress.stage(what))?;
+            made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
+        }
+        if wanted("win64") {
+            let windows = WINDOWS.made(&progress)?;
+            made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
+        }
+        if wanted("wasm") {
+            let place = match Wasm::found() {
+                Some(Wasm::Rustup) => format!("rustup's target {WASM_TARGET}, nothing to install"),
+                _ => paths::shown(&WASM.made(&progress)?.programs()),
+            };
+            made.push(format!("browsers:              {place}"));
+        }
+        progress.finish();
+        println!("{}", made.join("\n"));
+        Ok(())
     }
-}
-
-fn run(platform: Option<&str>) -> Result<()> {
-    if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        bail!("the tool chains are programs for Linux on x86-64; elsewhere the FMU holds this machine's library alone");
-    }
-    let wanted = |name| platform.is_none_or(|only| only == name);
-    let progress = Progress::start("looking for Python");
-    let mut made = Vec::new();
-    if wanted("linux64") {
-        let linux = old_linux().made(|what| progress.stage(what))?;
-        made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
-    }
-    if wanted("win64") {
-        let windows = WINDOWS.made(&progress)?;
-        made.push(format!("win64, and wine:       {}", paths::shown(&windows.programs())));
-    }
-    if wanted("wasm") {
-        let place = match Wasm::found() {
-            Some(Wasm::Rustup) => format!("rustup's target {WASM_TARGET}, nothing to install"),
-            _ => paths::shown(&WASM.made(&progress)?.programs()),
-        };
-        made.push(format!("browsers:              {place}"));
-    }
-    progress.finish();
-    println!("{}", made.join("\n"));
-    Ok(())
 }
 
 /// The linker for old Linux systems.

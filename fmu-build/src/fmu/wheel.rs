@@ -11,9 +11,9 @@ use clap::Args;
 use crate::fmu::libraries::{CRATES, Library};
 use crate::fmu::licences;
 use crate::fmu::package::{self, Packing};
-use crate::fmu::page::{self, Page};
+use crate::fmu::page;
 use crate::fmu::platforms::{self, Platform};
-use crate::tools::files::{copy_file, copy_folder};
+use crate::tools::files::{copy_file, copy_folder, write_whole};
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{self, Environment};
@@ -54,7 +54,7 @@ impl WheelCommand {
         let wheel = write(&libraries, &environment, &paths::wheel())?;
         progress.finish();
         println!("{}", paths::shown(&wheel));
-        println!("{}", Page::found()?.remark());
+        println!("{}", page::made()?.1);
         for Library { platform, needs, .. } in &libraries {
             println!("{platform}: {needs}");
         }
@@ -117,10 +117,8 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
         copy_file(&scene, &package.join("scenes"))?;
     }
     // beside the FMU, not in it: its address stays, and links to set-ups with it
-    if let Page::Made(page) = Page::found()? {
-        let folder = package.join("page");
-        paths::create_folder(&folder)?;
-        fs::write(folder.join(page::FILE), page).context("the page cannot be written")?;
+    if let (Some(page), _) = page::made()? {
+        write_whole(&package.join("page").join(page::FILE), &page)?;
     }
     for Library { platform, answers, .. } in libraries {
         copy_file(answers, &package.join("answers").join(platform))?;
@@ -128,12 +126,11 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
     let header = from.join("crates").join("answers").join("include").join("bd_answers.h");
     copy_file(&header, &package.join("answers"))?;
     // what the FMU's library links too has its texts in the FMU
-    let known: Vec<String> =
-        licences::collected(CRATES[0], &[])?.files.into_iter().map(|licence| licence.path).collect();
-    for licence in licences::collected(CRATES[1], &[])?.files.iter().filter(|licence| !known.contains(&licence.path)) {
-        let file = package.join("answers").join("licenses").join(&licence.path);
-        paths::create_folder(file.parent().unwrap_or(&file))?;
-        fs::write(&file, &licence.text).context("a licence cannot be written")?;
+    let known = licences::collected(CRATES[0], &[])?.files;
+    for (path, text) in licences::collected(CRATES[1], &[])?.files {
+        if known.iter().all(|(known, _)| *known != path) {
+            write_whole(&package.join("answers").join("licenses").join(path), &text)?;
+        }
     }
     package::write_archive(libraries, None, packing, &package.join(format!("{MODEL_NAME}.fmu")))
 }

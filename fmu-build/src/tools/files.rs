@@ -1,4 +1,4 @@
-//! Copies of files, for builds that write nothing where the sources are.
+//! Files that builds write and copy, none where the sources are.
 
 use std::fs;
 use std::path::Path;
@@ -19,6 +19,14 @@ pub fn copy_folder(from: &Path, to: &Path, without: &str) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Writes a file that is complete or not there, as others may write it at the same time.
+pub fn write_whole(file: &Path, content: &[u8]) -> Result<()> {
+    paths::create_folder(file.parent().unwrap_or(Path::new(".")))?;
+    let partial = file.with_extension(format!("{}.part", std::process::id()));
+    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, file));
+    written.with_context(|| format!("{} cannot be written", paths::shown(file)))
 }
 
 /// Copies a file into a folder, which is made.

@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 use anyhow::Result;
-use clap::Parser;
+use clap::ArgMatches;
 use clap::error::ErrorKind;
 
 use answers::problem::Problems;
@@ -16,6 +16,8 @@ const USAGE: u8 = 2;
 pub struct Program {
     /// How users call it.
     pub call: &'static str,
+    /// All that it understands.
+    pub root: clap::Command,
     /// Titles of groups, and a command whose subcommands are those of the group.
     pub groups: Vec<(&'static str, clap::Command)>,
     /// The end of the overview.
@@ -50,24 +52,24 @@ impl Stop {
 }
 
 impl Program {
-    /// The command line that `arguments`, the program's name first, give.
-    pub fn parse<C: Parser>(&self, arguments: impl IntoIterator<Item = OsString>) -> Result<C, Stop> {
-        let matches = self.command::<C>().try_get_matches_from(arguments).map_err(|error| self.stop(&error))?;
-        C::from_arg_matches(&matches).map_err(|error| self.stop(&error))
+    /// What `arguments`, the program's name first, say.
+    pub fn parse(&self, arguments: impl IntoIterator<Item = OsString>) -> Result<ArgMatches, Stop> {
+        self.command().try_get_matches_from(arguments).map_err(|error| self.stop(&error))
     }
 
     /// What `--help` shows, of `command` if one is named.
-    pub fn help<C: Parser>(&self, command: Option<String>) -> Stop {
-        let name = C::command().get_name().to_owned();
-        let words = [name].into_iter().chain(command).chain(["--help".to_owned()]);
-        let shown = self.command::<C>().try_get_matches_from(words);
+    pub fn help(&self, command: Option<String>) -> Stop {
+        let words = [self.root.get_name().to_owned()].into_iter().chain(command).chain(["--help".to_owned()]);
+        let shown = self.command().try_get_matches_from(words);
         self.stop(&shown.err().unwrap_or_else(|| clap::Error::new(ErrorKind::DisplayHelp)))
     }
 
     /// How the program reads its command line.
-    pub fn command<C: Parser>(&self) -> clap::Command {
+    pub fn command(&self) -> clap::Command {
         // the last of two equal options counts, as in most programs
-        C::command()
+        self.root
+            .clone()
+            .bin_name(self.call)
             .args_override_self(true)
             .override_help(self.overview())
             .mut_subcommands(|command| command.args_override_self(true))
@@ -89,7 +91,8 @@ impl Program {
         out
     }
 
-    fn stop(&self, error: &clap::Error) -> Stop {
+    /// What stops it where clap does not understand.
+    pub fn stop(&self, error: &clap::Error) -> Stop {
         let text = error.render().to_string();
         if error.use_stderr() {
             Stop::Wrong(self.one_line(&text))

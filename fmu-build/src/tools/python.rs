@@ -1,6 +1,7 @@
 //! Python environments, each made once from pinned versions: that of users' commands, to which the tests add their packages, and
 //! those that other commands ask for.
 
+use std::env;
 use std::ffi::OsStr;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -57,7 +58,7 @@ impl Environment {
     /// The environment of users' commands, made if it does not exist; `report` receives the current stage. It may hold the
     /// packages of the tests as well.
     pub fn ready(report: impl Fn(&str)) -> Result<Self> {
-        let Users { environment, first, all, first_stamp, all_stamp } = Users::new()?;
+        let (environment, [first, all], [first_stamp, all_stamp]) = of_users()?;
         environment.made(&[&first_stamp, &all_stamp], &first_stamp, |environment| {
             environment.make(&report)?;
             environment.install(&first, Some(&all), "fmpy, numpy, matplotlib", &report)
@@ -66,13 +67,12 @@ impl Environment {
 
     /// Whether nothing is left to make for users' commands.
     pub fn is_ready() -> bool {
-        Users::new()
-            .is_ok_and(|users| [&users.first_stamp, &users.all_stamp].iter().any(|stamp| users.environment.has(stamp)))
+        of_users().is_ok_and(|(environment, _, stamps)| stamps.iter().any(|stamp| environment.has(stamp)))
     }
 
     /// The same with the packages of the tests, of all extras of the Python package, and of the wheel.
     pub fn complete(report: impl Fn(&str)) -> Result<Self> {
-        let Users { environment, all, first_stamp, all_stamp, .. } = Users::new()?;
+        let (environment, [_, all], [first_stamp, all_stamp]) = of_users()?;
         environment.made(&[&all_stamp], &all_stamp, |environment| {
             if !environment.has(&first_stamp) {
                 environment.make(&report)?;
@@ -136,19 +136,18 @@ impl Environment {
     }
 
     fn interpreter(&self) -> Python {
-        let inside = if cfg!(windows) { ["Scripts", "python.exe"] } else { ["bin", "python"] };
-        Python { program: inside.iter().fold(self.folder.clone(), |path, part| path.join(part)).into(), arguments: &[] }
+        let program = self.programs().join(if cfg!(windows) { "python.exe" } else { "python" });
+        Python { program: program.into(), arguments: &[] }
     }
 
     /// A command that runs the environment's Python, isolated from the user's settings and files. It finds the package
     /// `bevel_differential` and the modules that scripts share.
     pub fn command(&self) -> Command {
-        let folders = [["python", "src"], ["fmu-build", "python"]]
-            .map(|[top, folder]| paths::workspace().join(top).join(folder).into_os_string());
-        let separator = OsStr::new(if cfg!(windows) { ";" } else { ":" });
+        let folders =
+            [["python", "src"], ["fmu-build", "python"]].map(|[top, folder]| paths::workspace().join(top).join(folder));
         let mut command = self.interpreter().command();
         command
-            .env("PYTHONPATH", folders.join(separator))
+            .envs(env::join_paths(folders).map(|folders| ("PYTHONPATH", folders)))
             .envs(paths::built("answers").map(|library| ("BEVEL_DIFFERENTIAL_ANSWERS", library)))
             .env("BEVEL_DIFFERENTIAL_SCENES", paths::scenes())
             .env("PYTHONDONTWRITEBYTECODE", "1")
@@ -168,7 +167,7 @@ impl Environment {
                 format!("os.environ.setdefault('BEVEL_DIFFERENTIAL_{name}', {:?})\n", value.display().to_string())
             })
             .collect();
-        let python = self.programs().join(if cfg!(windows) { "python.exe" } else { "python" });
+        let python = self.interpreter().program;
         let text = format!(
             "#!{}\nimport os, sys\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nsys.exit(main())\n",
             python.display(),
@@ -204,29 +203,13 @@ impl Environment {
     }
 }
 
-/// The environment of users' commands, its two lists of packages, and the stamps for them.
-struct Users {
-    environment: Environment,
-    /// Names alone; the other list has the versions.
-    first: PathBuf,
-    all: PathBuf,
-    first_stamp: String,
-    all_stamp: String,
-}
-
-impl Users {
-    fn new() -> Result<Self> {
-        let lists = paths::workspace().join("fmu-build").join("python");
-        let [first, all] = ["first.txt", "requirements.txt"].map(|name| lists.join(name));
-        let (first_stamp, all_stamp) = (stamp_of(&[&first, &all])?, stamp_of(&[&all])?);
-        Ok(Self {
-            environment: Environment { folder: paths::target().join("python") },
-            first,
-            all,
-            first_stamp,
-            all_stamp,
-        })
-    }
+/// The environment of users' commands; its lists of packages, the first with names alone, whose versions the other one has; and the
+/// stamps of an environment with the first packages and with all.
+fn of_users() -> Result<(Environment, [PathBuf; 2], [String; 2])> {
+    let lists = paths::workspace().join("fmu-build").join("python");
+    let [first, all] = ["first.txt", "requirements.txt"].map(|name| lists.join(name));
+    let stamps = [stamp_of(&[&first, &all])?, stamp_of(&[&all])?];
+    Ok((Environment { folder: paths::target().join("python") }, [first, all], stamps))
 }
 
 /// What the stamp of an environment with the packages of these lists says.
@@ -258,11 +241,6 @@ fn version_of(python: &Python) -> Option<(u32, u32)> {
     let text = String::from_utf8(output.stdout).ok()?;
     let (major, minor) = text.trim().split_once(' ')?;
     Some((major.parse().ok()?, minor.parse().ok()?))
-}
-
-/// A command that runs the Python that makes environments.
-pub fn system() -> Result<Command> {
-    Ok(find_python()?.command())
 }
 
 /// A Python that is new enough and can make environments.

@@ -1,6 +1,7 @@
 //! Marked sections of documents, which commands renew.
 
 use std::fs;
+use std::path::Path;
 
 use anyhow::{Context, Result};
 
@@ -31,6 +32,19 @@ pub fn renew(document: &str, marks: [&str; 2], text: &str) -> Result<()> {
         format!("{document} has no marked section; add the lines \"{}\" and \"{}\"", marks[0], marks[1])
     })?;
     fs::write(&file, renewed).with_context(|| format!("{document} cannot be written"))
+}
+
+/// Copies the pictures of `folder` to docs/figures.
+pub fn copy_pictures(folder: &Path) -> Result<()> {
+    let figures = paths::workspace().join("docs").join("figures");
+    paths::create_folder(&figures)?;
+    for entry in fs::read_dir(folder).with_context(|| format!("{} cannot be read", paths::shown(folder)))? {
+        let path = entry?.path();
+        if let (Some("png"), Some(name)) = (path.extension().and_then(|e| e.to_str()), path.file_name()) {
+            fs::copy(&path, figures.join(name)).with_context(|| format!("{} cannot be copied", paths::shown(&path)))?;
+        }
+    }
+    Ok(())
 }
 
 /// `old` with `text` between the marks.

@@ -13,7 +13,6 @@ use bevel_differential::variables::{guid, table};
 use clap::Args;
 
 use crate::check::fuzz;
-use crate::tools::places;
 use answers::text::table::Table;
 use fmu_build::fmu::own;
 use fmu_build::tools::paths;
@@ -44,7 +43,7 @@ pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
         .args(options)
         .arg("-o")
         .arg(&program)
-        .arg(places::c_hosts().join(format!("{name}.c")))
+        .arg(paths::workspace().join("tests/c").join(format!("{name}.c")))
         .args(["-ldl", "-lm"])
         .output()
         .context("a C compiler builds the hosts: install one (apt-get install gcc)")?;

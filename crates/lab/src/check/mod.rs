@@ -3,31 +3,28 @@
 //! for changes that no test notices.
 
 pub mod fuzz;
-pub mod hosts;
-pub mod instructions;
 pub mod memcheck;
-pub mod mutants;
 pub mod page;
-pub mod platforms;
+mod platforms;
 pub mod python_tests;
 pub mod questions;
-pub mod wheel;
+mod scripts;
 
-crate::commands! {
-    /// A command that checks.
-    CheckCommand {
-        TestPython(python_tests::TestPythonCommand),
-        TestWheel(wheel::TestWheelCommand),
-        TestPage(page::TestPageCommand),
-        #[command(alias = "off")]
-        ZeroCost(instructions::ZeroCostCommand),
-        RealTime(instructions::RealTimeCommand),
-        Fuzz(fuzz::FuzzCommand),
-        Questions(questions::QuestionsCommand),
-        #[command(alias = "memory")]
-        Memcheck(memcheck::MemcheckCommand),
-        Mutants(mutants::MutantsCommand),
-        Hosts(hosts::HostsCommand),
-        Platforms(platforms::PlatformsCommand),
-    }
+use crate::tools::command::Command;
+
+/// The commands that check.
+pub fn commands() -> Vec<Command> {
+    vec![
+        Command::of("test-python", python_tests::TestPythonCommand::run),
+        scripts::WHEEL.command(),
+        Command::of("test-page", page::TestPageCommand::run),
+        scripts::ZERO_COST.command(),
+        scripts::REAL_TIME.command(),
+        Command::of("fuzz", fuzz::FuzzCommand::run),
+        Command::of("questions", questions::QuestionsCommand::run),
+        Command::of("memcheck", memcheck::MemcheckCommand::run).alias("memory"),
+        scripts::MUTANTS.command(),
+        scripts::HOSTS.command(),
+        scripts::PLATFORMS.command(),
+    ]
 }

@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail, ensure};
 use clap::Args;
 
-use crate::tools::places;
+use crate::tools::script::environment;
 use answers::text::table::Table;
 use fmu_build::fmu::package;
 use fmu_build::fmu::page::FILE;
@@ -18,6 +18,8 @@ use fmu_build::tools::progress::Progress;
 
 /// Names a Chromium that is not on the search path.
 const CHROME: &str = "CHROME";
+/// The folder of the tests, their environment, and what it holds.
+const ENVIRONMENT: [&str; 3] = ["tests/browser", "browser", "playwright, pytest, fmpy, numpy"];
 
 /// Opens the page in Chromium and checks it there: scenes, controls, messages, links, pictures, the bits of the native FMU
 ///
@@ -44,7 +46,7 @@ impl TestPageCommand {
             found(OsStr::new("node")).context("node is not installed: apt install nodejs (or see nodejs.org)")?;
         let chromium = chromium()?;
         let progress = Progress::start("looking for Python");
-        let environment = places::BROWSER.environment(|what| progress.stage(what))?;
+        let environment = environment(ENVIRONMENT, |what| progress.stage(what))?;
         progress.stage("packaging the FMU");
         let fmu = package::package()?;
         progress.stage("testing the page");
@@ -53,7 +55,7 @@ impl TestPageCommand {
         pytest
             .args(["-m", "pytest", "-p", "no:cacheprovider", "--color=no", "--tb=short", "--table"])
             .arg(&checked)
-            .arg(places::BROWSER.folder())
+            .arg(paths::workspace().join(ENVIRONMENT[0]))
             .env("PAGE", page.canonicalize()?)
             .env("FMU", &fmu)
             .env("BEVEL_DIFFERENTIAL_FMU", &fmu)

@@ -1,44 +1,19 @@
-//! The same scenes with the library for each platform, Windows under wine: the bits of all outputs, and the time.
+//! An FMU for each library: what the command `platforms` compares.
 
 use std::ffi::OsString;
 
-use anyhow::{Context, Result, bail};
-use clap::Args;
+use anyhow::{Result, bail};
+use clap::ArgMatches;
 
-use crate::tools::places;
-use crate::tools::scripted::{Document, Needs, Script};
 use fmu_build::fmu::libraries::{self, Library};
 use fmu_build::fmu::package::{self, Packing};
 use fmu_build::fmu::toolchains::{self, WINDOWS};
 use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
 
-const DOCUMENT: Document =
-    Document { file: "docs/fmi.md", marks: ["<!-- platforms:begin -->", "<!-- platforms:end -->"], pictures: &[] };
-
-/// Checks that the libraries of all platforms give the same bits, Windows under wine
-#[derive(Args, Clone, Debug)]
-pub struct PlatformsCommand {
-    /// Also renew docs/fmi.md
-    #[arg(long)]
-    write: bool,
-}
-
-impl PlatformsCommand {
-    /// Runs it.
-    pub fn run(&self) -> Result<()> {
-        let script =
-            Script { file: places::script("platforms.py"), doing: "comparing", needs: Needs::Tests, folder: None };
-        DOCUMENT
-            .make(&script, self.write, |progress| {
-                progress.stage("building the library for each platform");
-                built()
-            })
-            .context("the libraries do not agree, or could not be compared")
-    }
-}
-
-/// An FMU for each library: the arguments of the script.
-fn built() -> Result<Vec<OsString>> {
+/// The arguments of its script.
+pub fn built(_: &ArgMatches, progress: &Progress) -> Result<Vec<OsString>> {
+    progress.stage("building the library for each platform");
     let (Some(_), Some(windows)) = (toolchains::old_linux().found(), WINDOWS.found()) else {
         bail!("the tool chains for other machines are not installed; to get them: {}", toolchains::COMMAND);
     };

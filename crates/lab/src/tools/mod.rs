@@ -1,5 +1,5 @@
 //! Tools that only the laboratory needs, beside those of `fmu_build`.
 
-pub mod places;
+pub mod command;
 pub mod random;
-pub mod scripted;
+pub mod script;

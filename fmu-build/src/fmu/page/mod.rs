@@ -1,15 +1,14 @@
 //! The page: the library for browsers, the gears, traces and controls in one HTML file that needs no server.
 
 pub mod data;
-mod made;
-
-pub use made::{FILE, Page};
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, bail};
+use bevel_differential::variables::guid;
 use clap::Args;
 
 use crate::fmu::libraries;
@@ -19,6 +18,10 @@ use crate::tools::paths;
 use crate::tools::progress::Progress;
 use crate::tools::python::{Environment, finish};
 
+/// Name of the page's file.
+pub const FILE: &str = "BevelDifferential.html";
+/// What makes it.
+const COMMAND: &str = "cargo run --release -- page";
 /// The crate of the library for browsers, and what its file is called.
 const CRATE: &str = "bevel-differential-page";
 const LIBRARY: &str = "bevel_differential_page.wasm";
@@ -114,4 +117,18 @@ fn packed(library: &Path, folder: &Path) -> Result<PathBuf> {
     python.arg("-c").arg(PACK).args([library, &file]);
     finish(&mut python, "the library for browsers cannot be packed")?;
     Ok(file)
+}
+
+/// The page as it was made before, if its variables are those of today; and whether it is packed, or how it will be.
+pub fn made() -> Result<(Option<Vec<u8>>, String)> {
+    let file = paths::page().join(FILE);
+    let is_of_today = |text: &[u8]| text.windows(guid().len()).any(|window| window == guid().as_bytes());
+    match fs::read(&file) {
+        Ok(text) if is_of_today(&text) => Ok((Some(text), format!("with the page {FILE}"))),
+        Ok(_) => Ok((None, format!("the page is left out, it has other variables; renew it: {COMMAND}"))),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            Ok((None, format!("the page is left out; make it: {COMMAND}")))
+        }
+        Err(error) => Err(error).with_context(|| format!("{} cannot be read", paths::shown(&file))),
+    }
 }

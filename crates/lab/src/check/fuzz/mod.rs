@@ -25,7 +25,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 use fmu_build::command_line::LABORATORY;
 
-use crate::tools::scripted::Script;
+use crate::tools::script::{SCRIPT, Script};
 
 /// Number of calls by default.
 const MANY: usize = 1_000_000;
@@ -46,15 +46,15 @@ pub struct FuzzCommand {
 
 impl FuzzCommand {
     /// Calls at random and prints the table; fails with the seed if a promise is not kept.
-    pub fn run(self) -> Result<()> {
+    pub fn run(&self) -> Result<()> {
         if self.is_worker {
             return work(self.seed, self.calls);
         }
-        let script = Script::own("fuzz.py", "calling", None);
-        let numbers = [self.calls.div_ceil(CALLS), CALLS].map(|number| number.to_string());
         let program = env::current_exe().context("the path of this program is unknown")?;
-        let words = numbers.into_iter().chain([self.seed.to_string(), LABORATORY.to_owned()]);
-        script.run(|_| Ok([program.into()].into_iter().chain(words.map(Into::into)).collect())).map(|_| ())
+        let numbers = [self.calls.div_ceil(CALLS) as u64, CALLS as u64, self.seed].map(|number| number.to_string());
+        let words = [program.into()].into_iter().chain(numbers.map(Into::into)).chain([LABORATORY.into()]);
+        let script = Script { file: "crates/lab/python/fuzz.py", doing: "calling", ..SCRIPT };
+        script.follow(None, |_| Ok(words.collect())).map(drop)
     }
 }
 

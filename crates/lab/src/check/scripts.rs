@@ -1,0 +1,130 @@
+//! The commands that check by scripts of crates/lab/python.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, ensure};
+use bevel_differential::model::EFFECTS;
+use clap::{Arg, ArgMatches, value_parser};
+use fmu_build::tools::paths;
+use fmu_build::tools::progress::Progress;
+
+use super::platforms;
+use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number};
+
+/// The wheel on a machine without Rust.
+pub const WHEEL: Script = Script {
+    name: "test-wheel",
+    about: "Installs the wheel in a fresh environment without Rust, and checks it there: examples, bits against fmpy, a sweep",
+    options: || {
+        let help = "The wheel [default: the one that the command `wheel` built]";
+        vec![Arg::new("wheel").value_name("WHEEL").help(help).value_parser(value_parser!(PathBuf))]
+    },
+    file: "crates/lab/python/wheel.py",
+    doing: "making a fresh Python environment",
+    given: &[Given::Made(wheel), Given::Target("wheel")],
+    ..SCRIPT
+};
+
+fn wheel(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
+    let wheel = match options.get_one::<PathBuf>("wheel") {
+        Some(file) => file.clone(),
+        None => {
+            let file =
+                paths::wheel().join(format!("bevel_differential-{}-py3-none-any.whl", env!("CARGO_PKG_VERSION")));
+            ensure!(file.is_file(), "{} is not there; build it: cargo run --release -- wheel", paths::shown(&file));
+            file
+        }
+    };
+    let found = wheel.canonicalize().with_context(|| format!("{} cannot be read", paths::shown(&wheel)))?;
+    Ok(vec![found.into()])
+}
+
+/// Effects that are off, in bits and in instructions that valgrind counts.
+pub const ZERO_COST: Script = Script {
+    name: "zero-cost",
+    alias: Some("off"),
+    about: "Checks that effects that are off cost nothing, by bits and instructions of a build without any (needs valgrind)",
+    options: || {
+        vec![
+            flag("quick", "Leave out what each effect costs when it is on").conflicts_with("write"),
+            flag("write", "Also renew the table in docs/effects.md"),
+        ]
+    },
+    file: "crates/lab/python/zero_cost.py",
+    doing: "counting",
+    given: &[Given::Target(BUILD), Given::Made(effects_on)],
+    sections: &[("docs/effects.md", "off", "")],
+    ..SCRIPT
+};
+/// The folder in which both build the program that steps.
+const BUILD: &str = "off";
+
+fn effects_on(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
+    Ok(EFFECTS.iter().filter(|_| !options.get_flag("quick")).map(|effect| effect.name.into()).collect())
+}
+
+/// The steps of the fixed-step method, in instructions.
+pub const REAL_TIME: Script = Script {
+    name: "real-time",
+    about: "Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)",
+    options: || vec![flag("write", "Also renew the table in docs/cost.md")],
+    file: "crates/lab/python/real_time.py",
+    doing: "counting",
+    given: &[Given::Target("real-time"), Given::Target(BUILD)],
+    sections: &[("docs/cost.md", "real-time", "")],
+    ..SCRIPT
+};
+
+/// Changes of the source that no test notices: drawn by a seed from the rooms with the physics, built in at once, tried one by one.
+pub const MUTANTS: Script = Script {
+    name: "mutants",
+    about: "Changes the source in one place at a time and lists the changes that no test notices (goes on where it was stopped)",
+    options: || {
+        vec![
+            number("count", "COUNT", "120", "How many changes"),
+            number("seed", "SEED", "1", "By which they are drawn"),
+            flag("write", "Also renew the report in docs/architecture.md"),
+        ]
+    },
+    needs: Needs::Own(["crates/lab/python/mutants", "mutants/venv", "tree-sitter"]),
+    file: "crates/lab/python/mutants/campaign.py",
+    doing: "trying changes",
+    folder: Some("mutants/{seed}-{count}"),
+    given: &[Given::Workspace, Given::Folder, Given::Value("count"), Given::Value("seed")],
+    sections: &[("docs/architecture.md", "mutants", "")],
+    ..SCRIPT
+};
+
+/// The packaged FMU in other hosts: each host on each scene, all compared with fmpy.
+pub const HOSTS: Script = Script {
+    name: "hosts",
+    about: "Runs the FMU in other FMI hosts on the same scenes and compares their results with fmpy's",
+    options: || {
+        vec![
+            flag("require", "Fail if a host cannot be loaded"),
+            flag("write", "Also renew docs/fmi.md"),
+            flag("with-fmi-sim", "Also run hosts in Rust: fmi-sim, fmi-rs and fmu-runner (builds for many minutes)"),
+        ]
+    },
+    needs: Needs::Own(["tests/hosts", "hosts/venv", "fmpy, libcosimpy, ecospy, fmuloader, FMU Manipulation Toolbox"]),
+    file: "crates/lab/python/hosts.py",
+    doing: "running hosts",
+    folder: Some("hosts"),
+    given: &[Given::Fmu, Given::PlainFmu, Given::Folder, Given::Named("require"), Given::Named("with-fmi-sim")],
+    sections: &[("docs/fmi.md", "hosts", "")],
+    ..SCRIPT
+};
+
+/// The same scenes with the library for each platform, Windows under wine: the bits of all outputs, and the time.
+pub const PLATFORMS: Script = Script {
+    name: "platforms",
+    about: "Checks that the libraries of all platforms give the same bits, Windows under wine",
+    options: || vec![flag("write", "Also renew docs/fmi.md")],
+    needs: Needs::Tests,
+    file: "crates/lab/python/platforms.py",
+    doing: "comparing",
+    given: &[Given::Made(platforms::built)],
+    sections: &[("docs/fmi.md", "platforms", "")],
+    ..SCRIPT
+};

@@ -1,0 +1,174 @@
+//! The commands that measure by scripts: crates/lab/python has them, or the folder of what is compared.
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
+use clap::ArgMatches;
+use fmu_build::tools::progress::Progress;
+
+use crate::tools::script::{Given, Needs, SCRIPT, Script, flag, number, path};
+
+/// What accuracy costs: methods over tolerances and steps, the communication step of a coupled run, decisions, laws of tooth pairs, and
+/// the ladder of fidelities; each is a CSV file and a picture.
+pub const COST: Script = Script {
+    name: "cost",
+    about: "Measures what accuracy costs: methods, fidelities, settings and communication steps",
+    options: || {
+        vec![
+            flag("quick", "Take under a minute: fewer tolerances, steps and runs"),
+            flag("decisions", "Make only the table of decisions and that of the laws").conflicts_with("quick"),
+            flag("write", "Also renew docs/cost.md and its figures"),
+            path("out", "DIR", "Folder for figures and CSV [default: target/cost]"),
+        ]
+    },
+    file: "crates/lab/python/cost.py",
+    folder: Some("cost"),
+    given: &[Given::Fmu, Given::Folder, Given::Named("quick"), Given::Named("decisions")],
+    sections: &[("docs/cost.md", "decisions", "decisions.md"), ("docs/cost.md", "cost", "summary.md")],
+    has_pictures: true,
+    ..SCRIPT
+};
+
+/// What facets cost in accuracy and in time: solid teeth in the study's turn, compared with exact teeth.
+pub const SOLIDS: Script = Script {
+    name: "solids",
+    about: "Measures how the number of facets of solid teeth affects accuracy and time",
+    more: Some("Fails if solids miss the mean force of exact teeth."),
+    options: || {
+        vec![
+            flag("quick", "Only 4 to 32 facets over 0.1 s").conflicts_with("write"),
+            flag("write", "Also renew docs/cost.md, the table in docs/study.md and the figures"),
+            path("out", "DIR", "Folder for figures and CSV [default: target/solids]"),
+        ]
+    },
+    file: "crates/lab/python/solids.py",
+    folder: Some("solids"),
+    given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
+    sections: &[("docs/cost.md", "solids", ""), ("docs/study.md", "solids", "study.md")],
+    has_pictures: true,
+    ..SCRIPT
+};
+
+/// Whether answers of the command `accuracy` can be trusted: random scenes whose chosen settings run in the packaged FMU, against
+/// another method; and how long the answers for the shipped scenes take.
+pub const SURVEY: Script = Script {
+    name: "survey",
+    about: "Checks answers of `accuracy` on random scenes, in the FMU, against another method",
+    options: || {
+        vec![
+            number("scenes", "SCENES", "60", "Number of scenes").value_parser(clap::value_parser!(u64).range(1..)),
+            number("seed", "SEED", "1", "Seed of the scenes"),
+            flag(
+                "shipped",
+                "Answer for the shipped scenes instead, all outputs of each to 1 %, and say how long that takes",
+            ),
+            flag("write", "Also renew the section in docs/accuracy.md"),
+            path("out", "DIR", "Folder for the cases and the table of all [default: target/survey]"),
+        ]
+    },
+    file: "crates/lab/python/survey.py",
+    doing: "answering",
+    folder: Some("survey"),
+    given: &[Given::Fmu, Given::Folder, Given::Value("scenes"), Given::Value("seed"), Given::Named("shipped")],
+    sections: &[("docs/accuracy.md", "survey", "survey.md"), ("docs/accuracy.md", "shipped", "shipped.md")],
+    ..SCRIPT
+};
+
+/// This program beside other simulators, on the study's two cases.
+pub const SIMULATORS: Script = Script {
+    name: "compare-simulators",
+    alias: Some("peers"),
+    about: "Compares MuJoCo and Drake with this program on the study's cases (a few minutes)",
+    options: || vec![flag("quick", "A few rows, once"), flag("write", "Also renew docs/compare.md")],
+    needs: Needs::Own(["benches/peers", "peers/venv", "MuJoCo, Drake, fmpy"]),
+    file: "benches/peers/run.py",
+    doing: "comparing",
+    folder: Some("peers"),
+    given: &[Given::Fmu, Given::Folder, Given::Named("quick")],
+    sections: &[("docs/compare.md", "peers", "")],
+    has_pictures: true,
+    ..SCRIPT
+};
+
+/// This program's methods beside solvers written by others, on the same equations.
+pub const SOLVERS: Script = Script {
+    name: "compare-solvers",
+    alias: Some("foreign"),
+    about: "Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)",
+    options: || vec![flag("quick", "Two cases, once"), flag("write", "Also renew docs/compare.md")],
+    needs: Needs::Own(["benches/foreign", "foreign", "scipy, scikit-SUNDAE"]),
+    file: "benches/foreign/compare.py",
+    doing: "comparing",
+    folder: Some("cost"),
+    given: &[Given::Equations, Given::Folder, Given::Named("quick")],
+    sections: &[("docs/compare.md", "foreign", "")],
+    ..SCRIPT
+};
+
+/// A whole drivetrain of FMUs beside all its equations at once. libcosim sets no enumerations, and the scene is made of them.
+pub const DRIVETRAIN: Script = Script {
+    name: "drivetrain",
+    about: "Couples a whole drivetrain from FMUs and compares it with all its equations at once (many minutes)",
+    options: || {
+        vec![
+            flag("quick", "Ideal gears only, in a minute and a half").conflicts_with("write"),
+            flag("write", "Also renew docs/coupling.md"),
+        ]
+    },
+    needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim"]),
+    file: "examples/drivetrain/run.py",
+    doing: "coupling",
+    folder: Some("drivetrain"),
+    given: &[Given::PlainFmu, Given::Equations, Given::Folder, Given::Named("quick")],
+    sections: &[("docs/coupling.md", "drivetrain", "")],
+    has_pictures: true,
+    ..SCRIPT
+};
+
+/// The contact patterns of the documentation, by the command `pattern` of the Python package.
+pub const PATTERNS: Script = Script {
+    name: "patterns",
+    about: "Shows the contact patterns of docs/geometry.md: aligned teeth, and one thing out of place at a time",
+    options: || vec![flag("write", "Also renew docs/geometry.md and its figures")],
+    file: "bevel_differential",
+    doing: "simulating",
+    folder: Some("pattern"),
+    given: &[
+        Given::Word("pattern"),
+        Given::Word("--progress"),
+        Given::Word("lines"),
+        Given::Word("--out"),
+        Given::Folder,
+    ],
+    sections: &[("docs/geometry.md", "pattern", "findings.md")],
+    has_pictures: true,
+    ..SCRIPT
+};
+
+/// What levels, laws and effects cost in time: each alone, each pair, all together; or how the times of two builds compare. By the
+/// prices of each alone the command `accuracy` counts, and the page shows them.
+pub const PRICES: Script = Script {
+    name: "prices",
+    about: "Times what each level, law and effect costs, or the FMUs of two builds (an idle machine, some minutes)",
+    options: || {
+        vec![
+            path("against", "FMU", "The FMU of another build: prints the ratios of this build's times to its own")
+                .conflicts_with("write"),
+            flag("quick", "Three runs of each instead of nine, and no pairs").conflicts_with("write"),
+            flag("write", "Also renew the tables in docs/cost.md and the prices by which `accuracy` counts"),
+        ]
+    },
+    file: "crates/lab/python/prices.py",
+    doing: "timing",
+    folder: Some("prices"),
+    given: &[Given::Made(other_build), Given::Fmu, Given::Folder, Given::Named("quick")],
+    sections: &[("docs/cost.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")],
+    ..SCRIPT
+};
+
+fn other_build(options: &ArgMatches, _: &Progress) -> Result<Vec<OsString>> {
+    let Some(other) = options.get_one::<PathBuf>("against") else { return Ok(Vec::new()) };
+    ensure!(other.is_file(), "{}: there is no such FMU", other.display());
+    Ok(vec!["--against".into(), other.into()])
+}

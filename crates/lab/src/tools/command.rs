@@ -1,0 +1,25 @@
+//! A command of the laboratory: how it is called, and what runs it.
+
+use anyhow::Result;
+use clap::{ArgMatches, Args};
+
+/// A command.
+pub struct Command {
+    /// Its name, its options, its help.
+    pub declared: clap::Command,
+    /// Runs it with the options that were given.
+    pub run: Box<dyn Fn(&ArgMatches) -> Result<()>>,
+}
+
+impl Command {
+    /// One whose options are a type.
+    pub fn of<O: Args + 'static>(name: &'static str, run: fn(&O) -> Result<()>) -> Self {
+        let declared = O::augment_args(clap::Command::new(name));
+        Self { declared, run: Box::new(move |options| run(&O::from_arg_matches(options)?)) }
+    }
+
+    /// The same by a former name, too.
+    pub fn alias(self, name: &'static str) -> Self {
+        Self { declared: self.declared.alias(name), ..self }
+    }
+}
