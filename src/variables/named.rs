@@ -59,13 +59,17 @@ fn choices(row: &Variable) -> String {
 
 /// The value of a parameter or an input; none of an output, which a simulation has.
 pub fn value_of(row: &Variable, parameters: &Parameters, inputs: &Inputs) -> Option<f64> {
-    let (mut p, mut i) = (*parameters, *inputs);
-    match row.access {
-        Access::Real(slot) => Some(*slot(&mut p)),
-        Access::Integer(slot) => Some(f64::from(*slot(&mut p))),
-        Access::Boolean(slot) => Some(f64::from(u8::from(*slot(&mut p)))),
-        Access::Enumeration(_, get, _) => Some(f64::from(get(&p))),
-        Access::Input(slot) => Some(*slot(&mut i)),
-        Access::Output(_) => None,
-    }
+    number(row, &mut { *parameters }, &mut { *inputs })
+}
+
+/// The same for many variables in turn: the table gives access to what it may change.
+pub fn number(row: &Variable, parameters: &mut Parameters, inputs: &mut Inputs) -> Option<f64> {
+    Some(match row.access {
+        Access::Real(slot) => *slot(parameters),
+        Access::Integer(slot) => f64::from(*slot(parameters)),
+        Access::Boolean(slot) => f64::from(*slot(parameters)),
+        Access::Enumeration(_, get, _) => f64::from(get(parameters)),
+        Access::Input(slot) => *slot(inputs),
+        Access::Output(_) => return None,
+    })
 }
