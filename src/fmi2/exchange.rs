@@ -1,10 +1,7 @@
 //! Model exchange: the host's solver integrates the states, the instance computes derivatives and events.
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Phase;
-use super::host_memory::{InputArray, OutputArray};
-use super::instance::Instance;
 use super::types::{EventInfo, Kind};
+use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase};
 use crate::model::{INDICATORS, STATES, Simulation, StepFailure};
 use crate::variables::table;
 

@@ -3,12 +3,10 @@
 
 use std::ffi::CString;
 
-use super::calls::{Call, Phase};
 use super::component::{Component, run};
 use super::exports::{fmi2FreeInstance, fmi2GetReal, fmi2Reset};
-use super::instance::Instance;
-use super::log::Log;
 use super::types::{ComponentPointer, Kind, Status};
+use super::{Call, Instance, Log, Phase};
 
 #[path = "../../tests/common/recorder.rs"]
 mod recorder;

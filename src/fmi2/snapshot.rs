@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::calls::Phase;
+use super::Phase;
 use super::types::Kind;
 use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};

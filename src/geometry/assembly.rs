@@ -3,8 +3,7 @@
 //! N equally spaced planets assemble if 2 z_s / N is an integer. Mesh i on the left side is then
 //! h_iL = p_b frac(z_s φ_i / 2π) into its cycle (0 or half a pitch); the right side adds half a pitch for odd z_p.
 
-use super::pair::Pair;
-use super::spec::GearSpec;
+use super::{GearSpec, Pair};
 use crate::numeric::{TAU, frac};
 use crate::problem::Problem;
 

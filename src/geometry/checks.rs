@@ -1,9 +1,8 @@
 //! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
 
 use super::assembly::between_planets;
-use super::pair::Pair;
 use super::solid::Foot;
-use super::spec::GearSpec;
+use super::{GearSpec, Pair};
 use crate::numeric::{cos, sin};
 use crate::problem::{Problem, told_apart};
 

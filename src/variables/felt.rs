@@ -10,9 +10,9 @@
 
 use std::sync::OnceLock;
 
-use super::access::{Access, Variable};
 use super::named::{number, number_of};
 use super::table::table;
+use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 

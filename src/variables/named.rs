@@ -1,7 +1,7 @@
 //! Variables by their names, and values put where they belong.
 
-use super::access::{Access, Variable};
 use super::table::{check_value, table};
+use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 

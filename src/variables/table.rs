@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
-use super::access::{Access, Variable};
+use super::{Access, Variable};
 use crate::declaration::{Causality, Range, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;

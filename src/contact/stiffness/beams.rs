@@ -1,6 +1,6 @@
 //! Where the formulas of beams hold: the part of the path, and of a tip corner's way, on which both teeth are beams.
 
-use super::compliance::SectionPair;
+use super::SectionPair;
 use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
 

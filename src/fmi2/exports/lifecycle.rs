@@ -4,10 +4,9 @@ use std::ffi::{CStr, CString};
 use std::ptr;
 
 use super::super::component::{self, Component};
-use super::super::instance::Experiment;
-use super::super::log::Log;
 use super::super::panic_guard;
 use super::*;
+use crate::fmi2::{Experiment, Log};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.

@@ -8,12 +8,9 @@
 #![allow(non_snake_case)] // FMI's names
 
 use super::c_types::{c_char, c_int};
-use super::call_error::{CallError, CallResult};
-use super::calls::Call;
 use super::component::run;
-use super::host_memory::HostMemory;
-use super::instance::Instance;
 use super::types::*;
+use super::{Call, CallError, CallResult, HostMemory, Instance};
 
 /// Carries out a call: `body` checks its pointers and passes them on.
 macro_rules! call {

@@ -3,8 +3,8 @@
 use std::cell::Cell;
 use std::ptr;
 
-use super::super::snapshot::Snapshot;
 use super::*;
+use crate::fmi2::Snapshot;
 
 /// The snapshot behind `state`, for as long as the call lasts.
 unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {

@@ -4,8 +4,9 @@
 
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
+use crate::model::effect_kinds::{
+    Action, Bodies, BodyEffect, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
+};
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
 

@@ -4,10 +4,8 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
+use crate::declaration::{Parameter, Row, row, units};
+use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Setting, SideFriction};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 

@@ -14,8 +14,7 @@
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
+use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Setting, SideFriction};
 use crate::model::scene::GearContact;
 use crate::numeric::sin;
 use crate::problem::{Problem, told_apart};

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::contact::ContactLaw;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
-use crate::contact::gaps::FlankGaps;
+use crate::contact::{ContactLaw, FlankGaps};
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::{Declare, Effect, InputField, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 

@@ -5,12 +5,11 @@ use nalgebra::{DMatrix, DVector};
 use super::carried::Carried;
 use super::excessive_deflection::limit_name;
 use super::hints;
-use crate::contact::gaps::FlankGaps;
+use crate::contact::FlankGaps;
 use crate::integrate::{Matrix, Point};
-use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
-use crate::model::scene::layout::MAX_GROUPS;
+use crate::model::assembly::{Model, SIGMA};
+use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 

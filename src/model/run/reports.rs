@@ -1,9 +1,9 @@
 //! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength.
 
-use super::simulation::Simulation;
+use super::Simulation;
 use crate::friction::FrictionLaw;
-use crate::model::assembly::model::Gears;
-use crate::model::dynamics::sizes::Largest;
+use crate::model::assembly::Gears;
+use crate::model::dynamics::Largest;
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::problem::Problem;
 

@@ -1,10 +1,9 @@
 //! The effects of a scene: what they check, require and bring, gathered from all that are on.
 
 use super::effect_outputs::heat_index;
-use crate::model::effect_kinds::body_effect::BodyEffect;
-use crate::model::effect_kinds::effect::{BUILT, Changes, Effect, Instant, Setting};
-use crate::model::effect_kinds::friction_source::FrictionSource;
-use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};
+use crate::model::effect_kinds::{
+    BUILT, BodyEffect, Changes, Effect, FlankFriction, FrictionSource, Instant, Setting, ToothEffects,
+};
 use crate::model::effects::{Declared, EffectParameters, Effects, configured};
 use crate::model::scene::{GearContact, Plan, Requests};
 use crate::problem::Problem;

@@ -1,10 +1,8 @@
 //! Constants of the strength of the gears, and the readings of stress, damage and safety.
 
-use super::fatigue::Fatigue;
-use super::mesh_load::{FlankLoad, MeshLoad};
-use super::spec::StrengthSpec;
+use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
 use crate::contact::pair_load::PairLoad;
-use crate::model::effect_kinds::effect::Setting;
+use crate::model::effect_kinds::Setting;
 use crate::problem::Problem;
 use crate::strength::Rating;
 use crate::strength::face_load::root_factor;
