@@ -160,7 +160,7 @@ pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situa
     let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
     let when = row.when.filter(|_| missing(&needs.when)).map(|text| text.replace('|', " or "));
     let acts: Vec<String> = switch.into_iter().chain(when).collect();
-    Some(Problem::new(row.name, format!("{}{UNFELT}{}", written(row, value), acts.join(", and with "))))
+    Some(problem!(row.name, "{}{UNFELT}{}", written(row, value), acts.join(", and with ")))
 }
 
 /// What these warnings have in common.

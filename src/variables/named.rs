@@ -12,7 +12,7 @@ pub fn named(name: &str) -> Option<&'static Variable> {
 
 /// Sets a parameter or an input: to a number in the unit of the interface, true and false as 1 and 0, and a choice by its number.
 pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &mut Inputs) -> Result<(), Problem> {
-    let wrong = |what: &str| Err(Problem::new(row.name, format!("{value} {what}")));
+    let wrong = |what: &str| Err(problem!(row.name, "{value} {what}"));
     let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
     match row.access {
         Access::Output(_) => return Err(Problem::new(row.name, "is an output and cannot be set")),
@@ -42,9 +42,9 @@ pub fn number_of(row: &Variable, text: &str) -> Result<f64, Problem> {
             kind.choices.iter().find(|one| one.name == text).map(|one| f64::from(one.value))
         }
         Access::Boolean(_) => text.parse::<bool>().ok().map(|truth| f64::from(u8::from(truth))),
-        _ => return Err(Problem::new(row.name, format!("\"{text}\" is no number; it has no choices"))),
+        _ => return Err(problem!(row.name, "\"{text}\" is no number; it has no choices")),
     };
-    found.ok_or_else(|| Problem::new(row.name, format!("\"{text}\" is none of {}", choices(row))))
+    found.ok_or_else(|| problem!(row.name, "\"{text}\" is none of {}", choices(row)))
 }
 
 /// What a variable can be set to by name.

@@ -124,12 +124,10 @@ impl SectionSpec {
         if middle(fillet) > half_pitch {
             let mut low = LEAST_FILLET * self.module;
             if low >= radius || middle(low) > half_pitch {
-                return Err(Problem::new(
+                return Err(problem!(
                     name,
-                    format!(
-                        "{:.3} mm is too deep: the gap between the teeth closes above the root",
-                        self.dedendum * 1e3
-                    ),
+                    "{:.3} mm is too deep: the gap between the teeth closes above the root",
+                    self.dedendum * 1e3
                 ));
             }
             let mut high = radius;

@@ -57,9 +57,10 @@ impl Effect for HalfShaftSpec {
         let drives = [setting.scene.left_drive, setting.scene.right_drive];
         for s in 0..2 {
             if (twist[s] || drives[s] == SideDrive::Speed) && self.stiffness[s] <= 0.0 {
-                found.push(Problem::new(
+                found.push(problem!(
                     ["half_shaft.left_stiffness", "half_shaft.right_stiffness"][s],
-                    format!("{} N.m/rad: a half-shaft that twists needs a stiffness above 0", self.stiffness[s]),
+                    "{} N.m/rad: a half-shaft that twists needs a stiffness above 0",
+                    self.stiffness[s]
                 ));
             }
         }

@@ -63,13 +63,11 @@ impl Effect for LimitedSlipSpec {
             GearContact::Solid => "solid",
             GearContact::Lumped | GearContact::Tooth => return,
         };
-        found.push(Problem::new(
+        found.push(problem!(
             "limited_slip.torque_coefficient",
-            format!(
-                "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
-                 it must be 0 (preload alone), or choose lumped or tooth",
-                self.torque_coefficient
-            ),
+            "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
+             it must be 0 (preload alone), or choose lumped or tooth",
+            self.torque_coefficient
         ));
     }
 

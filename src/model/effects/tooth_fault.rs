@@ -57,13 +57,11 @@ impl Effect for ToothFaultSpec {
         let planets = usize::try_from(setting.geometry.planet_count).unwrap_or(0);
         found.extend(self.check(setting.pair.gears.map(|g| g.teeth), planets).err());
         if setting.contact.law == ContactLaw::Impact && self.missing_fraction <= 0.5 {
-            found.push(Problem::new(
+            found.push(problem!(
                 "tooth_fault.missing_fraction",
-                format!(
-                    "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
-                     0.5 of it; choose line or line_weber, or a larger piece",
-                    self.missing_fraction
-                ),
+                "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
+                 0.5 of it; choose line or line_weber, or a larger piece",
+                self.missing_fraction
             ));
         }
     }

@@ -61,14 +61,12 @@ pub fn press_sides(
 ) -> Result<(), Problem> {
     press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
         let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
-        Problem::new(
+        problem!(
             name,
-            format!(
-                "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
-                torque[s],
-                limit_name(model),
-                hints::stiffer_teeth(&model.parameters)
-            ),
+            "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+            torque[s],
+            limit_name(model),
+            hints::stiffer_teeth(&model.parameters)
         )
     })
 }

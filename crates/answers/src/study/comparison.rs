@@ -158,7 +158,7 @@ fn notes(theory: &Theory, results: &Results) -> Vec<String> {
             f64::from(geometry.planet_teeth) * published::CARRIER_SPEED[0] / 360.0
         ),
         "Stored energy less work of the inputs plus heat, over the energy that went through in the same time; zero \
-             for an exact solution."
+         for an exact solution."
             .to_owned(),
         format!(
             "Geometry: standard addenda (1.0 m) {what}; the limit is {:.3} m at {:.0} deg. Long and short addenda, the \
