@@ -14,6 +14,8 @@
 extern crate self as bevel_differential;
 
 #[macro_use]
+pub mod problem;
+#[macro_use]
 mod spec;
 
 pub mod contact;
@@ -24,7 +26,6 @@ pub mod geometry;
 pub mod integrate;
 pub mod model;
 pub mod numeric;
-pub mod problem;
 pub mod strength;
 pub mod variables;
 

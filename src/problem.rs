@@ -18,6 +18,11 @@ impl Problem {
     }
 }
 
+/// A problem with a variable, described as `format!` takes it.
+macro_rules! problem {
+    ($variable:expr, $($message:tt)+) => { $crate::problem::Problem::new($variable, format!($($message)+)) };
+}
+
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.variable, self.message)

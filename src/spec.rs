@@ -56,6 +56,13 @@ macro_rules! choices {
         #[repr(i32)]
         pub enum $name { $(#[doc = $meaning] $variant = $value,)+ }
 
+        impl $name {
+            /// Its name in the interface.
+            pub const fn literal(self) -> &'static str {
+                match self { $(Self::$variant => $literal,)+ }
+            }
+        }
+
         impl $crate::spec::Choices for $name {
             const TYPE: &'static $crate::spec::EnumType = &$crate::spec::EnumType {
                 name: $type,

@@ -117,12 +117,10 @@ fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
 /// D = λ v₀ that makes the coefficient of restitution `restitution`, from 0.05 to 1.
 pub fn dimensionless_damping(restitution: f64) -> Result<f64, Problem> {
     if !(LEAST_RESTITUTION..=1.0).contains(&restitution) {
-        return Err(Problem::new(
+        return Err(problem!(
             "contact.restitution",
-            format!(
-                "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
-                 damping without bound, since it never stops a body completely"
-            ),
+            "{restitution} is out of range; allowed {LEAST_RESTITUTION} to 1. Below, Hunt and Crossley's law needs \
+             damping without bound, since it never stops a body completely"
         ));
     }
     if restitution == 1.0 {

@@ -2,11 +2,9 @@
 
 use std::num::NonZero;
 
+use super::Flank;
 use super::detailed::{Gaps, Opening, PairName};
-use super::errors::Chip;
-use super::errors::ToothErrors;
-use super::errors::{MeshId, PairId};
-use super::pairs::Flank;
+use super::errors::{Chip, MeshId, PairId, ToothErrors};
 use crate::geometry::Pair;
 
 /// Most planets.

@@ -3,7 +3,7 @@
 //! Source: MSC Adams function reference, IMPACT and STEP; STEP is the cubic u²(3 − 2u). The elastic part derives from
 //! U(d) = K d^(e+1) / (e+1).
 
-use super::damping::Damping;
+use super::Damping;
 use crate::numeric::{pow, sqrt};
 
 /// Force of one tooth pair with its derivatives.

@@ -4,7 +4,7 @@
 //! A one-step method loses its order over a kink, and its error estimate does not show it. Positions are smooth, unlike
 //! forces, so that a kink can be predicted from the present rates and a step can be made to end on it.
 
-use super::pairs::{Engagement, Flank, Spot};
+use super::{Engagement, Flank, Spot};
 
 /// Fractions of a step between which it is cut at a kink: one at either end does no harm.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);

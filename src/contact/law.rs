@@ -3,9 +3,8 @@
 //! Elastic energy is a function of the penetration d, taken at the cone distance where the pair's resultant acts, and of
 //! the place s on the path: U(d, s). Damping scales or adds to the force along d alone.
 
-use super::damping::Damping;
-use super::impact::{Force, Impact};
-use super::spring::Spring;
+use super::impact::Force;
+use super::{Damping, Impact, Spring};
 
 /// Force of one tooth pair and what depends on its place on the path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -1,12 +1,11 @@
 //! The laws there are, in both their forms: those of a plain mesh with their damping, and the elastic parts alone, of which a mesh
 //! in detail is made. A new law is a line in each list and in each dispatch.
 
-use super::damping::Damping;
-use super::impact::Impact;
 use super::law::{Face, Lumped, PairLaw, Power};
 use super::solid::mesh::SolidMesh;
-use super::spring::{self, Anywhere, Elastic, Linear, Spring};
+use super::spring::{self, Anywhere, Linear};
 use super::stiffness::{Line, LineWeber};
+use super::{Damping, Elastic, Impact, Spring};
 
 /// Law of a mesh.
 #[derive(Clone, Debug)]

@@ -7,8 +7,8 @@ use super::impact::Force;
 use super::law::{PairLaw, Response};
 pub use super::laws::Law;
 use super::laws::{is_placed, with_law};
-use super::pairs::{Engagement, Flank, Spot, ToothPair};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
+use super::{Engagement, Flank, Spot, ToothPair};
 use crate::geometry::Pair;
 
 /// A planet meshing with a side gear.

@@ -25,4 +25,13 @@ pub mod stiffness;
 pub mod tooth_friction;
 pub mod tooth_load;
 
+pub use damping::Damping;
+pub use gaps::FlankGaps;
+pub use impact::Impact;
+pub use laws::AnySpring;
+pub use mesh::{Law, Mesh};
+pub use pairs::{Engagement, Flank, Spot, ToothPair};
 pub use spec::{ContactLaw, ContactSpec, DampingModel};
+pub use spring::{Elastic, Spring};
+pub use tooth_friction::{Sliding, ToothFriction};
+pub use tooth_load::{ToothLoad, Touch};

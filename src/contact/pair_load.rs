@@ -1,7 +1,6 @@
 //! Load of a tooth pair over its whole face: what its strength is rated by.
 
-use super::pairs::Flank;
-use super::tooth_load::ToothLoad;
+use super::{Flank, ToothLoad};
 
 /// Load of one tooth pair, all slices of its face together.
 #[derive(Clone, Copy, Debug, PartialEq)]

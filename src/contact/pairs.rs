@@ -9,8 +9,7 @@
 
 pub use crate::geometry::action::Spot;
 
-use crate::geometry::Pair;
-use crate::geometry::corner::CornerGap;
+use crate::geometry::{CornerGap, Pair};
 
 /// Flank of the planet tooth that carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Elasticity of one tooth pair: the interface that all laws share, and the laws that are the same everywhere on the path.
 
-use super::impact::Impact;
+use super::Impact;
 
 /// Elastic energy U(p, s) of a tooth pair with its derivatives: p the penetration arc [rad on the unit sphere], s the
 /// place on the path of contact [rad]. s continues beyond the path's ends for corners in contact.

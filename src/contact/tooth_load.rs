@@ -1,6 +1,6 @@
 //! Load of a single tooth pair at an instant: what outputs, strength and load histories are made of.
 
-use super::pairs::{Flank, Spot};
+use super::{Flank, Spot};
 use crate::geometry::Pair;
 use crate::geometry::action::{Contact, LineOfAction};
 

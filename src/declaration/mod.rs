@@ -12,3 +12,4 @@ pub use crate::spec::{Choice, EnumType};
 pub use access::{Field, GetChoice, Parameter, SetChoice};
 pub use row::{Causality, Range, Row, Variability};
 pub use rows::row;
+pub use units::{DisplayUnit, Shown, Unit};

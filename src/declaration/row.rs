@@ -1,6 +1,6 @@
 //! A row: what a variable is named, what it may be, and `A`, the way to its value.
 
-use super::units::{DisplayUnit, Unit};
+use super::{DisplayUnit, Unit};
 
 /// FMI causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

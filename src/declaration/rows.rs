@@ -1,9 +1,8 @@
 //! How rows are written: first the name and what it is, then conditions, at last what kind of variable it is and the way to its
 //! value.
 
-use super::access::{Parameter, keep};
-use super::row::{Causality, Range, Row, Variability};
-use super::units::Shown;
+use super::access::keep;
+use super::{Causality, Parameter, Range, Row, Shown, Variability};
 use crate::spec::Choices;
 
 /// The beginning of a row: a name and what it is.

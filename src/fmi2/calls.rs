@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::call_error::{CallError, CallResult};
+use super::{CallError, CallResult};
 
 /// State of an instance in FMI's state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

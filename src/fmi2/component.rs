@@ -3,12 +3,8 @@
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Call;
-use super::host_memory::HostMemory;
-use super::instance::Instance;
-use super::panic_guard;
 use super::types::{ComponentPointer, Status};
+use super::{Call, CallError, CallResult, HostMemory, Instance, panic_guard};
 
 /// What fmi2Component points to.
 pub struct Component {

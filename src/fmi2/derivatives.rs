@@ -1,12 +1,8 @@
 //! Derivatives: of inputs, as the host sets them; of outputs with respect to time; directional derivatives.
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Phase;
-use super::host_memory::{InputArray, OutputArray};
-use super::instance::Instance;
-use super::snapshot::Snapshot;
 use super::types::Kind;
 use super::values::{finite, row, wrong_type};
+use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase, Snapshot};
 use crate::model::{
     Along, Direction, Forces, InputDerivatives, Inputs, Kept, ORDERS, PairLines, STATES, STENCIL, Simulation,
 };

@@ -1,10 +1,7 @@
 //! Model exchange: the host's solver integrates the states, the instance computes derivatives and events.
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Phase;
-use super::host_memory::{InputArray, OutputArray};
-use super::instance::Instance;
 use super::types::{EventInfo, Kind};
+use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase};
 use crate::model::{INDICATORS, STATES, Simulation, StepFailure};
 use crate::variables::table;
 
@@ -90,64 +87,50 @@ impl Instance {
     /// fmi2GetContinuousStates.
     pub fn get_continuous_states(&mut self, values: OutputArray<f64>) -> CallResult {
         let states = self.exchange_simulation()?.states();
-        check_count("states", STATES, values.len())?;
-        if let Some(k) = states.iter().position(|x| !x.is_finite()) {
-            let name = table().rows[table().states[k]].name;
-            return Err(CallError::discard(format!("{name} is not a finite number")));
-        }
-        fill(&states, values);
-        Ok(())
+        fill("states", &states, values, |k| format!("{} is not a finite number", table().rows[table().states[k]].name))
     }
 
     /// fmi2GetDerivatives.
     pub fn get_derivatives(&mut self, values: OutputArray<f64>) -> CallResult {
         let rates = self.exchange_simulation()?.state_rates();
-        check_count("derivatives", STATES, values.len())?;
-        if let Some(k) = rates.iter().position(|x| !x.is_finite()) {
+        fill("derivatives", &rates, values, |k| {
             let name = table().rows[table().derivatives[k]].name;
-            return Err(CallError::discard(format!(
-                "{name} is not a finite number at these states; take a shorter step or check the inputs"
-            )));
-        }
-        fill(&rates, values);
-        Ok(())
+            format!("{name} is not a finite number at these states; take a shorter step or check the inputs")
+        })
     }
 
     /// fmi2GetEventIndicators.
     pub fn get_event_indicators(&mut self, values: OutputArray<f64>) -> CallResult {
         let indicators = self.exchange_simulation()?.indicators();
-        check_count("event indicators", INDICATORS, values.len())?;
-        if let Some(k) = indicators.iter().position(|x| !x.is_finite()) {
-            return Err(CallError::discard(format!(
+        fill("event indicators", &indicators, values, |k| {
+            format!(
                 "event indicator {k} is not a finite number at these states; take a shorter step or check the inputs"
-            )));
-        }
-        fill(&indicators, values);
-        Ok(())
+            )
+        })
     }
 
     /// fmi2GetNominalsOfContinuousStates.
     pub fn get_nominals(&mut self, values: OutputArray<f64>) -> CallResult {
         self.check_model_exchange()?;
         let nominals = table().states.map(|i| table().rows[i].nominal.unwrap_or(1.0));
-        check_count("nominals", STATES, values.len())?;
-        fill(&nominals, values);
-        Ok(())
+        fill("nominals", &nominals, values, |_| String::new())
     }
 }
 
-/// Writes `numbers` into `values`, which has the same length.
-fn fill(numbers: &[f64], values: OutputArray<f64>) {
-    for (number, value) in numbers.iter().zip(values.iter()) {
-        value.write(*number);
+/// Writes `numbers` into `values` unless the host has room for another count of `what`, or one of them is not finite, of which
+/// `told` says why it is refused.
+fn fill(what: &str, numbers: &[f64], values: OutputArray<f64>, told: impl Fn(usize) -> String) -> CallResult {
+    if numbers.len() != values.len() {
+        return Err(wrong_count(what, numbers.len(), values.len()));
     }
+    if let Some(k) = numbers.iter().position(|x| !x.is_finite()) {
+        return Err(CallError::discard(told(k)));
+    }
+    numbers.iter().zip(values.iter()).for_each(|(number, value)| value.write(*number));
+    Ok(())
 }
 
-/// Refuses a count that differs from the model description.
-fn check_count(what: &str, expected: usize, found: usize) -> CallResult {
-    if expected == found { Ok(()) } else { Err(wrong_count(what, expected, found)) }
-}
-
+/// The error of a count that differs from the model description.
 fn wrong_count(what: &str, expected: usize, found: usize) -> CallError {
     CallError::error(format!("there are {expected} {what}, not {found}"))
 }

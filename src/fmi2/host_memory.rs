@@ -9,8 +9,8 @@ use std::ffi::CStr;
 use std::mem::MaybeUninit;
 use std::slice;
 
-use super::call_error::{CallError, CallResult};
 use super::types::Text;
+use super::{CallError, CallResult};
 
 /// The host's memory during one call: everything borrowed from it ends with the call.
 pub struct HostMemory(());

@@ -1,10 +1,7 @@
 //! An FMU instance as FMI sees it: life cycle and steps, on top of `model::Simulation`. No pointers here.
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Phase;
-use super::log::{Category, Log};
-use super::snapshot::Snapshot;
 use super::types::{DO_STEP_STATUS, Kind, LAST_SUCCESSFUL_TIME, Status, TERMINATED};
+use super::{CallError, CallResult, Category, Log, Phase, Snapshot};
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};

@@ -26,9 +26,13 @@ mod snapshot;
 mod types;
 mod values;
 
-pub use calls::Phase;
+use call_error::{CallError, CallResult};
+pub use calls::{Call, Phase};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
 pub use exports::*;
-pub use log::Category;
+use host_memory::{HostMemory, InputArray, OutputArray};
+use instance::{Experiment, Instance};
+pub use log::{Category, Log};
+use snapshot::Snapshot;
 pub use types::*;

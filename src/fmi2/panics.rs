@@ -3,12 +3,10 @@
 
 use std::ffi::CString;
 
-use super::calls::{Call, Phase};
 use super::component::{Component, run};
 use super::exports::{fmi2FreeInstance, fmi2GetReal, fmi2Reset};
-use super::instance::Instance;
-use super::log::Log;
 use super::types::{ComponentPointer, Kind, Status};
+use super::{Call, Instance, Log, Phase};
 
 #[path = "../../tests/common/recorder.rs"]
 mod recorder;
@@ -58,7 +56,7 @@ fn a_panic_without_a_text_is_an_error_too() {
 }
 
 /// Entries that catch panics. Two functions return a constant and cannot panic.
-const ENTRIES: [&str; 5] = ["{ run(c, Call::", "panic_guard::catch(", "component::free(c)", "c\"default\"", "c\"2.0\""];
+const ENTRIES: [&str; 5] = ["call!(c, ", "panic_guard::catch(", "component::free(c)", "c\"default\"", "c\"2.0\""];
 
 #[test]
 fn every_export_catches_panics() {
@@ -81,4 +79,5 @@ fn every_export_catches_panics() {
     }
     let unmangled: usize = files.iter().map(|file| file.matches("no_mangle").count()).sum();
     assert_eq!(seen, unmangled);
+    assert!(include_str!("exports/mod.rs").contains("{ run($c, Call::$call, body) }"), "call! goes through `run`");
 }

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::calls::Phase;
+use super::Phase;
 use super::types::Kind;
 use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
@@ -17,7 +17,7 @@ const VERSION: u32 = 11;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Everything of an instance that changes. Cloning copies the state and shares the constants.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Model exchange or co-simulation.
     pub kind: Kind,
@@ -38,6 +38,7 @@ pub struct Snapshot {
     /// Whether the host set the solver's tolerance itself.
     pub tolerance_chosen: bool,
     /// The simulation; none before initialisation, or when something was set since it was built.
+    #[serde(skip)] // it follows from the parameters and what `Payload` adds
     pub simulation: Option<Simulation>,
 }
 
@@ -59,21 +60,8 @@ impl Snapshot {
     }
 }
 
-/// The serialised part of a snapshot: all but what follows from the parameters.
-#[derive(Serialize, Deserialize)]
-struct Payload {
-    kind: Kind,
-    phase: Phase,
-    parameters: Parameters,
-    inputs: Inputs,
-    input_derivatives: Option<InputDerivatives>,
-    derivatives_set: u32,
-    start_time: f64,
-    stop_time: Option<f64>,
-    tolerance_chosen: bool,
-    state: Option<(State, Watched)>,
-    accepted: Option<Accepted>,
-}
+/// What of a simulation is serialised behind its snapshot: all but what follows from the parameters.
+type Running = (Option<(State, Watched)>, Option<Accepted>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
@@ -97,20 +85,12 @@ impl Snapshot {
 
     /// The snapshot as bytes.
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        let payload = postcard::to_allocvec(&Payload {
-            kind: self.kind,
-            phase: self.phase,
-            parameters: self.parameters,
-            inputs: self.inputs,
-            input_derivatives: self.input_derivatives,
-            derivatives_set: self.derivatives_set,
-            start_time: self.start_time,
-            stop_time: self.stop_time,
-            tolerance_chosen: self.tolerance_chosen,
-            state: self.simulation.as_ref().map(|s| (*s.state(), *s.watched())),
-            accepted: self.simulation.as_ref().and_then(|s| s.accepted().copied()),
-        })
-        .map_err(|e| format!("the state cannot be serialised: {e}"))?;
+        let running: Running = self
+            .simulation
+            .as_ref()
+            .map_or((None, None), |s| (Some((*s.state(), *s.watched())), s.accepted().copied()));
+        let payload =
+            postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
         bytes.extend(MAGIC);
         bytes.extend(VERSION.to_le_bytes());
@@ -124,68 +104,38 @@ impl Snapshot {
     /// The snapshot in `bytes`, or why they cannot be used.
     pub fn from_bytes(bytes: &[u8], kept: &Kept) -> Result<Self, String> {
         let payload = open(bytes)?;
-        let (payload, rest) =
-            postcard::take_from_bytes::<Payload>(payload).map_err(|e| format!("the state cannot be read: {e}"))?;
+        let read = postcard::take_from_bytes::<(Self, Running)>(payload);
+        let ((mut snapshot, running), rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
         if !rest.is_empty() {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
-        payload.check()?;
-        let Payload {
-            kind,
-            phase,
-            parameters,
-            inputs,
-            input_derivatives,
-            derivatives_set,
-            start_time,
-            stop_time,
-            tolerance_chosen,
-            ..
-        } = payload;
-        let mut snapshot = Self {
-            kind,
-            phase,
-            parameters,
-            inputs,
-            input_derivatives,
-            derivatives_set,
-            start_time,
-            stop_time,
-            tolerance_chosen,
-            simulation: None,
-        };
-        if let Some(state) = payload.state {
-            let resumed = Simulation::resume_with(&snapshot.effective(), &inputs, state, &given(kept));
-            let resumed = resumed.map_err(|p| problem::list(&p))?;
-            snapshot.simulation = Some(resumed.from_accepted(payload.accepted));
+        snapshot.check(&running)?;
+        if let (Some(state), accepted) = running {
+            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, state, &given(kept));
+            snapshot.simulation = Some(resumed.map_err(|p| problem::list(&p))?.from_accepted(accepted));
         }
         Ok(snapshot)
     }
-}
 
-impl Payload {
     /// Checks that the values are valid; the checksum cannot show that.
-    fn check(&self) -> Result<(), String> {
+    fn check(&self, (state, accepted): &Running) -> Result<(), String> {
         let needs_state = !matches!(self.phase, Phase::Instantiated | Phase::Initialization | Phase::Error);
-        if needs_state && self.state.is_none() {
+        if needs_state && state.is_none() {
             return Err(format!("the state of the simulation is missing in the FMI state \"{}\"", self.phase.name()));
         }
         if !self.start_time.is_finite()
-            || self.state.as_ref().is_some_and(|(state, watched)| !state.is_valid() || !watched.is_valid())
-        {
-            return Err("the state has values that are not finite".into());
-        }
-        if self.accepted.as_ref().is_some_and(|a| !a.is_valid())
+            || state.as_ref().is_some_and(|(state, watched)| !state.is_valid() || !watched.is_valid())
+            || accepted.as_ref().is_some_and(|a| !a.is_valid())
             || self.input_derivatives.is_some_and(|c| !c.is_finite())
         {
             return Err("the state has values that are not finite".into());
         }
-        if self.accepted.is_some() && self.kind != Kind::ModelExchange {
+        if accepted.is_some() && self.kind != Kind::ModelExchange {
             return Err("a step completed by the host's solver does not belong to an instance for co-simulation".into());
         }
         let exchanges = matches!(self.phase, Phase::Event | Phase::ContinuousTime);
         let steps = matches!(self.phase, Phase::StepComplete | Phase::StepFailed);
-        if exchanges && (self.kind != Kind::ModelExchange || self.accepted.is_none())
+        if exchanges && (self.kind != Kind::ModelExchange || accepted.is_none())
             || steps && self.kind != Kind::CoSimulation
         {
             return Err(format!("the state \"{}\" does not belong to this kind of instance", self.phase.name()));
@@ -196,7 +146,7 @@ impl Payload {
                 check_value(row, *slot(&mut inputs)).map_err(|p| p.to_string())?;
             }
         }
-        let problems = if self.state.is_some() { check_ranges(&self.parameters) } else { Vec::new() };
+        let problems = if state.is_some() { check_ranges(&self.parameters) } else { Vec::new() };
         if problems.is_empty() { Ok(()) } else { Err(problem::list(&problems)) }
     }
 }

@@ -1,9 +1,7 @@
 //! Getting and setting variables by value reference. A set call is checked as a whole before anything is set.
 
-use super::call_error::{CallError, CallResult};
-use super::calls::Phase;
-use super::host_memory::{InputArray, OutputArray};
-use super::instance::{Instance, is_tolerance};
+use super::instance::is_tolerance;
+use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase};
 use crate::model::{LedgerReadings, Motion};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, check_value, table, tuned};
 

@@ -6,10 +6,7 @@
 //! Source: Benedict, Kelley (1961), Instantaneous coefficients of gear tooth friction, ASLE Trans. 4, p. 59; in the
 //! units used here AGMA 925-A03, 6.2.2, which holds the roughness factor between 1 and 3.
 
-use super::conditions::Conditions;
-use super::range::Outside;
-use super::smooth;
-use super::spec::ToothFrictionSpec;
+use super::{Conditions, Outside, ToothFrictionSpec, smooth};
 use crate::numeric::Scalar;
 
 /// Least argument of the logarithm: one decade. Fast, lightly loaded contacts carry a full film, which the disc tests did

@@ -3,7 +3,7 @@
 //! Source: Armstrong-Hélouvry, Dupont and Canudas de Wit (1994), Automatica 30, p. 1083, with the Gaussian exponent 2:
 //! in the square of v the coefficient is even and has all derivatives at zero.
 
-use super::spec::{LARGEST, ToothFrictionSpec};
+use super::{LARGEST, ToothFrictionSpec};
 use crate::numeric::Scalar;
 
 /// Coefficient at the sliding speed `v` [m/s] of either sign; without a peak it is a constant and costs nothing.

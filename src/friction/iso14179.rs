@@ -7,10 +7,7 @@
 //!
 //! Source: ISO/TR 14179-2:2001, after Schlenk (1994) and Niemann, Winter, Maschinenelemente II.
 
-use super::conditions::Conditions;
-use super::range::Outside;
-use super::smooth;
-use super::spec::ToothFrictionSpec;
+use super::{Conditions, Outside, ToothFrictionSpec, smooth};
 use crate::numeric::{Scalar, sqrt};
 
 /// Least line load [N/m].

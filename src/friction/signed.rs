@@ -1,9 +1,10 @@
 //! The signed coefficient of friction by any law, and the check of its published range.
 
-use super::conditions::{Conditions, limited, magnitude};
-use super::range::Outside;
-use super::spec::{FrictionLaw, LARGEST, ToothFrictionSpec};
-use super::{benedict_kelley, coulomb, iso14179, smooth, xu_kahraman};
+use super::conditions::{limited, magnitude};
+use super::{
+    Conditions, FrictionLaw, LARGEST, Outside, ToothFrictionSpec, benedict_kelley, coulomb, iso14179, smooth,
+    xu_kahraman,
+};
 use crate::numeric::Scalar;
 
 /// Width of the transition below [`LARGEST`]: coefficients up to 0.2 stay unchanged.

@@ -65,7 +65,7 @@ impl ToothFrictionSpec {
             return Some(Problem::new("tooth_friction.static_ratio", message));
         }
         let bad = positive.iter().find(|(_, value, _)| !(*value > 0.0 && value.is_finite()))?;
-        Some(Problem::new(bad.0, format!("{} {} is not a positive number", bad.1, bad.2)))
+        Some(problem!(bad.0, "{} {} is not a positive number", bad.1, bad.2))
     }
 
     /// v_ε [m/s], never zero.

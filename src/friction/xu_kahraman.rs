@@ -9,10 +9,7 @@
 //! Ohio State University; Xu, Kahraman, Anderson, Maddock (2007), J. Mech. Des. 129, p. 58. Coefficients and units were
 //! compared with two later uses of the formula. It was fitted to one oil, 75W-90.
 
-use super::conditions::Conditions;
-use super::range::Outside;
-use super::smooth;
-use super::spec::ToothFrictionSpec;
+use super::{Conditions, Outside, ToothFrictionSpec, smooth};
 use crate::numeric::Scalar;
 
 /// b₁ … b₉, at their own indices.

@@ -12,8 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::corner::CornerGap;
-use super::pair::Pair;
+use super::{CornerGap, Pair};
 use crate::numeric::{PI, TAU, atan2, cos, sin, sqrt};
 
 /// Largest approach for which corners are tabulated [rad]: beyond that of any tooth that does not break.

@@ -4,7 +4,7 @@
 //! h_a2 = (0.540 + 0.460/u_v) m with u_v = z₂ cosδ₁ / (z₁ cosδ₂), working depth 2 m, whole depth 2.188 m + 0.05 mm.
 //! ISO 23509:2016 writes the same split as a mean addendum factor c_ham = 0.21 + 0.29/u_v of the depth 2 m.
 
-use super::spec::{AddendumSystem, GearSpec};
+use super::{AddendumSystem, GearSpec};
 
 /// Addendum and dedendum at the outer cone distance [m].
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,8 +3,7 @@
 //! N equally spaced planets assemble if 2 z_s / N is an integer. Mesh i on the left side is then
 //! h_iL = p_b frac(z_s φ_i / 2π) into its cycle (0 or half a pitch); the right side adds half a pitch for odd z_p.
 
-use super::pair::Pair;
-use super::spec::GearSpec;
+use super::{GearSpec, Pair};
 use crate::numeric::{TAU, frac};
 use crate::problem::Problem;
 
@@ -21,14 +20,12 @@ pub fn phases(spec: &GearSpec) -> Result<Vec<Phases>, Problem> {
     let (n, z_s) = (spec.planet_count, spec.side_teeth);
     if 2 * z_s % n != 0 {
         let fitting: Vec<String> = (2..=4).filter(|k| 2 * z_s % k == 0).map(|k| k.to_string()).collect();
-        return Err(Problem::new(
+        return Err(problem!(
             "geometry.planet_count",
-            format!(
-                "{n} equally spaced planets cannot be assembled with {z_s} side gear teeth: the assembly condition \
-                 2 side_teeth / planet_count = {:.4} must be an integer; planet counts that fit: {}",
-                2.0 * f64::from(z_s) / f64::from(n),
-                fitting.join(", ")
-            ),
+            "{n} equally spaced planets cannot be assembled with {z_s} side gear teeth: the assembly condition \
+             2 side_teeth / planet_count = {:.4} must be an integer; planet counts that fit: {}",
+            2.0 * f64::from(z_s) / f64::from(n),
+            fitting.join(", ")
         ));
     }
     let odd = if spec.planet_teeth % 2 == 1 { 0.5 } else { 0.0 };

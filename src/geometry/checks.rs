@@ -1,9 +1,8 @@
 //! Validation of gear pairs: errors for pairs that cannot be built, warnings for those that a gear engineer would question.
 
 use super::assembly::between_planets;
-use super::pair::Pair;
 use super::solid::Foot;
-use super::spec::GearSpec;
+use super::{GearSpec, Pair};
 use crate::numeric::{cos, sin};
 use crate::problem::{Problem, told_apart};
 
@@ -28,13 +27,11 @@ const SHARE_OF_FILLET: f64 = 1e-9;
 /// Error if the pair cannot form a differential: the geometry of a pair holds for other angles too.
 pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
     (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
-        Problem::new(
+        problem!(
             "geometry.shaft_angle",
-            format!(
-                "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
-                 small errors of assembly are not a nominal shaft angle",
-                spec.shaft_angle.to_degrees()
-            ),
+            "{:.4} deg: two equal coaxial side gears mesh with one planet only at 90 deg; \
+             small errors of assembly are not a nominal shaft angle",
+            spec.shaft_angle.to_degrees()
         )
     })
 }
@@ -43,66 +40,61 @@ pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
     if pair.inner_cone <= LEAST_INNER_CONE * pair.outer_cone {
-        found.push(Problem::new(
+        found.push(problem!(
             "geometry.face_width",
-            format!(
-                "{:.3} mm leaves no teeth at the toe: the outer cone distance is {:.3} mm; use at most a third of it",
-                spec.face_width * MM,
-                pair.outer_cone * MM
-            ),
+            "{:.3} mm leaves no teeth at the toe: the outer cone distance is {:.3} mm; use at most a third of it",
+            spec.face_width * MM,
+            pair.outer_cone * MM
         ));
     }
     for (i, gear) in pair.gears.iter().enumerate() {
         if gear.root <= LEAST_ROOT_ANGLE {
-            found.push(Problem::new(
+            found.push(problem!(
                 if i == 0 { "geometry.planet_dedendum" } else { "geometry.side_dedendum" },
-                format!("the {}'s root cone would reach its axis: dedendum {:.3} mm", NAMES[i], gear.dedendum * MM),
+                "the {}'s root cone would reach its axis: dedendum {:.3} mm",
+                NAMES[i],
+                gear.dedendum * MM
             ));
         }
         let thinned = spec.backlash / (2.0 * spec.module * f64::from(gear.teeth));
         if gear.half_pitch + thinned <= 0.0 {
-            found.push(Problem::new(
+            found.push(problem!(
                 addendum(i),
-                format!(
-                    "the split of addenda leaves the {} no tooth at the pitch circle; use more equal addenda",
-                    NAMES[i]
-                ),
+                "the split of addenda leaves the {} no tooth at the pitch circle; use more equal addenda",
+                NAMES[i]
             ));
         } else if gear.half_pitch <= 0.0 {
-            found.push(Problem::new(
+            found.push(problem!(
                 "geometry.backlash",
-                format!("{:.3} mm is more than the {}'s whole tooth", spec.backlash * MM, NAMES[i]),
+                "{:.3} mm is more than the {}'s whole tooth",
+                spec.backlash * MM,
+                NAMES[i]
             ));
         } else if land(pair, i) <= 0.0 {
             let unthinned = gear.half_angle(gear.tip) + thinned > 0.0;
-            found.push(Problem::new(
+            found.push(problem!(
                 if unthinned { "geometry.backlash" } else { addendum(i) },
-                format!(
-                    "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm for backlash",
-                    NAMES[i],
-                    gear.addendum * MM,
-                    spec.backlash / 2.0 * MM
-                ),
+                "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm for backlash",
+                NAMES[i],
+                gear.addendum * MM,
+                spec.backlash / 2.0 * MM
             ));
         }
         let mate = &pair.gears[1 - i];
         if gear.addendum >= mate.dedendum {
             let [tip, room] = told_apart([gear.addendum * MM, mate.dedendum * MM], 3);
-            found.push(Problem::new(
+            found.push(problem!(
                 addendum(i),
-                format!(
-                    "the {}'s tip would strike the {}'s root: addendum {tip} mm, dedendum {room} mm",
-                    NAMES[i],
-                    NAMES[1 - i]
-                ),
+                "the {}'s tip would strike the {}'s root: addendum {tip} mm, dedendum {room} mm",
+                NAMES[i],
+                NAMES[1 - i]
             ));
         }
         let (name, bore) = bore(spec, i);
         let toe_root = 2.0 * pair.inner_cone * sin(gear.root);
         if bore >= toe_root && pair.inner_cone > 0.0 {
             let [bore, limit] = told_apart([bore * MM, toe_root * MM], 3);
-            found
-                .push(Problem::new(name, format!("{bore} mm is not less than the root circle at the toe, {limit} mm")));
+            found.push(problem!(name, "{bore} mm is not less than the root circle at the toe, {limit} mm"));
         }
     }
     if pair.path.contact_ratio <= 0.0 {
@@ -124,23 +116,24 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         if pair.path.clipped[i] {
             let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
             let [modules, limit] = told_apart([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
-            found.push(Problem::new(
+            found.push(problem!(
                 "geometry.addendum_system",
-                format!(
-                    "{what}: the {}'s addendum {:.3} mm = {modules} m exceeds the limit {limit} m at {:.1} deg; \
-                     the path of contact ends at the {}'s base circle",
-                    NAMES[1 - i],
-                    mate.addendum * MM,
-                    pair.pressure_angle.to_degrees(),
-                    NAMES[i]
-                ),
+                "{what}: the {}'s addendum {:.3} mm = {modules} m exceeds the limit {limit} m at {:.1} deg; \
+                 the path of contact ends at the {}'s base circle",
+                NAMES[1 - i],
+                mate.addendum * MM,
+                pair.pressure_angle.to_degrees(),
+                NAMES[i]
             ));
         }
         let land = land(pair, i);
         if land < POINTED_LAND * m {
-            found.push(Problem::new(
+            found.push(problem!(
                 "geometry.addendum_system",
-                format!("pointed {} teeth: tip land {:.3} mm = {:.3} m at the heel", NAMES[i], land * MM, land / m),
+                "pointed {} teeth: tip land {:.3} mm = {:.3} m at the heel",
+                NAMES[i],
+                land * MM,
+                land / m
             ));
         }
         let (name, bore) = bore(spec, i);
@@ -148,9 +141,10 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         let toe_module = m * pair.inner_cone / pair.outer_cone;
         if bore > 0.0 && rim < RIM * toe_module {
             let [rim, least] = told_apart([rim * MM, RIM * toe_module * MM], 2);
-            found.push(Problem::new(
+            found.push(problem!(
                 name,
-                format!("the {}'s rim at the toe is {rim} mm, thinner than 2 modules there ({least} mm)", NAMES[i]),
+                "the {}'s rim at the toe is {rim} mm, thinner than 2 modules there ({least} mm)",
+                NAMES[i]
             ));
         }
     }
@@ -159,18 +153,13 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let share = spec.face_width / pair.outer_cone;
     if share > FACE_WIDTH_LIMIT {
         let [width, usual] = told_apart([spec.face_width * MM, pair.outer_cone * FACE_WIDTH_LIMIT * MM], 2);
-        found.push(Problem::new(
-            "geometry.face_width",
-            format!("{width} mm is {share:.3} R_e, above the usual R_e/3 = {usual} mm"),
-        ));
+        found.push(problem!("geometry.face_width", "{width} mm is {share:.3} R_e, above the usual R_e/3 = {usual} mm"));
     }
     if pair.path.contact_ratio < 1.0 && pair.path.contact_ratio > 0.0 {
-        found.push(Problem::new(
+        found.push(problem!(
             "geometry.addendum_system",
-            format!(
-                "contact ratio {:.3} is below 1: tip corners transmit the motion in between",
-                pair.path.contact_ratio
-            ),
+            "contact ratio {:.3} is below 1: tip corners transmit the motion in between",
+            pair.path.contact_ratio
         ));
     }
     found
@@ -184,15 +173,13 @@ fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
     let room = |&n: &i32| 2 * spec.side_teeth % n == 0 && between_planets(pair, n) >= 0.0;
     let fitting: Vec<String> = PLANET_COUNTS.filter(room).map(|n| n.to_string()).collect();
     let hint = if fitting.is_empty() { "no planet count has room".into() } else { fitting.join(", ") + " have room" };
-    Some(Problem::new(
+    Some(problem!(
         "geometry.planet_count",
-        format!(
-            "{count} planets strike each other: the tip cones of neighbours overlap by {:.3} deg, tip angle {:.3} deg, \
-             at most {:.3} deg; use fewer planets ({hint}) or more side gear teeth",
-            -between.to_degrees(),
-            pair.gears[0].tip.to_degrees(),
-            180.0 / f64::from(count)
-        ),
+        "{count} planets strike each other: the tip cones of neighbours overlap by {:.3} deg, tip angle {:.3} deg, \
+         at most {:.3} deg; use fewer planets ({hint}) or more side gear teeth",
+        -between.to_degrees(),
+        pair.gears[0].tip.to_degrees(),
+        180.0 / f64::from(count)
     ))
 }
 
@@ -209,16 +196,14 @@ fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
         } else {
             "it would end above the pitch cone"
         };
-        Problem::new(
+        problem!(
             "geometry.root_fillet",
-            format!(
-                "the {}'s root fillet is cut to {:.3} mm = {:.3} m at the heel, not {:.3} mm = {:.3} m: {why}",
-                NAMES[i],
-                got * pair.outer_cone * MM,
-                got * pair.outer_cone / pair.module,
-                wanted * pair.outer_cone * MM,
-                spec.root_fillet
-            ),
+            "the {}'s root fillet is cut to {:.3} mm = {:.3} m at the heel, not {:.3} mm = {:.3} m: {why}",
+            NAMES[i],
+            got * pair.outer_cone * MM,
+            got * pair.outer_cone / pair.module,
+            wanted * pair.outer_cone * MM,
+            spec.root_fillet
         )
     })
 }

@@ -10,7 +10,7 @@
 
 use std::sync::Arc;
 
-use super::pair::Pair;
+use super::Pair;
 use crate::numeric::{Jet, Scalar, atan2, cos, sin, sin_cos, sqrt, tan};
 
 /// Cells per doubling of Δ: graded toward the path's end, where the mate's flank may curve sharply, so that the table's

@@ -13,5 +13,7 @@ pub mod pair;
 pub mod solid;
 mod spec;
 
+pub use corner::{ClosedForm, CornerGap};
+pub use involute::Gear;
 pub use pair::{Pair, Path, Tredgold};
 pub use spec::{AddendumSystem, GearSpec};

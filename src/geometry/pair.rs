@@ -7,8 +7,7 @@
 use serde::Serialize;
 
 use super::addendum::tooth_heights;
-use super::involute::Gear;
-use super::spec::GearSpec;
+use super::{Gear, GearSpec};
 use crate::numeric::{FRAC_PI_2, PI, TAU, asin, atan2, cos, sin, tan};
 
 /// Geometry of a planet (index 0) meshing with a side gear (index 1).

@@ -6,7 +6,7 @@
 //!   (I/s − D − s K B) U_v = r_v + s K r_q,   U_q = s (r_q + B U_v).
 
 use super::linear::{Inverse, Shape, add_times, times};
-use super::system::{Linearisation, Matrix, Point, SecondOrder};
+use super::{Linearisation, Matrix, Point, SecondOrder};
 use crate::numeric::lanes;
 
 /// I/s − J, inverted.

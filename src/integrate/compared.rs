@@ -1,11 +1,6 @@
 //! Methods that are there to compare with, chosen at run time: the loop of steps is compiled once for all of them.
 
-use super::dormand_prince::DormandPrince;
-use super::method::{ErrorNorm, Method, Trial};
-use super::radau::Radau;
-use super::rodas4::Rodas4;
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::{DormandPrince, ErrorNorm, Linearisation, Method, Point, Radau, Rodas4, SecondOrder, Statistics, Trial};
 
 /// A method of variable steps other than the default.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

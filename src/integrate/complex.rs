@@ -10,7 +10,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use super::linear::LEAST_PIVOT;
-use super::system::{Linearisation, Matrix, Point, SecondOrder};
+use super::{Linearisation, Matrix, Point, SecondOrder};
 
 /// A complex number.
 #[derive(Clone, Copy, Debug, PartialEq)]

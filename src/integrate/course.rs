@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::system::Point;
+use super::Point;
 
 /// y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))): a component of the continuous extension of a step, from its
 /// ends and bends b. One that does not change in the step keeps its bits.

@@ -11,10 +11,8 @@
 //! The first stage is the driver's evaluation at the start of a step for the ledger, so that the last stage need not be
 //! passed on from step to step.
 
-use super::course::Extension;
-use super::method::{ErrorNorm, Method, Trial, combine};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::method::combine;
+use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct DormandPrince;

@@ -5,10 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::course::{Attempt, Course, Pending};
-use super::method::{ErrorNorm, Method, Trial};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::{Attempt, Course, ErrorNorm, Linearisation, Method, Pending, Point, SecondOrder, Statistics, Trial};
 
 /// State of the step-size controller between calls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

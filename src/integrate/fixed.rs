@@ -14,10 +14,8 @@
 //! linearised at its end. The system shortens an iteration (θ < 1) that would jump deep into a contact which the
 //! linearisation does not contain yet.
 
-use super::driver::{AfterStep, Failure, Step};
 use super::linear::{Inverse, Shape};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Matrix, Point, SecondOrder};
+use super::{AfterStep, Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;

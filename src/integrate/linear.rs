@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use super::system::{Matrix, SecondOrder};
+use super::{Matrix, SecondOrder};
 use crate::numeric::lanes;
 
 /// Least pivot over the element on the diagonal that it comes from.

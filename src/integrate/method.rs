@@ -1,8 +1,6 @@
 //! Interface of one-step methods: all that the driver, the step-size control and the tests use of them.
 
-use super::course::Extension;
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::{Extension, Linearisation, Point, SecondOrder, Statistics};
 use crate::numeric::lanes;
 
 /// Result of a step that may still be rejected.

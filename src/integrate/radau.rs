@@ -16,11 +16,9 @@
 
 use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
-use super::course::Extension;
 use super::linear::Shape;
-use super::method::{ErrorNorm, Method, Trial, combine};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::method::combine;
+use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct Radau;

@@ -4,10 +4,8 @@
 //! coefficients and the continuous extension (of order 3) of their code RODAS, first set. The error estimate is the
 //! difference to the embedded solution. Smooth stiff forcing (Prothero–Robinson) lowers its order, which Rodas5P avoids.
 
-use super::method::{ErrorNorm, Method, Trial};
 use super::rosenbrock::{self, Tableau};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct Rodas4;

@@ -4,10 +4,8 @@
 //! Differential Equations package, BIT Numerical Mathematics 63:27 (2023). It keeps its order on stiff problems with
 //! smooth forcing (Prothero–Robinson), such as a damped mesh rolling through its tooth cycle.
 
-use super::method::{ErrorNorm, Method, Trial};
 use super::rosenbrock::{self, Tableau};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
 
 /// The method.
 pub struct Rodas5P;

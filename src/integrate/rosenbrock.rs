@@ -10,11 +10,9 @@
 //! t₀ + h Σ a_ij g_j, and h g_i ∂f/∂t joins the right-hand side.
 
 use super::block::Block;
-use super::course::Extension;
 use super::linear::Shape;
-use super::method::{ErrorNorm, Trial, combine};
-use super::statistics::Statistics;
-use super::system::{Linearisation, Point, SecondOrder};
+use super::method::combine;
+use super::{ErrorNorm, Extension, Linearisation, Point, SecondOrder, Statistics, Trial};
 
 /// Coefficients of a stiffly accurate Rosenbrock method with `S` stages.
 pub struct Tableau<const S: usize> {

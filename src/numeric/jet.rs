@@ -2,8 +2,8 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use super::Scalar;
 use super::elementary::atan2;
-use super::scalar::Scalar;
 
 /// Second-order Taylor arithmetic: value, first and second derivative.
 #[derive(Clone, Copy, Debug, PartialEq)]

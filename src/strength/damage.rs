@@ -2,8 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::counting::Rolling;
-use super::miner::Damage;
+use super::{Damage, Rolling};
 
 /// Damage by load on one flank.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

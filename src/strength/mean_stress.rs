@@ -11,7 +11,7 @@
 //!
 //! On r ≤ 1 it is the line of ISO 6336-3's idler factor: Y_M = 1/(1 − R(1 − M)/(1 + M)), (1 + M)/2 at R = −1.
 
-use super::rainflow::LoadCycle;
+use super::LoadCycle;
 
 /// Range [unit of the cycle] of the pulsating cycle equal in damage to `cycle` at the sensitivity `m`, 0 ≤ m < 1.
 ///

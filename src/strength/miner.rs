@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::material::SnCurve;
+use super::SnCurve;
 
 /// Damage of one flank or one root, grown cycle by cycle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -2,10 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::face_load;
-use super::hertz::LineContact;
-use super::material::{Material, SnCurve};
-use super::root_stress::RootStress;
+use super::{LineContact, Material, RootStress, SnCurve, face_load};
 use crate::geometry::Pair;
 
 /// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).

@@ -18,7 +18,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::tooth_form::{Profile, ToothForm};
+use super::{Profile, ToothForm};
 use crate::geometry::{Pair, Tredgold};
 use crate::numeric::{cos, sqrt};
 

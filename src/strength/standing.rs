@@ -8,9 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::mean_stress::pulsating_range;
-use super::miner::Damage;
-use super::rainflow::{LoadCycle, Rainflow};
-use super::rating::Rating;
+use super::{Damage, LoadCycle, Rainflow, Rating};
 
 /// Reversals of stress up to this part of the strength are no cycles.
 const GATE: f64 = 0.01;

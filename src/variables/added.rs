@@ -1,7 +1,7 @@
 //! Variables that were added later. Their value references come after all others, so that those of the others stay what they
 //! were: hosts store them.
 
-use super::access::Variable;
+use super::Variable;
 
 /// Their names, in the order of their value references. New ones go to the end.
 const ADDED: &[&str] = &[

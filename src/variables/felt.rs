@@ -10,8 +10,9 @@
 
 use std::sync::OnceLock;
 
-use super::access::{Access, Variable};
+use super::named::{number, number_of};
 use super::table::table;
+use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 
@@ -64,7 +65,7 @@ impl Condition {
         let mut words = text.split(' ');
         let (name, sign, values) = (words.next()?, words.next()?, words.next()?);
         let index = table().rows.iter().position(|row| row.name == name)?;
-        let values = values.split('|').map(|word| number_of(&table().rows[index], word)).collect::<Option<Vec<_>>>()?;
+        let values = values.split('|').map(|word| number_in(&table().rows[index], word)).collect::<Option<Vec<_>>>()?;
         match sign {
             "=" => Some(Self::OneOf(index, values)),
             "!=" => Some(Self::NoneOf(index, values)),
@@ -106,26 +107,11 @@ fn split<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
 }
 
 /// The number that a word stands for as a value of `row`.
-fn number_of(row: &Variable, word: &str) -> Option<f64> {
+fn number_in(row: &Variable, word: &str) -> Option<f64> {
     match row.access {
-        Access::Enumeration(kind, ..) => {
-            kind.choices.iter().find(|choice| choice.name == word).map(|c| f64::from(c.value))
-        }
-        Access::Boolean(_) => word.parse().ok().map(|on: bool| f64::from(on)),
+        Access::Enumeration(..) | Access::Boolean(_) => number_of(row, word).ok(),
         _ => word.parse().ok(),
     }
-}
-
-/// Value of a parameter or of an input as a number; outputs have none.
-pub fn number(row: &Variable, parameters: &mut Parameters, inputs: &mut Inputs) -> Option<f64> {
-    Some(match row.access {
-        Access::Real(at) => *at(parameters),
-        Access::Integer(at) => f64::from(*at(parameters)),
-        Access::Boolean(at) => f64::from(*at(parameters)),
-        Access::Enumeration(_, get, _) => f64::from(get(parameters)),
-        Access::Input(at) => *at(inputs),
-        Access::Output(_) => return None,
-    })
 }
 
 fn parameter(index: usize, parameters: &mut Parameters) -> Option<f64> {
@@ -174,7 +160,7 @@ pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situa
     let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
     let when = row.when.filter(|_| missing(&needs.when)).map(|text| text.replace('|', " or "));
     let acts: Vec<String> = switch.into_iter().chain(when).collect();
-    Some(Problem::new(row.name, format!("{}{UNFELT}{}", written(row, value), acts.join(", and with "))))
+    Some(problem!(row.name, "{}{UNFELT}{}", written(row, value), acts.join(", and with ")))
 }
 
 /// What these warnings have in common.

@@ -1,7 +1,7 @@
 //! Variables by their names, and values put where they belong.
 
-use super::access::{Access, Variable};
 use super::table::{check_value, table};
+use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
 
@@ -12,7 +12,7 @@ pub fn named(name: &str) -> Option<&'static Variable> {
 
 /// Sets a parameter or an input: to a number in the unit of the interface, true and false as 1 and 0, and a choice by its number.
 pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &mut Inputs) -> Result<(), Problem> {
-    let wrong = |what: &str| Err(Problem::new(row.name, format!("{value} {what}")));
+    let wrong = |what: &str| Err(problem!(row.name, "{value} {what}"));
     let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
     match row.access {
         Access::Output(_) => return Err(Problem::new(row.name, "is an output and cannot be set")),
@@ -42,9 +42,9 @@ pub fn number_of(row: &Variable, text: &str) -> Result<f64, Problem> {
             kind.choices.iter().find(|one| one.name == text).map(|one| f64::from(one.value))
         }
         Access::Boolean(_) => text.parse::<bool>().ok().map(|truth| f64::from(u8::from(truth))),
-        _ => return Err(Problem::new(row.name, format!("\"{text}\" is no number; it has no choices"))),
+        _ => return Err(problem!(row.name, "\"{text}\" is no number; it has no choices")),
     };
-    found.ok_or_else(|| Problem::new(row.name, format!("\"{text}\" is none of {}", choices(row))))
+    found.ok_or_else(|| problem!(row.name, "\"{text}\" is none of {}", choices(row)))
 }
 
 /// What a variable can be set to by name.
@@ -59,13 +59,17 @@ fn choices(row: &Variable) -> String {
 
 /// The value of a parameter or an input; none of an output, which a simulation has.
 pub fn value_of(row: &Variable, parameters: &Parameters, inputs: &Inputs) -> Option<f64> {
-    let (mut p, mut i) = (*parameters, *inputs);
-    match row.access {
-        Access::Real(slot) => Some(*slot(&mut p)),
-        Access::Integer(slot) => Some(f64::from(*slot(&mut p))),
-        Access::Boolean(slot) => Some(f64::from(u8::from(*slot(&mut p)))),
-        Access::Enumeration(_, get, _) => Some(f64::from(get(&p))),
-        Access::Input(slot) => Some(*slot(&mut i)),
-        Access::Output(_) => None,
-    }
+    number(row, &mut { *parameters }, &mut { *inputs })
+}
+
+/// The same for many variables in turn: the table gives access to what it may change.
+pub fn number(row: &Variable, parameters: &mut Parameters, inputs: &mut Inputs) -> Option<f64> {
+    Some(match row.access {
+        Access::Real(slot) => *slot(parameters),
+        Access::Integer(slot) => f64::from(*slot(parameters)),
+        Access::Boolean(slot) => f64::from(*slot(parameters)),
+        Access::Enumeration(_, get, _) => f64::from(get(parameters)),
+        Access::Input(slot) => *slot(inputs),
+        Access::Output(_) => return None,
+    })
 }

@@ -1,8 +1,8 @@
 //! Rows of the outputs.
 
 use super::access::OutputSource::{self, Forces, Heat, Ledger, LedgerReading, Motion, Pair, Parts, Reading};
-use crate::declaration::units::{self, DEG, DEG_PER_S, MM, MPA, Shown};
-use crate::declaration::{Row, row};
+use crate::declaration::units::{self, DEG, DEG_PER_S, MM, MPA};
+use crate::declaration::{Row, Shown, row};
 use crate::model::{CONTACT_HEAT, Changes, efficiency, heats, readings};
 
 type Output = Row<OutputSource>;

@@ -2,9 +2,9 @@
 //!
 //! Some states are outputs; the others, and all derivatives, are local. What a scene does not have is 0.
 
-use super::access::{Access, OutputSource, Variable};
-use crate::declaration::units::{self, DEG, DEG_PER_S, DisplayUnit, MM, Unit};
-use crate::declaration::{Causality, row};
+use super::{Access, OutputSource, Variable};
+use crate::declaration::units::{self, DEG, DEG_PER_S, MM};
+use crate::declaration::{Causality, DisplayUnit, Unit, row};
 use crate::model::{ATTACHED, BODIES, Body, STATES};
 
 /// A state and its derivative.

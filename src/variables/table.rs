@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
-use super::access::{Access, Variable};
+use super::{Access, Variable};
 use crate::declaration::{Causality, Range, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
@@ -52,7 +52,7 @@ pub fn real_start(variable: &Variable) -> Option<f64> {
 /// Checks one number against its row: finite and within range.
 pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
     if !value.is_finite() {
-        return Err(Problem::new(row.name, format!("{value} is not a finite number")));
+        return Err(problem!(row.name, "{value} is not a finite number"));
     }
     let Some(Range { min, max }) = row.range else { return Ok(()) };
     if (min..=max).contains(&value) {

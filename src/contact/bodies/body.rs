@@ -6,8 +6,7 @@
 use nalgebra::Matrix3;
 
 use super::cone::HollowCone;
-use super::root::{RootLoad, RootPatch};
-use super::support::Support;
+use super::{RootLoad, RootPatch, Support};
 use crate::contact::stiffness::{Elasticity, ToothSection};
 use crate::geometry::Pair;
 use crate::numeric::{PI, TAU, sin, sin_cos, sqrt};

@@ -6,10 +6,8 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::body::GearBody;
-use super::root::RootLoad;
-use super::support::Support;
-use crate::contact::pairs::Flank;
+use super::{GearBody, RootLoad, Support};
+use crate::contact::Flank;
 use crate::contact::stiffness::{PairCompliance, SectionPair};
 use crate::geometry::Pair;
 use crate::numeric::{TAU, sqrt};

@@ -8,7 +8,7 @@
 
 use super::mesh::{LoadedTooth, MeshOnBodies};
 use super::polynomial::Polynomial;
-use crate::contact::pairs::Flank;
+use crate::contact::Flank;
 
 /// Pairs that may pull at another at once.
 const PULLING: f64 = 3.0;

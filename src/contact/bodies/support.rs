@@ -39,13 +39,11 @@ impl Support {
         };
         let thickest = Self::widest(pair, i);
         if !(diameter > 0.0 && diameter < thickest) {
-            return Err(Problem::new(
+            return Err(problem!(
                 name,
-                format!(
-                    "a bore of {:.3} mm leaves no body below the teeth: it must be within 0 and {:.3} mm",
-                    diameter * 1e3,
-                    thickest * 1e3
-                ),
+                "a bore of {:.3} mm leaves no body below the teeth: it must be within 0 and {:.3} mm",
+                diameter * 1e3,
+                thickest * 1e3
             ));
         }
         Ok(Held::Cylinder(0.5 * diameter))

@@ -1,6 +1,6 @@
 //! Directions of the normal of a tooth pair, and how its flanks slide on each other.
 
-use super::super::pairs::{Engagement, Spot};
+use crate::contact::{Engagement, Spot};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin, sin_cos, sqrt};
 

@@ -13,8 +13,8 @@
 //! (`carrying`).
 
 use super::carrying::{Moves, Span, carries, carrying};
-use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST, Node, POINTS, nodes};
-use super::{Opening, Slice};
+use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MOST, POINTS, nodes};
+use super::{Node, Opening, Slice};
 
 /// How far past the ends of a face its load is still not zero where eight points serve, by the face's length.
 const CLEAR: f64 = 0.25;

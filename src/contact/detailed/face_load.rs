@@ -10,7 +10,7 @@
 
 use super::face::Cut;
 use super::{Detailed, Opening, SliceLoad};
-use crate::contact::spring::Spring;
+use crate::contact::Spring;
 use crate::numeric::sqrt;
 
 /// A loaded slice of the pair.

@@ -1,8 +1,7 @@
 //! States of a mesh in full detail, its loads, and the slices and gaps that they are made of.
 
-use super::super::pairs::{Flank, Spot, ToothPair};
-use super::super::tooth_friction::Sliding;
 use super::sums::Approach;
+use crate::contact::{Flank, Sliding, Spot, ToothPair};
 use crate::numeric::{Jet, Scalar};
 
 /// Position and motion of a mesh with the axial displacement w of its side gear.

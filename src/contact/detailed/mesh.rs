@@ -1,17 +1,11 @@
 //! The mesh itself: constants, and the sum of loads over tooth pairs.
 
-use super::super::damping::Damping;
-use super::super::laws::{AnySpring, with_spring};
-use super::super::pairs::{Engagement, Flank, Spot, ToothPair};
-use super::super::spring::Spring;
-use super::super::tooth_friction::ToothFriction;
+use super::super::laws::with_spring;
 use super::directions::{Arcs, Directions};
 use super::face::{Cut, Face, Part};
-use super::pair::PairMotion;
-use super::points::Node;
-use super::totals::Totals;
 use super::touching::Touching;
-use super::{DetailedLoad, DetailedState, Gaps, LOCAL, Opening, PairName, SliceLoad};
+use super::{DetailedLoad, DetailedState, Gaps, LOCAL, Node, Opening, PairMotion, PairName, SliceLoad, Totals};
+use crate::contact::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothFriction, ToothPair};
 use crate::geometry::Pair;
 use crate::numeric::Dual;
 

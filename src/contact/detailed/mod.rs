@@ -28,8 +28,10 @@ pub use face::Face;
 pub use face_load::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, Teeth};
+pub use pair::PairMotion;
 pub use points::Node;
 pub use shared::SharedTeeth;
+pub use totals::Totals;
 
 /// Variables of a mesh: q, x, w and their rates.
 pub const LOCAL: usize = 6;

@@ -1,8 +1,8 @@
 //! A tooth pair as it moves with q, x, w: from derivatives by its approach, opening and place to those by the mesh.
 
-use super::super::pairs::ToothPair;
 use super::sums::{Approach, By};
 use super::{Arms, DetailedState, LOCAL, Opening};
+use crate::contact::ToothPair;
 
 /// Motion of a pair; `OPEN` where its flanks may not fit, `SHARED` where others move it.
 #[derive(Clone, Copy, Debug)]

@@ -4,20 +4,16 @@
 //! the elastic torque over the face, ω = M/J.
 
 use super::super::bodies::{SharedBodies, Standing};
-use super::super::damping::Damping;
-use super::super::laws::AnySpring;
-use super::super::pairs::{Flank, ToothPair};
 use super::super::shared::{Change, Couplings, Gradients, MOST, Moved, Own, place_for};
-use super::super::spring::Spring;
 use super::directions::Arcs;
 use super::face::{Cut, Part};
 use super::loads::Look;
-use super::mesh::{Detailed, Teeth};
-use super::pair::PairMotion;
 use super::sums::{Approach, Sums};
-use super::totals::Totals;
 use super::touching::Touching;
-use super::{DetailedLoad, DetailedState, Opening, PairName, SliceLoad, WITH_OTHER};
+use super::{
+    Detailed, DetailedLoad, DetailedState, Opening, PairMotion, PairName, SliceLoad, Teeth, Totals, WITH_OTHER,
+};
+use crate::contact::{AnySpring, Damping, Flank, Spring, ToothPair};
 use crate::numeric::Dual;
 
 /// Evaluates an expression with `law` bound to the law of teeth in use, or another one: bodies are elastic under no other law.

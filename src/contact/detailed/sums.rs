@@ -11,13 +11,10 @@
 //! by f′(R) dR·(motion of the point). Both together are the error of the quadrature alone, as loads vanish at ends that move;
 //! with them derivatives are those of the sums to the last digit.
 
-use super::super::damping::Damping;
-use super::super::spring::{Elastic, Spring};
-use super::super::tooth_friction::{Sliding, ToothFriction};
 use super::carrying::Moves;
 use super::face::Part;
-use super::points::Node;
-use super::{Arms, Opening};
+use super::{Arms, Node, Opening};
+use crate::contact::{Damping, Elastic, Sliding, Spring, ToothFriction};
 use crate::numeric::Dual;
 
 /// How near a pair is and how it moves.

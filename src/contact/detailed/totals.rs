@@ -1,10 +1,9 @@
 //! Loads of a mesh, added up pair by pair, with their derivatives where they are asked for.
 
-use super::super::pairs::Spot;
 use super::directions::Normal;
-use super::pair::PairMotion;
 use super::sums::{Rubbing, Sums};
-use super::{DetailedLoad, LOCAL};
+use super::{DetailedLoad, LOCAL, PairMotion};
+use crate::contact::Spot;
 use crate::numeric::Dual;
 
 /// Places of the sums: forces conjugate to q, x and w, then those under which gears rub.

@@ -1,13 +1,10 @@
 //! A tooth pair that touches: all that its face carries, added to the loads of its mesh.
 
-use super::super::pairs::{Engagement, ToothPair};
-use super::super::spring::Spring;
 use super::directions::Arcs;
 use super::face::Part;
-use super::pair::PairMotion;
 use super::sums::{LoadedNode, Rubbing, Sums};
-use super::totals::Totals;
-use super::{Detailed, Opening, PairName, SliceLoad};
+use super::{Detailed, Opening, PairMotion, PairName, SliceLoad, Totals};
+use crate::contact::{Engagement, Spring, ToothPair};
 
 /// A pair that touches.
 pub struct Touching<'a, const OPEN: bool, const SHARED: bool> {

@@ -2,11 +2,10 @@
 
 use super::crowning::Crowning;
 use super::misalignment::Misalignment;
-use super::normals::ContactNormals;
 use super::pitch::{PitchDeviations, Tolerances};
 use super::relief::TipRelief;
 use super::runout::Runout;
-use super::{MeshId, PairId, ToothErrorSpec};
+use super::{ContactNormals, MeshId, PairId, ToothErrorSpec};
 use crate::contact::detailed::Opening;
 use crate::geometry::Pair;
 use crate::numeric::Jet;

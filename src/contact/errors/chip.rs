@@ -4,8 +4,7 @@
 //! width b from the heel. The law that acts at R_m alone sees it only if it reaches the middle, f > ½. The piece
 //! breaks off instantly and permanently, on both flanks and in every mesh of the tooth.
 
-use super::spec::{FaultyGear, ToothFaultSpec};
-use super::{MeshId, PairId};
+use super::{FaultyGear, MeshId, PairId, ToothFaultSpec};
 use crate::geometry::Pair;
 use crate::problem::Problem;
 

@@ -4,7 +4,7 @@
 //!
 //! the parabola of ISO 21771 for symmetric crowning, here for both flanks of a pair together.
 
-use super::spec::ToothErrorSpec;
+use super::ToothErrorSpec;
 use crate::geometry::Pair;
 
 /// Crowning of a tooth pair.

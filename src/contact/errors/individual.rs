@@ -27,9 +27,11 @@ impl ToothErrors {
     /// The same errors with other teeth of all gears, in the order of [`Self::teeth`]; what is not modelled has no effect.
     pub fn with_teeth(mut self, gears: &[GearTeeth]) -> Result<Self, Problem> {
         if gears.len() != 2 + self.planets {
-            return Err(Problem::new(
+            return Err(problem!(
                 "tooth_errors.accuracy_grade",
-                format!("teeth of {} gears are given; there are {}", gears.len(), 2 + self.planets),
+                "teeth of {} gears are given; there are {}",
+                gears.len(),
+                2 + self.planets
             ));
         }
         if let Some(runout) = &mut self.runout {

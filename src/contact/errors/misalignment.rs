@@ -13,9 +13,7 @@
 //! the apex grows with R like the approach itself and leaves the load's distribution along the face unchanged;
 //! offsets shift it. Contact itself moves on the flanks, but that is of second order in the displacement.
 
-use super::MeshId;
-use super::normals::{ContactNormals, Normal};
-use super::spec::ToothErrorSpec;
+use super::{ContactNormals, MeshId, Normal, ToothErrorSpec};
 use crate::numeric::{Jet, TAU, cos, sin};
 
 /// Displacements of all meshes.

@@ -20,9 +20,11 @@ mod spec;
 pub use all::ToothErrors;
 pub use chip::Chip;
 pub use individual::GearTeeth;
+pub use normals::{ContactNormals, Normal};
+pub use random::Random;
 pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
 
-use super::pairs::Flank;
+use super::Flank;
 
 /// A mesh of a differential.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@
 //! are the place of contact on the unit sphere and the normal there, pointing from the planet into the side gear.
 //! Left and right mesh are mirror images, so that the components below hold for both.
 
-use crate::contact::pairs::Flank;
+use crate::contact::Flank;
 use crate::geometry::Pair;
 use crate::numeric::{Jet, cos, sin, sin_cos};
 

@@ -13,9 +13,8 @@
 //! close over the revolution. Slow variation over the revolution belongs to `runout`.
 //! An error of position is a rotation of the flank about the gear's axis: the normal distance that it opens grows with R.
 
-use super::random::Random;
-use super::{GearTeeth, MeshId, PairId};
-use crate::contact::pairs::Flank;
+use super::{GearTeeth, MeshId, PairId, Random};
+use crate::contact::Flank;
 use crate::geometry::Pair;
 use crate::numeric::{cos, pow};
 use crate::problem::Problem;

@@ -9,7 +9,7 @@
 //! disturbs the integrator. A linear or parabolic relief, as it is ground, would put a kink into the force
 //! at the tip or at the onset.
 
-use super::spec::ToothErrorSpec;
+use super::ToothErrorSpec;
 use crate::geometry::Pair;
 use crate::numeric::{Jet, Scalar};
 

@@ -11,9 +11,8 @@
 //! tooth's centre stands at ±(s/sinδ_bp − γ_p) on the planet, at ±(s/sinδ_bs + γ_s) on the side gear (+ drive,
 //! − coast), and ê at a fixed angle from it. Two pairs in contact at once thus see nearly the same e, as they must.
 
-use super::normals::{Normal, push};
-use super::random::Random;
-use super::{GearTeeth, MeshId, PairId};
+use super::normals::push;
+use super::{GearTeeth, MeshId, Normal, PairId, Random};
 use crate::geometry::Pair;
 use crate::numeric::{Jet, Scalar, TAU, sin_cos};
 use crate::problem::Problem;

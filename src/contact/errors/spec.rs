@@ -73,11 +73,9 @@ impl ToothErrorSpec {
     pub fn check(&self) -> Result<(), Problem> {
         let grade = self.accuracy_grade;
         if grade != 0 && !(2..=11).contains(&grade) {
-            return Err(Problem::new(
+            return Err(problem!(
                 "tooth_errors.accuracy_grade",
-                format!(
-                    "{grade} is not an accuracy grade of ISO 17485; allowed 2 (finest) to 11, or 0 for no deviations"
-                ),
+                "{grade} is not an accuracy grade of ISO 17485; allowed 2 (finest) to 11, or 0 for no deviations"
             ));
         }
         if self.runout_by_grade && grade == 0 {
@@ -115,13 +113,11 @@ impl ToothFaultSpec {
         if usize::try_from(self.index).is_ok_and(|i| i < gears) {
             within("tooth_fault.tooth", f64::from(self.tooth), [0.0, f64::from(teeth - 1)], "(number of the tooth)")?;
         } else {
-            return Err(Problem::new(
+            return Err(problem!(
                 "tooth_fault.index",
-                format!(
-                    "{} does not exist: gears of this kind are numbered from 0 to {}",
-                    self.index,
-                    gears.saturating_sub(1)
-                ),
+                "{} does not exist: gears of this kind are numbered from 0 to {}",
+                self.index,
+                gears.saturating_sub(1)
             ));
         }
         within("tooth_fault.missing_fraction", self.missing_fraction, [0.0, 1.0], "(fraction of the face width)")?;
@@ -134,6 +130,6 @@ fn within(variable: &'static str, value: f64, [least, most]: [f64; 2], unit: &st
     if (least..=most).contains(&value) {
         Ok(())
     } else {
-        Err(Problem::new(variable, format!("{value} {unit} is outside the range from {least} to {most} {unit}")))
+        Err(problem!(variable, "{value} {unit} is outside the range from {least} to {most} {unit}"))
     }
 }

@@ -1,6 +1,7 @@
 //! Own arcs and loads of pairs that move each other.
 
-use super::couplings::{Couplings, MOST};
+use super::Couplings;
+use super::couplings::MOST;
 
 /// Newton steps at most; a few serve.
 const STEPS: usize = 40;

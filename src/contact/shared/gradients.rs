@@ -1,7 +1,6 @@
 //! How own arcs, loads and forces along the path change with the coordinates of both meshes.
 
-use super::arcs::Own;
-use super::couplings::{Bends, Couplings};
+use super::{Bends, Couplings, Own};
 
 /// How a pair changes directly: with the coordinate that moves its place, and with one that opens its flanks.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,7 +1,7 @@
 //! By how much the loads of others move pairs: what opens them when kinks of the force are predicted.
 
 use super::couplings::MOST;
-use crate::contact::pairs::Flank;
+use crate::contact::Flank;
 
 /// Arcs by which pairs are moved apart by others [rad].
 #[derive(Clone, Copy, Debug, Default)]

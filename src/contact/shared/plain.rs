@@ -2,16 +2,13 @@
 //!
 //! Sums that steps ask for are compiled for each number of pairs, as they are short, and once for each law.
 
-use super::arcs::Own;
-use super::couplings::{Bends, Couplings, MOST, place_for};
-use super::gradients::{Change, Gradients};
-use super::moved::Moved;
+use super::couplings::{MOST, place_for};
+use super::{Bends, Change, Couplings, Gradients, Moved, Own};
 use crate::contact::bodies::{SharedBodies, Standing};
 use crate::contact::impact::Force;
 use crate::contact::law::Face;
-use crate::contact::mesh::{Mesh, MeshForce, MeshState};
-use crate::contact::pairs::{Flank, ToothPair};
-use crate::contact::spring::Spring;
+use crate::contact::mesh::{MeshForce, MeshState};
+use crate::contact::{Flank, Mesh, Spring, ToothPair};
 
 /// Both meshes of a planet.
 pub struct SharedMeshes<'a> {

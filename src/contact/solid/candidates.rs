@@ -14,7 +14,7 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 
 use super::flank::{Flanks, Ray, half_pitch};
-use super::pose::{Displacement, MOST_TEETH, Placement};
+use super::{Displacement, MOST_TEETH, Placement};
 use crate::geometry::Pair;
 use crate::numeric::{cos, sin};
 

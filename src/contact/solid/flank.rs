@@ -6,9 +6,8 @@
 
 use nalgebra::Vector3;
 
-use crate::geometry::Pair;
-use crate::geometry::involute::Gear;
 use crate::geometry::solid::Foot;
+use crate::geometry::{Gear, Pair};
 use crate::numeric::{PI, cos, sin};
 
 /// How far a flank is prolonged below its lowest ray [rad].

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use super::mesh::{PlacedSlice, SolidMesh, SolidSlice};
+use crate::contact::Flank;
 use crate::contact::impact::Force;
-use crate::contact::pairs::Flank;
 use crate::contact::state::MeshState;
 
 /// A loaded section of one pair.

@@ -16,14 +16,12 @@ use super::candidates::Candidates;
 use super::flank::Flanks;
 pub use super::loads::SolidLoad;
 use super::overlap::Patch;
-use super::pose::{Displacement, Placement, SineCosine, Teeth, TurningRay};
-use super::softness::Softness;
 use super::turned::Both;
 use super::walk::FlankSection;
-use crate::contact::damping::Damping;
-use crate::contact::impact::{Force, Impact};
-use crate::contact::pairs::Flank;
+use super::{Displacement, Placement, SineCosine, Softness, Teeth, TurningRay};
+use crate::contact::impact::Force;
 use crate::contact::state::{MeshForce, MeshJacobian, MeshState};
+use crate::contact::{Damping, Flank, Impact};
 use crate::geometry::Pair;
 use crate::numeric::tan;
 

@@ -17,3 +17,6 @@ pub mod pose;
 mod softness;
 mod turned;
 mod walk;
+
+pub use pose::{Displacement, MOST_TEETH, Placement, SineCosine, Teeth, TurningRay};
+pub use softness::Softness;

@@ -22,8 +22,8 @@
 
 use nalgebra::Vector3;
 
+use super::Softness;
 use super::exponential::{exp, mean_exponential};
-use super::softness::Softness;
 use super::turned::Both;
 use super::walk::{Corner, FlankSection, Follow};
 use crate::numeric::lanes::{Task, in_lanes};

@@ -1,7 +1,7 @@
 //! Flanks as polygons in the plane of projection: their rays and facets there, and the overlap of two of them at a place.
 
-use super::pose::{SineCosine, TurningRay};
 use super::turned::{Both, Single, Twin};
+use super::{SineCosine, TurningRay};
 use crate::numeric::sqrt;
 
 /// A ray in the plane of projection.

@@ -1,9 +1,8 @@
 //! The way along both polygons of a section, corner by corner, as far as their overlap contributes to the load.
 
 use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
-use super::pose::{SineCosine, TurningRay};
-use super::softness::Softness;
 use super::turned::Both;
+use super::{SineCosine, Softness, TurningRay};
 
 /// Least ratio of the flanks' distance to their height difference where they touch.
 const LEAST_METRIC: f64 = 0.8;

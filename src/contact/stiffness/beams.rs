@@ -1,6 +1,6 @@
 //! Where the formulas of beams hold: the part of the path, and of a tip corner's way, on which both teeth are beams.
 
-use super::compliance::SectionPair;
+use super::SectionPair;
 use crate::numeric::FRAC_PI_2;
 use crate::problem::Problem;
 
@@ -83,12 +83,10 @@ pub fn beams(teeth: &SectionPair, path: [f64; 2], outer_cone: f64, base_pitch: f
     }
     if best[1] - best[0] < LEAST_RANGE * base_pitch {
         let middle = between(path, SEARCH / 2) * outer_cone;
-        return Err(Problem::new(
+        return Err(problem!(
             unfit(teeth, teeth.rolls(middle)).unwrap_or(ADDENDUM[0]),
-            format!(
-                "only {:.3} base pitches of the path load both teeth as beams: they are pointed, or touch at their roots",
-                (best[1] - best[0]) / base_pitch
-            ),
+            "only {:.3} base pitches of the path load both teeth as beams: they are pointed, or touch at their roots",
+            (best[1] - best[0]) / base_pitch
         ));
     }
     Ok(best)

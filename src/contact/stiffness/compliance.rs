@@ -11,7 +11,7 @@
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
 use super::quadrature::integrate;
-use super::section::{FlankLoad, ToothSection};
+use super::{FlankLoad, ToothSection};
 use crate::numeric::{PI, cos, sqrt, tan};
 
 /// Elastic constants of both gears.

@@ -4,11 +4,9 @@
 //! and with it at the arc ψ of the flank there, cosφ = cosδ_b cosψ. On the path a roll length on the section is that at
 //! the pitch point and R_e times the arc from there; the corner's are read the same way, so that both agree at the end.
 
+use super::SectionPair;
 use super::beams::{LEAST_RANGE, edge, fit};
-use super::compliance::SectionPair;
-use crate::geometry::Pair;
-use crate::geometry::corner::ClosedForm;
-use crate::geometry::involute::Gear;
+use crate::geometry::{ClosedForm, Gear, Pair};
 
 /// Steps per base pitch, and their number, in the search for the end of the corner's way.
 const SEARCH: (f64, i32) = (64.0, 256);

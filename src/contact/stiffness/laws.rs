@@ -12,7 +12,7 @@
 use std::sync::Arc;
 
 use super::table::ComplianceTable;
-use crate::contact::spring::{Elastic, Spring};
+use crate::contact::{Elastic, Spring};
 use crate::numeric::Jet;
 
 /// Compliance constant in load: Hertz's part is that of a reference load.

@@ -76,13 +76,13 @@ impl PairStiffness {
     pub fn teeth(pair: &Pair, root: &RootSpec, elasticity: Elasticity) -> Result<SectionPair, Problem> {
         let Elasticity { young, poisson } = elasticity;
         if !(young > 0.0 && young.is_finite()) {
-            return Err(Problem::new("material.young_modulus", format!("{young:e} Pa is not a positive number")));
+            return Err(problem!("material.young_modulus", "{young:e} Pa is not a positive number"));
         }
         if !(0.0..0.5).contains(&poisson) {
-            return Err(Problem::new("material.poisson_ratio", format!("{poisson} is not within 0 and 0.5")));
+            return Err(problem!("material.poisson_ratio", "{poisson} is not within 0 and 0.5"));
         }
         if !(root.fillet > 0.0 && root.fillet.is_finite()) {
-            return Err(Problem::new("geometry.root_fillet", format!("{} modules is not positive", root.fillet)));
+            return Err(problem!("geometry.root_fillet", "{} modules is not positive", root.fillet));
         }
         let section = |i: usize| SectionSpec::of_gear(pair, i).with_fillet(root.fillet * pair.module, DEDENDUM[i]);
         Ok(SectionPair { sections: [section(0)?, section(1)?], elasticity })
@@ -97,7 +97,7 @@ impl PairStiffness {
         gear: impl Fn(usize, f64) -> f64,
     ) -> Result<Self, Problem> {
         if !(line_load > 0.0 && line_load.is_finite()) {
-            return Err(Problem::new("contact.reference_line_load", format!("{line_load:e} N/m is not positive")));
+            return Err(problem!("contact.reference_line_load", "{line_load:e} N/m is not positive"));
         }
         let teeth = teeth.clone();
         let corners = [TipCorner::new(pair, &teeth, 1), TipCorner::new(pair, &teeth, 0)];

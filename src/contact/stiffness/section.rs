@@ -4,7 +4,7 @@
 //! γ_b = (π/4 + x tanα) m/r + inv α. A point of the flank is named by its roll length ρ = √(R² − r_b²): its normal
 //! touches the base circle at the angle τ = γ_b − ρ/r_b from the tooth's middle.
 
-use super::profile::{Piece, Span};
+use super::{Piece, Span};
 use crate::geometry::Pair;
 use crate::numeric::{FRAC_PI_2, PI, asin, atan2, cos, sin, sqrt, tan};
 use crate::problem::Problem;
@@ -124,12 +124,10 @@ impl SectionSpec {
         if middle(fillet) > half_pitch {
             let mut low = LEAST_FILLET * self.module;
             if low >= radius || middle(low) > half_pitch {
-                return Err(Problem::new(
+                return Err(problem!(
                     name,
-                    format!(
-                        "{:.3} mm is too deep: the gap between the teeth closes above the root",
-                        self.dedendum * 1e3
-                    ),
+                    "{:.3} mm is too deep: the gap between the teeth closes above the root",
+                    self.dedendum * 1e3
                 ));
             }
             let mut high = radius;

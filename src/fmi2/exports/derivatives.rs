@@ -1,12 +1,6 @@
 //! Derivatives of inputs, of outputs, and along directions.
 
-use crate::fmi2::c_types::c_int;
-
-use super::super::calls::Call;
-use super::super::component::run;
-use super::super::host_memory::HostMemory;
-use super::super::instance::Instance;
-use super::super::types::{ComponentPointer, Status, ValueReference};
+use super::*;
 
 /// fmi2GetDirectionalDerivative.
 #[unsafe(no_mangle)]
@@ -19,7 +13,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     known_values: *const f64,
     unknown_values: *mut f64,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, GetDirectionalDerivative, |instance, host| {
         // SAFETY: the host's promise, see the module
         let (unknown, known) = unsafe {
             (host.input("vUnknown_ref", unknown, unknown_count)?, host.input("vKnown_ref", known, known_count)?)
@@ -32,9 +26,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
             )
         };
         instance.get_directional_derivative(unknown, (known, change), values)
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetDirectionalDerivative, body) }
+    })
 }
 
 /// fmi2SetRealInputDerivatives.
@@ -46,16 +38,14 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     orders: *const c_int,
     values: *const f64,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, SetRealInputDerivatives, |instance, host| {
         // SAFETY: the host's promise, see the module
         let (references, orders) =
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.input("value", values, count) }?;
         instance.set_input_derivatives(references, orders, values)
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetRealInputDerivatives, body) }
+    })
 }
 
 /// fmi2GetRealOutputDerivatives.
@@ -67,14 +57,12 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     orders: *const c_int,
     values: *mut f64,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, GetRealOutputDerivatives, |instance, host| {
         // SAFETY: the host's promise, see the module
         let (references, orders) =
             unsafe { (host.input("vr", references, count)?, host.input("order", orders, count)?) };
         // SAFETY: as above
         let values = unsafe { host.output("value", values, count) }?;
         instance.get_output_derivatives(references, orders, values)
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetRealOutputDerivatives, body) }
+    })
 }

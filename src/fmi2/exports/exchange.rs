@@ -1,23 +1,17 @@
 //! Model exchange.
 
-use super::super::calls::Call;
-use super::super::component::run;
-use super::super::host_memory::HostMemory;
-use super::super::instance::Instance;
-use super::super::types::{Boolean, ComponentPointer, EventInfo, Status};
+use super::*;
 
 macro_rules! getters {
     ($($function:ident $call:ident $method:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
-            let body = |instance: &mut Instance, host: &HostMemory| {
+            call!(c, $call, |instance, host| {
                 // SAFETY: the host's promise, see the module
                 let values = unsafe { host.output("the array", values, count) }?;
                 instance.$method(values)
-            };
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, body) }
+            })
         }
     )+};
 }
@@ -37,14 +31,12 @@ getters! {
 /// fmi2NewDiscreteStates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2NewDiscreteStates(c: ComponentPointer, info: *mut EventInfo) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, NewDiscreteStates, |instance, host| {
         // SAFETY: the host's promise, see the module
         let info = unsafe { host.output_value("fmi2EventInfo", info) }?;
         info.write(instance.new_discrete_states()?);
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::NewDiscreteStates, body) }
+    })
 }
 
 /// fmi2CompletedIntegratorStep. Snapshots are complete, so it makes no difference whether the host may go back in time.
@@ -55,7 +47,7 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     enter_event_mode: *mut Boolean,
     terminate_simulation: *mut Boolean,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, CompletedIntegratorStep, |instance, host| {
         // SAFETY: the host's promise, see the module
         let (event, end) = unsafe {
             (
@@ -66,26 +58,21 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
         event.write(Boolean::from(instance.completed_integrator_step()?));
         end.write(0);
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::CompletedIntegratorStep, body) }
+    })
 }
 
 /// fmi2SetTime.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(c: ComponentPointer, time: f64) -> Status {
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetTime, |instance, _| instance.set_time(time)) }
+    call!(c, SetTime, |instance, _| instance.set_time(time))
 }
 
 /// fmi2SetContinuousStates.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetContinuousStates(c: ComponentPointer, states: *const f64, count: usize) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, SetContinuousStates, |instance, host| {
         // SAFETY: the host's promise, see the module
         let states = unsafe { host.input("x", states, count) }?;
         instance.set_continuous_states(states)
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetContinuousStates, body) }
+    })
 }

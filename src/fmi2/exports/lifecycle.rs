@@ -3,18 +3,10 @@
 use std::ffi::{CStr, CString};
 use std::ptr;
 
-use crate::fmi2::c_types::c_int;
-
-use super::super::call_error::CallError;
-use super::super::calls::Call;
-use super::super::component::{self, Component, run};
-use super::super::host_memory::HostMemory;
-use super::super::instance::{Experiment, Instance};
-use super::super::log::Log;
+use super::super::component::{self, Component};
 use super::super::panic_guard;
-use super::super::types::{
-    Boolean, CO_SIMULATION, CallbackFunctions, ComponentPointer, Kind, MODEL_EXCHANGE, Status, Text,
-};
+use super::*;
+use crate::fmi2::{Experiment, Log};
 use crate::variables::{MODEL_NAME, guid};
 
 /// fmi2GetTypesPlatform.
@@ -101,7 +93,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     count: usize,
     categories: *const Text,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, SetDebugLogging, |instance, host| {
         // SAFETY: the host's promise, see the module
         let texts = unsafe { host.input("categories", categories, count) }?;
         // SAFETY: as above
@@ -112,9 +104,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
         } else {
             Err(CallError::warning(format!("unknown log categories: {unknown:?}")))
         }
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetDebugLogging, body) }
+    })
 }
 
 /// fmi2SetupExperiment.
@@ -132,8 +122,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
         start,
         stop: (stop_defined != 0).then_some(stop),
     };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetupExperiment, |instance, _| instance.setup_experiment(&experiment)) }
+    call!(c, SetupExperiment, |instance, _| instance.setup_experiment(&experiment))
 }
 
 plain! {

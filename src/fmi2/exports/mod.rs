@@ -7,14 +7,27 @@
 #![allow(clippy::missing_safety_doc)] // the section above holds for all
 #![allow(non_snake_case)] // FMI's names
 
+use super::c_types::{c_char, c_int};
+use super::component::run;
+use super::types::*;
+use super::{Call, CallError, CallResult, HostMemory, Instance};
+
+/// Carries out a call: `body` checks its pointers and passes them on.
+macro_rules! call {
+    ($c:expr, $call:ident, |$instance:pat_param, $host:pat_param| $body:expr) => {{
+        let body = |$instance: &mut Instance, $host: &HostMemory| $body;
+        // SAFETY: the host's promise, see the module
+        unsafe { run($c, Call::$call, body) }
+    }};
+}
+
 /// Functions that take an instance and nothing else.
 macro_rules! plain {
     ($($function:ident $call:ident $method:ident;)+) => {$(
         #[doc = concat!(stringify!($function), ".")]
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, |instance, _| instance.$method()) }
+            call!(c, $call, |instance, _| instance.$method())
         }
     )+};
 }

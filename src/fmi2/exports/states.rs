@@ -3,15 +3,8 @@
 use std::cell::Cell;
 use std::ptr;
 
-use crate::fmi2::c_types::c_char;
-
-use super::super::call_error::{CallError, CallResult};
-use super::super::calls::Call;
-use super::super::component::run;
-use super::super::host_memory::HostMemory;
-use super::super::instance::Instance;
-use super::super::snapshot::Snapshot;
-use super::super::types::{ComponentPointer, FmuState, Status};
+use super::*;
+use crate::fmi2::Snapshot;
 
 /// The snapshot behind `state`, for as long as the call lasts.
 unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {
@@ -40,18 +33,16 @@ unsafe fn store(state: &Cell<FmuState>, snapshot: Snapshot) -> CallResult {
 /// fmi2GetFMUstate. An existing state is overwritten.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(c: ComponentPointer, state: *mut FmuState) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, GetFmuState, |instance, host| {
         // SAFETY: the host's promise, see the module
         unsafe { store(host.value("FMUstate", state)?, instance.now.clone()) }
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetFmuState, body) }
+    })
 }
 
 /// fmi2SetFMUstate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, SetFmuState, |instance, host| {
         // SAFETY: the host's promise, see the module
         let snapshot = unsafe { snapshot(host, state) }?;
         if snapshot.kind != instance.now.kind {
@@ -62,15 +53,13 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: ComponentPointer, state: FmuState) -
         }
         instance.now = snapshot.clone();
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetFmuState, body) }
+    })
 }
 
 /// fmi2FreeFMUstate. NULL is accepted.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(c: ComponentPointer, state: *mut FmuState) -> Status {
-    let body = |_: &mut Instance, host: &HostMemory| {
+    call!(c, FreeFmuState, |_, host| {
         if state.is_null() {
             return Ok(());
         }
@@ -82,22 +71,18 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(c: ComponentPointer, state: *mut FmuSt
             drop(unsafe { Box::from_raw(old) });
         }
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::FreeFmuState, body) }
+    })
 }
 
 /// fmi2SerializedFMUstateSize.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializedFMUstateSize(c: ComponentPointer, state: FmuState, size: *mut usize) -> Status {
-    let body = |_: &mut Instance, host: &HostMemory| {
+    call!(c, SerializedFmuStateSize, |_, host| {
         // SAFETY: the host's promise, see the module
         let (snapshot, size) = unsafe { (snapshot(host, state)?, host.output_value("size", size)?) };
         size.write(snapshot.to_bytes().map_err(CallError::error)?.len());
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SerializedFmuStateSize, body) }
+    })
 }
 
 /// fmi2SerializeFMUstate. `size` must be the size that fmi2SerializedFMUstateSize returned.
@@ -108,7 +93,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
     bytes: *mut c_char,
     size: usize,
 ) -> Status {
-    let body = |_: &mut Instance, host: &HostMemory| {
+    call!(c, SerializeFmuState, |_, host| {
         // SAFETY: the host's promise, see the module
         let (snapshot, target) =
             unsafe { (snapshot(host, state)?, host.output("serializedState", bytes.cast::<u8>(), size)?) };
@@ -120,9 +105,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
             target.write(byte);
         }
         Ok(())
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SerializeFmuState, body) }
+    })
 }
 
 /// fmi2DeSerializeFMUstate. Invalid bytes change nothing.
@@ -133,13 +116,11 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     size: usize,
     state: *mut FmuState,
 ) -> Status {
-    let body = |instance: &mut Instance, host: &HostMemory| {
+    call!(c, DeSerializeFmuState, |instance, host| {
         // SAFETY: the host's promise, see the module
         let bytes = unsafe { host.bytes("serializedState", bytes.cast::<u8>(), size) }?;
         let snapshot = Snapshot::from_bytes(bytes, &instance.kept).map_err(CallError::error)?;
         // SAFETY: the host's promise, see the module
         unsafe { store(host.value("FMUstate", state)?, snapshot) }
-    };
-    // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::DeSerializeFmuState, body) }
+    })
 }

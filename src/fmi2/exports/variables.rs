@@ -1,14 +1,7 @@
 //! Getting and setting variables.
 
-use crate::fmi2::c_types::c_int;
-
-use super::super::call_error::CallResult;
-use super::super::calls::Call;
-use super::super::component::run;
-use super::super::host_memory::HostMemory;
-use super::super::instance::Instance;
-use super::super::types::{Boolean, ComponentPointer, Status, Text, ValueReference};
 use super::super::values::string_error;
+use super::*;
 
 macro_rules! accesses {
     ($($function:ident $call:ident $method:ident *$way:tt $type:ty, $pass:ident;)+) => {$(
@@ -20,14 +13,12 @@ macro_rules! accesses {
             count: usize,
             values: *$way $type,
         ) -> Status {
-            let body = |instance: &mut Instance, host: &HostMemory| {
+            call!(c, $call, |instance, host| {
                 // SAFETY: the host's promise, see the module
                 let (references, values) =
                     unsafe { (host.input("vr", references, count)?, host.$pass("value", values, count)?) };
                 instance.$method(references, values)
-            };
-            // SAFETY: the host's promise, see the module
-            unsafe { run(c, Call::$call, body) }
+            })
         }
     )+};
 }
@@ -57,7 +48,7 @@ pub unsafe extern "C" fn fmi2GetString(
     _values: *mut Text,
 ) -> Status {
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::GetString, |_, host| no_strings(host, references, count)) }
+    call!(c, GetString, |_, host| unsafe { no_strings(host, references, count) })
 }
 
 /// fmi2SetString. There are no String variables.
@@ -69,5 +60,5 @@ pub unsafe extern "C" fn fmi2SetString(
     _values: *const Text,
 ) -> Status {
     // SAFETY: the host's promise, see the module
-    unsafe { run(c, Call::SetString, |_, host| no_strings(host, references, count)) }
+    call!(c, SetString, |_, host| unsafe { no_strings(host, references, count) })
 }

@@ -6,7 +6,7 @@
 //! touches the meridian below the base circle, from which the centre stands off by the azimuth A:
 //! sinA = sinρ / sin c, and it touches at the polar angle tanφ = tan c cosA.
 
-use crate::geometry::involute::Gear;
+use crate::geometry::Gear;
 use crate::numeric::{asin, atan2, cos, sin, sqrt};
 
 /// Share of half a pitch, and angle [rad], below which a piece of the outline is left out.

@@ -9,9 +9,10 @@
 
 use nalgebra::Vector3;
 
-use super::outline::{Node, Outline, Part};
-use crate::geometry::involute::{Gear, direction};
-use crate::geometry::{GearSpec, Pair};
+use super::outline::Part;
+use super::{Node, Outline};
+use crate::geometry::involute::direction;
+use crate::geometry::{Gear, GearSpec, Pair};
 use crate::numeric::{cos, sin};
 
 /// Surface of a gear in its own frame: apex at the origin, z from apex to heel, tooth 0 centred on azimuth 0.

@@ -6,7 +6,7 @@
 use parry3d_f64::mass_properties::MassProperties;
 use parry3d_f64::math::Vector;
 
-use super::manifold::GearSolid;
+use super::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
 /// Units of length per metre, millimetres or less. parry3d's tolerances are absolute: where moments of inertia have less than about

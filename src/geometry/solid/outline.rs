@@ -3,8 +3,8 @@
 //! Root land, fillet, meridian below the base circle, involute flank, tip land, and their mirror images. Nodes of the
 //! flank are equally spaced in the arc ψ by which the great circle rolls: they lie on the involute itself.
 
-use super::fillet::Foot;
-use crate::geometry::involute::Gear;
+use super::Foot;
+use crate::geometry::Gear;
 
 /// Part of a tooth that a node lies on; where two meet, the flank has precedence over the fillet, the fillet over others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,9 +10,10 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::query::PointQueryWithLocation;
 use parry3d_f64::shape::{TriMesh, TriMeshFlags};
 
-use super::outline::{Node, Outline, Part};
-use crate::geometry::involute::{Gear, direction};
-use crate::geometry::{GearSpec, Pair};
+use super::outline::Part;
+use super::{Node, Outline};
+use crate::geometry::involute::direction;
+use crate::geometry::{Gear, GearSpec, Pair};
 use crate::numeric::{atan2, cos, sin};
 
 /// Millimetres per metre.

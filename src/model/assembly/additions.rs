@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::body_effects::BodyEffects;
+use super::BodyEffects;
+use crate::contact::FlankGaps;
 use crate::contact::detailed::Detailed;
-use crate::contact::gaps::FlankGaps;
 
 /// What acts in a scene besides plain teeth.
 #[derive(Clone, Debug)]

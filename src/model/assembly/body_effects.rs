@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::effect_kinds::body_effect::BodyEffect;
-use crate::model::effect_kinds::friction::Friction;
-use crate::model::effect_kinds::friction_source::FrictionSource;
+use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{InputDerivatives, Inputs, Plan};
 use crate::model::setup::{Parameters, SceneEffects};

@@ -4,10 +4,8 @@
 //! M = [[J_c + J_L + J_R, r (J_L − J_R)], [·, r² (J_L + J_R) + N I_p]]. Inputs are constant between communication
 //! points, so speeds are linear and angles quadratic in time: the step is exact.
 
-use crate::model::assembly::inertias::Inertias;
-use crate::model::scene::Inputs;
-use crate::model::scene::Plan;
-use crate::model::scene::layout::{CARRIER, PLANET};
+use super::Inertias;
+use crate::model::scene::{CARRIER, Inputs, PLANET, Plan};
 
 /// Constants of the ideal differential.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,8 @@
 //! Moments of inertia of the bodies, assembled from parameters and solids.
 
 use crate::geometry::solid::mass::GearMass;
-use crate::model::scene::Plan;
 use crate::model::scene::attached::{self, ENDS};
-use crate::model::scene::layout::{CARRIER, MAX_DOF};
+use crate::model::scene::{CARRIER, MAX_DOF, Plan};
 use crate::model::setup::Parameters;
 
 /// Inertias that the equations of motion need [kg·m²].

@@ -3,20 +3,17 @@
 use std::sync::Arc;
 
 use crate::contact::bodies::SharedBodies;
-use crate::contact::damping::{self, Damping};
+use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
-use crate::contact::impact::Impact;
 use crate::contact::law::{Face, Lumped, Power};
-use crate::contact::laws::AnySpring;
-use crate::contact::mesh::Law;
 use crate::contact::spring::{self, Linear};
 use crate::contact::stiffness::PairStiffness;
-use crate::contact::{ContactLaw, DampingModel, hertz};
+use crate::contact::{AnySpring, ContactLaw, Damping, DampingModel, Impact, Law, hertz};
 use crate::geometry::Pair;
 use crate::model::assembly::face::centroid;
 use crate::model::assembly::kept::Kept;
 use crate::model::assembly::solid;
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::ToothEffects;
 use crate::model::scene::GearContact;
 use crate::model::setup::Parameters;
 use crate::problem::Problem;

@@ -13,3 +13,11 @@ mod shelf;
 mod solid;
 pub mod teeth;
 pub mod watch;
+
+pub use additions::Additions;
+pub use body_effects::BodyEffects;
+pub use ideal::{Ideal, IdealMotion};
+pub use inertias::Inertias;
+pub use model::{Gears, Given, Model};
+pub use teeth::{SIGMA, Teeth};
+pub use watch::Watch;

@@ -1,28 +1,18 @@
 //! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
 
-use super::additions::Additions;
-use super::body_effects::BodyEffects;
-use super::ideal::Ideal;
-use super::inertias::Inertias;
 use super::kept::Kept;
 use super::laws::Laws;
 use super::rigid::Rigid;
-use super::solid;
-use super::teeth::Teeth;
-use super::watch::Watch;
+use super::{Additions, BodyEffects, Ideal, Inertias, Teeth, Watch, solid};
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
-use crate::contact::gaps::FlankGaps;
-use crate::contact::mesh::Mesh;
+use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::solid::mass::GearMass;
 use crate::geometry::{Pair, checks};
-use crate::model::effect_kinds::effect::BUILT;
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::{BUILT, ToothEffects};
 use crate::model::effects::strength::GearStrength;
-use crate::model::scene::layout::MAX_DOF;
-use crate::model::scene::{GearContact, Layout, Plan, Requests};
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
-use crate::model::setup::{Parameters, SceneEffects, advice, validation};
+use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
+use crate::model::setup::{CONTACT_HEAT, Parameters, SceneEffects, advice, validation};
 use crate::problem::Problem;
 
 /// How the gears are represented.

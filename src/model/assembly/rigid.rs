@@ -4,11 +4,8 @@
 //! u̇ = (P_fᵀ M P_f)⁻¹ P_fᵀ (Q − M P_c u̇_c) for the free ones under the accelerations u̇_c of imposed ones, so that
 //! v̇ = W Q + f u̇_c with constant W = P_f (P_fᵀ M P_f)⁻¹ P_fᵀ and f = (1 − W M) P_c.
 
-use super::body_effects::BodyEffects;
-use super::ideal::Ideal;
-use crate::model::scene::attached;
-use crate::model::scene::layout::PLANET;
-use crate::model::scene::{Layout, Plan};
+use super::{BodyEffects, Ideal};
+use crate::model::scene::{Layout, PLANET, Plan, attached};
 
 /// Most degrees of freedom, those with ends of half-shafts, in whole vectors of any width.
 pub const MOST: usize = 8;

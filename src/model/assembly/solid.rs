@@ -1,10 +1,9 @@
 //! Solid teeth of a scene: their law, and where their gears stand.
 
-use crate::contact::damping::Damping;
 use crate::contact::errors::ToothErrorSpec;
-use crate::contact::impact::Impact;
+use crate::contact::solid::Displacement;
 use crate::contact::solid::mesh::{SolidMesh, SolidSlice, SolidSpec};
-use crate::contact::solid::pose::Displacement;
+use crate::contact::{Damping, Impact};
 use crate::geometry::assembly::azimuth;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::assembly::face::gauss_slices;

@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use super::additions::Additions;
-use super::inertias::Inertias;
+use super::{Additions, Inertias};
+use crate::contact::Mesh;
 use crate::contact::bodies::SharedBodies;
-use crate::contact::mesh::Mesh;
 use crate::geometry::Pair;
-use crate::model::scene::layout::{CARRIER, MAX_DOF};
-use crate::model::scene::{GearContact, Layout, Plan};
+use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
 
 /// Sign σ of the left and right side.
 pub const SIGMA: [f64; 2] = [1.0, -1.0];

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::state::State;
-use crate::model::scene::Inputs;
-use crate::model::scene::layout::MAX_DOF;
+use super::State;
+use crate::model::scene::{Inputs, MAX_DOF};
 
 /// End of the last step that the host's solver completed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

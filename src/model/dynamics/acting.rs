@@ -3,19 +3,15 @@
 use std::iter::Chain;
 use std::ops::Range;
 
-use super::jacobian::Jacobian;
 use super::power::Power;
+use super::{Jacobian, State};
 use crate::integrate::Point;
-use crate::model::assembly::body_effects::BodyEffects;
-use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::Bodies;
+use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::friction::Friction;
-use crate::model::effect_kinds::friction_state::{FrictionState, Mode};
-use crate::model::effect_kinds::slip::Slip;
-use crate::model::effect_kinds::surface_load::SurfaceLoad;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
-use crate::model::scene::{InputDerivatives, Inputs, Layout, Plan};
+use crate::model::effect_kinds::{Bodies, Friction, FrictionState, Mode, Slip, SurfaceLoad};
+use crate::model::scene::{
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan,
+};
 
 /// Inputs and dry friction under which equations hold.
 #[derive(Clone, Copy)]

@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::clock::Clock;
+use super::Clock;
 use super::power::Power;
 use crate::integrate::{Attempt, Course, Extension, Pending, Point, bent};
-use crate::model::scene::Inputs;
-use crate::model::scene::layout::MAX_DOF;
+use crate::model::scene::{Inputs, MAX_DOF};
 
 /// Positions and velocities of all degrees of freedom.
 type Motion = [[f64; MAX_DOF]; 2];

@@ -1,15 +1,15 @@
 //! Derivatives of the forces of all meshes by the motion of the bodies, from those of each mesh by its own coordinates.
 
-use super::equations::Equations;
+use super::Equations;
 use super::in_detail::Local;
 use super::power::Power;
 use crate::contact::detailed::{DetailedLoad, LOCAL};
 use crate::contact::mesh::MeshForce;
 use crate::contact::shared::SharedForce;
 use crate::integrate::{Matrix, Point};
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::scene::layout::CARRIER;
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::assembly::SIGMA;
+use crate::model::scene::CARRIER;
+use crate::model::setup::CONTACT_HEAT;
 
 /// ∂(F_α, F_ψ, F_w)/∂(α, ψ, w) by group and side.
 pub(super) type Blocks<const G: usize> = [[[[f64; 3]; 3]; 2]; G];

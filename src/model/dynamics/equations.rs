@@ -11,18 +11,18 @@
 //! Effects may add degrees of freedom: axial seats w of the side gears, pins that turn by β beyond the carrier (then
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
-use super::acting::{Acted, Acting};
 use super::friction::by_body;
 use super::power::Power;
-use super::sizes::{EXACT, Largest};
-use super::state::State;
-use crate::contact::mesh::{Law, MeshForce, MeshJacobian, MeshState};
+use super::sizes::EXACT;
+use super::{Acted, Acting, Largest, State};
+use crate::contact::Law;
+use crate::contact::mesh::{MeshForce, MeshJacobian, MeshState};
 use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::teeth::{SIGMA, Teeth};
-use crate::model::effect_kinds::surface_load::SurfaceLoad;
+use crate::model::assembly::{SIGMA, Teeth};
+use crate::model::effect_kinds::SurfaceLoad;
 use crate::model::scene::attached::ENDS;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, LEFT, MAX_GROUPS, PLANET, over_groups};
-use crate::model::scene::{Inputs, Layout, Plan};
+use crate::model::scene::layout::{LEFT, over_groups};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// The equations under given inputs, and whether effects act. Plain teeth, and small scenes with effects, have exactly `N`

@@ -1,16 +1,13 @@
 //! Dry friction of gears with teeth: under the loads of their meshes, with derivatives by these.
 
-use super::acting::Acted;
-use super::equations::Equations;
 use super::in_detail::Local;
-use super::jacobian::Jacobian;
 use super::power::Power;
-use crate::contact::detailed::DetailedLoad;
-use crate::contact::detailed::{LOCAL, WITH_OTHER};
+use super::{Acted, Equations, Jacobian};
+use crate::contact::detailed::{DetailedLoad, LOCAL, WITH_OTHER};
 use crate::integrate::{Matrix, Point};
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::effect_kinds::surface_load::SurfaceLoad;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::assembly::SIGMA;
+use crate::model::effect_kinds::SurfaceLoad;
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 
 /// Loads on the surfaces of side gears and planets.
 pub(super) type MeshLoads<const G: usize> = ([SurfaceLoad; 2], [SurfaceLoad; G]);

@@ -1,9 +1,8 @@
 //! The exact step of the ideal differential under constant inputs.
 
-use super::state::State;
-use crate::model::assembly::ideal::Ideal;
-use crate::model::scene::Inputs;
-use crate::model::scene::layout::{CARRIER, PLANET};
+use super::State;
+use crate::model::assembly::Ideal;
+use crate::model::scene::{CARRIER, Inputs, PLANET};
 
 impl Ideal {
     /// Exact motion over `h` [s] under constant inputs.

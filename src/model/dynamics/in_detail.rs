@@ -1,21 +1,18 @@
 //! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
 
-use super::acting::Acted;
-use super::equations::Equations;
 use super::friction::MeshLoads;
-use super::jacobian::Jacobian;
 use super::power::Power;
+use super::{Acted, Equations, Jacobian};
 use crate::contact::detailed::{
     Detailed, DetailedLoad, DetailedState, LOCAL, SharedTeeth, SliceLoad, Teeth as MeshTeeth, WITH_OTHER,
 };
-use crate::contact::gaps::FlankGaps;
 use crate::contact::mesh::MeshState;
-use crate::contact::pairs::Flank;
 use crate::contact::shared::Moved;
+use crate::contact::{Flank, FlankGaps};
 use crate::integrate::Point;
-use crate::model::effect_kinds::surface_load::SurfaceLoad;
-use crate::model::scene::layout::CARRIER;
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::effect_kinds::SurfaceLoad;
+use crate::model::scene::CARRIER;
+use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::{Dual, Scalar, sqrt};
 
 /// Numbers, or numbers with derivatives by the variables of one mesh.

@@ -1,10 +1,9 @@
 //! The equations of motion with teeth, linearised: exact derivatives of the accelerations.
 
-use super::equations::Equations;
-use super::jacobian::Jacobian;
 use super::power::Power;
+use super::{Equations, Jacobian};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
-use crate::model::scene::layout::CARRIER;
+use crate::model::scene::CARRIER;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     fn divide_by_inertia(&self, m: &mut Matrix<N>) {

@@ -4,13 +4,11 @@
 //! R ℓ, so that its part along the axis is F √(sin²φ − ℓ²) at polar angle φ; on the path ℓ = sinδ_b and that is
 //! F cosδ_b sinψ, which at s = 0 is the textbook's F sinα sinδ. What remains is tangential to the carrier's rotation.
 
+use super::Equations;
 use crate::contact::detailed::SliceLoad;
-use crate::contact::mesh::{Law, Mesh};
-use crate::contact::pairs::{Flank, Spot, ToothPair};
-use crate::contact::tooth_load::{ToothLoad, Touch};
+use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad, ToothPair, Touch};
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::equations::Equations;
 use crate::numeric::{cos, sin, sqrt};
 
 /// Parts of a unit normal force of one pair: along the planet's axis, along the side gear's axis, along the rotation.

@@ -25,3 +25,13 @@ pub mod state;
 mod twists;
 pub mod watched;
 mod with_effects;
+
+pub use accepted::Accepted;
+pub use acting::{Acted, Acting};
+pub use clock::Clock;
+pub use equations::Equations;
+pub use jacobian::Jacobian;
+pub use rigid_equations::{RigidEquations, RigidTorques};
+pub use sizes::{LARGEST, Largest};
+pub use state::State;
+pub use watched::{LastLoads, Watched};

@@ -2,13 +2,11 @@
 
 use std::ops::Range;
 
-use super::acting::Acted;
-use super::equations::Equations;
 use super::power::Power;
-use super::twists;
+use super::{Acted, Equations, twists};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
-use crate::model::scene::layout::CARRIER;
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::scene::CARRIER;
+use crate::model::setup::CONTACT_HEAT;
 
 /// Approach below which positions are resolved absolutely rather than relatively [rad on the unit sphere].
 const APPROACH_FLOOR: f64 = 1e-4;

@@ -1,17 +1,16 @@
 //! Meshes of gears with elastic bodies: both meshes of a planet at once, since its body couples them.
 
-use super::equations::Equations;
+use super::Equations;
 use super::in_detail::Local;
 use super::power::Power;
 use crate::contact::bodies::SharedBodies;
-use crate::contact::detailed::PairName;
-use crate::contact::detailed::{DetailedLoad, SharedTeeth};
+use crate::contact::detailed::{DetailedLoad, PairName, SharedTeeth};
 use crate::contact::impact::Force;
-use crate::contact::mesh::{Law, MeshForce, MeshState};
-use crate::contact::pairs::{Flank, ToothPair};
+use crate::contact::mesh::{MeshForce, MeshState};
 use crate::contact::shared::{Moved, SharedForce, SharedMeshes};
+use crate::contact::{Flank, Law, ToothPair};
 use crate::integrate::{Matrix, Point};
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::setup::CONTACT_HEAT;
 
 /// Evaluates an expression with `law` bound to the law of teeth in use; bodies are elastic under no other.
 macro_rules! with_teeth {

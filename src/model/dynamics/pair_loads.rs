@@ -1,13 +1,12 @@
 //! Loads of whole tooth pairs at an instant, with how evenly each is spread over its face.
 
+use super::Equations;
 use crate::contact::detailed::{KnownSlice, Opening};
 use crate::contact::errors::{MeshId, PairId};
-use crate::contact::mesh::Law;
 use crate::contact::pair_load::PairLoad;
-use crate::contact::tooth_load::ToothLoad;
+use crate::contact::{Law, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::equations::Equations;
 use crate::numeric::{cos, sin};
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::integrate::Step;
-use crate::model::scene::layout::FRICTION_BODIES;
-use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
+use crate::model::scene::FRICTION_BODIES;
+use crate::model::setup::{CONTACT_HEAT, HEATS};
 
 /// Rates of the ledger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

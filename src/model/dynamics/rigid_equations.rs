@@ -3,16 +3,12 @@
 //! Accelerations are v̇ = W Q + f u̇_c (`assembly::rigid`). The torque of the meshes on a side gear is the force of the
 //! constraint, λ_s = J_s ω̇_s − Q_s.
 
-use super::acting::{Acted, Acting};
-use super::jacobian::Jacobian;
+use super::{Acted, Acting, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::rigid::{IMPOSED, MOST, Rigid};
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::{Action, Slopes};
-use crate::model::effect_kinds::surface_load::SurfaceLoad;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, PLANET};
-use crate::model::scene::{Inputs, Layout, Plan};
+use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, PLANET, Plan};
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,7 +1,7 @@
 //! Sizes in which the equations are compiled: sizes that are known at compile time let loops unroll and need no allocation.
 
-use super::equations::Equations;
-use crate::model::scene::layout::MAX_GROUPS;
+use super::Equations;
+use crate::model::scene::MAX_GROUPS;
 
 /// Degrees of freedom of the least scene with teeth: planets that are alike, and no additions.
 pub const LEAST: usize = 4;

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 use super::ahead::Ahead;
 use super::bias::Bias;
 use crate::integrate::{Control, Point, Statistics};
-use crate::model::assembly::body_effects::BodyEffects;
-use crate::model::assembly::teeth::Teeth;
-use crate::model::effect_kinds::friction_state::FrictionState;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, PLANET};
-use crate::model::scene::{InputDerivatives, Layout};
-use crate::model::setup::effect_outputs::HEATS;
+use crate::model::assembly::{BodyEffects, Teeth};
+use crate::model::effect_kinds::FrictionState;
+use crate::model::scene::{
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, PLANET,
+};
+use crate::model::setup::HEATS;
 
 /// Turns beyond which doubles no longer resolve single ones.
 const MOST_TURNS: u64 = 1 << 53;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sizes::LARGEST;
+use super::LARGEST;
 use crate::integrate::Point;
 use crate::model::effects::mesh_history::MeshHistory;
 use crate::model::effects::strength::{Fatigue, Rated};

@@ -1,14 +1,12 @@
 //! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
 
-use super::acting::Acted;
-use super::equations::Equations;
-use super::jacobian::Jacobian;
 use super::power::Power;
+use super::{Acted, Equations, Jacobian};
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::integrate::{Matrix, Point};
-use crate::model::effect_kinds::body_effect::{Action, Slopes};
-use crate::model::scene::layout::CARRIER;
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::effect_kinds::{Action, Slopes};
+use crate::model::scene::CARRIER;
+use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::Dual;
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {

@@ -6,10 +6,7 @@
 //! along, step by step, so that a body stops with the torque that the spring has then, never with more. The integrator
 //! ends a step at each transition; the energy that the spring loses there is heat.
 
-use super::friction_part::FrictionPart;
-use super::friction_state::{FrictionState, Mode};
-use super::slip::Slip;
-use super::surface_load::SurfaceLoad;
+use super::{FrictionPart, FrictionState, Mode, Slip, SurfaceLoad};
 
 /// Damping of the spring over its stiffness τ, where the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;

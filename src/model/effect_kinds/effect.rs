@@ -2,15 +2,13 @@
 
 use std::fmt::Debug;
 
-use serde::{Serialize, de::DeserializeOwned};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 
-use super::body_effect::{Bodies, BodyEffect};
-use super::friction_source::FrictionSource;
-use super::teeth::{FlankFriction, ToothEffects};
+use super::{Bodies, BodyEffect, FlankFriction, FrictionSource, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
-use crate::declaration::units::{DisplayUnit, Unit};
-use crate::declaration::{Parameter, Row};
+use crate::declaration::{DisplayUnit, Parameter, Row, Unit};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, Plan, Requests, Scene};
 use crate::problem::Problem;

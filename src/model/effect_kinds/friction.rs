@@ -1,11 +1,8 @@
 //! Dry friction of all bodies that may stick: side gears on the carrier, planets on their pins, wheels on the ground.
 
 use super::dry_friction::{DAMPING_TIME, DryFriction};
-use super::friction_part::FrictionPart;
-use super::friction_source::{FrictionSource, PlanetFriction, SideFriction, WheelFriction};
-use super::surface_load::SurfaceLoad;
-use crate::model::scene::layout::{FRICTION_PLANETS, FRICTION_WHEELS};
-use crate::model::scene::{InputDerivatives, Inputs};
+use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceLoad, WheelFriction};
+use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs};
 
 /// Friction on each kind of body.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Part of the dry friction on a body that one source contributes.
 
-use super::surface_load::SurfaceLoad;
+use super::SurfaceLoad;
 
 /// Limit torque of one source, and its heat.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::contact::gaps::FlankGaps;
-use crate::contact::tooth_friction::ToothFriction;
+use crate::contact::{FlankGaps, ToothFriction};
 
 /// What effects do to single teeth.
 #[derive(Clone, Debug, Default)]

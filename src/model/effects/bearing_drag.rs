@@ -5,8 +5,7 @@
 
 use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
+use crate::model::effect_kinds::{Action, Bodies, BodyEffect, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::Plan;
 
 spec! {

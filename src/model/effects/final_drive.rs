@@ -1,12 +1,9 @@
 //! Excitation by the final drive: the carrier's torque or imposed speed varies with the mesh order of the ring gear,
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ) — the first harmonic of a gear pair's mesh excitation.
 
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Declare, Effect, Setting};
-use crate::model::scene::Plan;
-use crate::model::scene::layout::CARRIER;
+use crate::declaration::{Parameter, Row, row, units};
+use crate::model::effect_kinds::{Action, Bodies, BodyEffect, Declare, Effect, Setting, Slopes};
+use crate::model::scene::{CARRIER, Plan};
 use crate::numeric::{cos, sin};
 
 spec! {

@@ -4,8 +4,9 @@
 
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Heat, Instant, Reading, Setting};
+use crate::model::effect_kinds::{
+    Action, Bodies, BodyEffect, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
+};
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
 
@@ -56,9 +57,10 @@ impl Effect for HalfShaftSpec {
         let drives = [setting.scene.left_drive, setting.scene.right_drive];
         for s in 0..2 {
             if (twist[s] || drives[s] == SideDrive::Speed) && self.stiffness[s] <= 0.0 {
-                found.push(Problem::new(
+                found.push(problem!(
                     ["half_shaft.left_stiffness", "half_shaft.right_stiffness"][s],
-                    format!("{} N.m/rad: a half-shaft that twists needs a stiffness above 0", self.stiffness[s]),
+                    "{} N.m/rad: a half-shaft that twists needs a stiffness above 0",
+                    self.stiffness[s]
                 ));
             }
         }

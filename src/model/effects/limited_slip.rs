@@ -4,10 +4,8 @@
 //! Source: the preloaded plate clutch of H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011,
 //! section 10.2.
 
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
+use crate::declaration::{Parameter, Row, row, units};
+use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Setting, SideFriction};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
@@ -65,13 +63,11 @@ impl Effect for LimitedSlipSpec {
             GearContact::Solid => "solid",
             GearContact::Lumped | GearContact::Tooth => return,
         };
-        found.push(Problem::new(
+        found.push(problem!(
             "limited_slip.torque_coefficient",
-            format!(
-                "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
-                 it must be 0 (preload alone), or choose lumped or tooth",
-                self.torque_coefficient
-            ),
+            "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
+             it must be 0 (preload alone), or choose lumped or tooth",
+            self.torque_coefficient
         ));
     }
 

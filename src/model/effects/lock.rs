@@ -1,10 +1,8 @@
 //! A lock that holds both side gears to the carrier: T_max = command × torque, a clutch pressed from outside.
 
 use super::limited_slip::CLUTCH_HEAT;
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, SideFriction};
+use crate::declaration::{Parameter, Row, row, units};
+use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};
 
 spec! {
     /// A lock between side gears and carrier, by command.

@@ -22,7 +22,7 @@ use serde::{Deserialize, Serialize};
 use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
 use crate::declaration::{Parameter, Row, row};
 use crate::friction::ToothFrictionSpec;
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, InputField, Needs, Reading};
+use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Reading};
 
 /// An effect as the rest of the program sees it.
 #[derive(Clone, Copy, Debug)]

@@ -6,9 +6,9 @@
 
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::body_effect::{Action, Bodies, BodyEffect, Slopes};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::{
+    Action, Bodies, BodyEffect, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
+};
 use crate::model::scene::layout::over_groups;
 use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;

@@ -14,8 +14,7 @@
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
 use crate::geometry::{GearSpec, Pair};
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, PlanetFriction, SideFriction};
+use crate::model::effect_kinds::{Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Setting, SideFriction};
 use crate::model::scene::GearContact;
 use crate::numeric::sin;
 use crate::problem::{Problem, told_apart};
@@ -177,7 +176,7 @@ impl ThrustFrictionSpec {
 /// Warning about a radius that does not fit another [m], and `what` is wrong with it.
 fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Problem {
     let [radius, other] = told_apart([radius * PER_MM, other * PER_MM], 3);
-    Problem::new(name, format!("{radius} mm {what} {other} mm; {HINT}"))
+    problem!(name, "{radius} mm {what} {other} mm; {HINT}")
 }
 
 /// What to do about radii that do not fit.

@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::contact::FlankGaps;
 use crate::contact::errors::{ToothErrorSpec, ToothErrors, pitch};
-use crate::contact::gaps::FlankGaps;
 use crate::declaration::units::{self, DEG, UM};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Declare, Effect, Needs, Setting};
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::{Declare, Effect, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 

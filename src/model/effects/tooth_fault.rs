@@ -2,13 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::contact::ContactLaw;
 use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
-use crate::contact::gaps::FlankGaps;
+use crate::contact::{ContactLaw, FlankGaps};
 use crate::declaration::units::{self, MM};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Declare, Effect, InputField, Needs, Setting};
-use crate::model::effect_kinds::teeth::ToothEffects;
+use crate::model::effect_kinds::{Declare, Effect, InputField, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
@@ -59,13 +57,11 @@ impl Effect for ToothFaultSpec {
         let planets = usize::try_from(setting.geometry.planet_count).unwrap_or(0);
         found.extend(self.check(setting.pair.gears.map(|g| g.teeth), planets).err());
         if setting.contact.law == ContactLaw::Impact && self.missing_fraction <= 0.5 {
-            found.push(Problem::new(
+            found.push(problem!(
                 "tooth_fault.missing_fraction",
-                format!(
-                    "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
-                     0.5 of it; choose line or line_weber, or a larger piece",
-                    self.missing_fraction
-                ),
+                "{}: contact.law = impact acts at the middle of the face alone and sees only a piece of more than \
+                 0.5 of it; choose line or line_weber, or a larger piece",
+                self.missing_fraction
             ));
         }
     }

@@ -4,8 +4,7 @@ use crate::contact::tooth_friction;
 use crate::declaration::units::{self, MPA_S, UM};
 use crate::declaration::{Parameter, Row, row};
 use crate::friction::ToothFrictionSpec;
-use crate::model::effect_kinds::effect::{Declare, Effect, Heat, Needs, Setting};
-use crate::model::effect_kinds::teeth::FlankFriction;
+use crate::model::effect_kinds::{Declare, Effect, FlankFriction, Heat, Needs, Setting};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 

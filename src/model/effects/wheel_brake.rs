@@ -8,11 +8,9 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl in place
 //! of a locked mode, so that both wheels may be braked while speeds are imposed.
 
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::{Parameter, Row, row, units};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
-use crate::model::effect_kinds::effect::{BUILT, Declare, Effect, Heat, InputField, Setting};
-use crate::model::effect_kinds::friction_source::{FrictionSource, WheelFriction};
+use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, WheelFriction};
 use crate::numeric::sqrt;
 
 spec! {

@@ -2,7 +2,7 @@
 
 use super::mesh_forces::MeshForces;
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
-use crate::model::scene::layout::MAX_PLANETS;
+use crate::model::scene::MAX_PLANETS;
 use crate::model::setup::effect_outputs::INSTANT_READINGS;
 
 /// Forces, torques and accelerations: one evaluation of the tooth forces.

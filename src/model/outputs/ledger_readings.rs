@@ -1,6 +1,6 @@
 //! The ledger as it is read.
 
-use crate::model::setup::effect_outputs::{HEATS, STEP_READINGS};
+use crate::model::setup::{HEATS, STEP_READINGS};
 
 /// Ledger and solver statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -6,3 +6,6 @@ pub mod mesh_forces;
 pub mod motion;
 pub mod pairs;
 pub mod resultants;
+
+pub use ledger_readings::LedgerReadings;
+pub use motion::Motion;

@@ -1,6 +1,6 @@
 //! Motion of a differential.
 
-use crate::model::scene::layout::MAX_PLANETS;
+use crate::model::scene::MAX_PLANETS;
 
 /// Angles and speeds: read straight from the state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

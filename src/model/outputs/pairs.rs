@@ -9,13 +9,11 @@
 //! w is that of the law at the depth of the flanks there. Of solid teeth w is a straight line between the sections that carry,
 //! prolonged to toe and heel as far as it is not negative.
 
-use crate::contact::mesh::{Law, Mesh};
-use crate::contact::pairs::{Flank, Spot};
 use crate::contact::shared::MOST;
-use crate::contact::tooth_load::ToothLoad;
+use crate::contact::{Flank, Law, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
+use crate::model::dynamics::{LARGEST, Largest};
 use crate::strength::LineContact;
 
 /// Pairs that are read: no mesh has more on its path, with a contact ratio below 3.

@@ -2,23 +2,17 @@
 
 use super::forces::{Forces, bias};
 use super::mesh_forces::MeshForces;
-use crate::contact::tooth_load::ToothLoad;
+use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::acting::Acted;
+use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::rigid_equations::{RigidEquations, RigidTorques};
-use crate::model::dynamics::sizes::{LARGEST, Largest};
-use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::Bodies;
-use crate::model::effect_kinds::effect::{Changes, Instant};
+use crate::model::dynamics::{Acted, LARGEST, Largest, RigidEquations, RigidTorques, State};
+use crate::model::effect_kinds::{Bodies, Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
-use crate::model::scene::layout::{CARRIER, MAX_GROUPS};
-use crate::model::scene::{Inputs, Plan};
-use crate::model::setup::effect_outputs::{HEATS, HEATS_WITHIN, places_of};
-use crate::model::setup::scene_effects;
+use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, Plan};
+use crate::model::setup::effect_outputs::{HEATS_WITHIN, places_of};
+use crate::model::setup::{HEATS, scene_effects};
 use crate::numeric::{sin, sqrt};
 
 impl MeshForces {

@@ -1,14 +1,11 @@
 //! What teeth and half-shafts carry at the start, while the gears move as an ideal differential.
 
 use super::imposed::body_effects;
-use crate::model::assembly::ideal::{Ideal, IdealMotion};
-use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::state::State;
-use crate::model::effect_kinds::body_effect::{Action, Bodies};
-use crate::model::scene::layout::{CARRIER, MAX_DOF};
-use crate::model::scene::{InputDerivatives, Inputs};
-use crate::model::setup::effect_outputs::HEATS;
+use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
+use crate::model::dynamics::State;
+use crate::model::effect_kinds::{Action, Bodies};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF};
+use crate::model::setup::HEATS;
 
 /// Torques at the start, and the accelerations that go with them.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! A step that is over, and the motion in it.
 
 use crate::integrate::{Extension, Pending, Point, SecondOrder, Step};
+use crate::model::dynamics::LARGEST;
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::sizes::LARGEST;
 
 /// A completed step, and the same while it was pending.
 pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, Power>, Option<&'a Pending<N, Power>>);

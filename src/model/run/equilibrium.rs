@@ -5,12 +5,11 @@ use nalgebra::{DMatrix, DVector};
 use super::carried::Carried;
 use super::excessive_deflection::limit_name;
 use super::hints;
-use crate::contact::gaps::FlankGaps;
+use crate::contact::FlankGaps;
 use crate::integrate::{Matrix, Point};
-use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
-use crate::model::scene::layout::MAX_GROUPS;
+use crate::model::assembly::{Model, SIGMA};
+use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
@@ -62,14 +61,12 @@ pub fn press_sides(
 ) -> Result<(), Problem> {
     press(equations, torque, point, |s, at| equations.plain(s, at)).map_err(|s| {
         let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
-        Problem::new(
+        problem!(
             name,
-            format!(
-                "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
-                torque[s],
-                limit_name(model),
-                hints::stiffer_teeth(&model.parameters)
-            ),
+            "{:.6} N.m cannot be carried at the start: tooth deflection exceeds {}; reduce the load or {}",
+            torque[s],
+            limit_name(model),
+            hints::stiffer_teeth(&model.parameters)
         )
     })
 }

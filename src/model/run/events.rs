@@ -3,13 +3,11 @@
 use super::imposed;
 use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
-use crate::model::assembly::model::Model;
-use crate::model::dynamics::acting::Acted;
+use crate::model::assembly::Model;
 use crate::model::dynamics::sizes::with_equations;
-use crate::model::dynamics::state::State;
-use crate::model::scene::layout::{FRICTION_BODIES, FRICTION_WHEELS};
-use crate::model::scene::{InputDerivatives, Inputs};
-use crate::model::setup::effect_outputs::CONTACT_HEAT;
+use crate::model::dynamics::{Acted, State};
+use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};
+use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
 pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {

@@ -1,7 +1,7 @@
 //! A tooth that bends too far, which ends a run: it would leave its gap.
 
 use super::hints;
-use crate::model::assembly::model::{Gears, Model};
+use crate::model::assembly::{Gears, Model};
 
 /// A tooth bent beyond the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]

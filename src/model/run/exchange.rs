@@ -5,20 +5,16 @@
 //! steps, and change at events.
 
 use super::events::{are_brakes_new, break_tooth, energy, update_friction};
-use super::failure::StepFailure;
-use super::imposed;
-use super::ledger::{Recorded, Records};
 use super::progress::complete;
-use super::simulation::Simulation;
 use super::timeline::{breaks_tooth, next_change};
+use super::{Recorded, Records, Simulation, StepFailure, imposed};
 use crate::integrate::{Point, SecondOrder, Step};
-use crate::model::assembly::model::Gears;
-use crate::model::dynamics::accepted::Accepted;
-use crate::model::dynamics::acting::Acted;
-use crate::model::dynamics::sizes::{Largest, with_equations};
-use crate::model::dynamics::state::State;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS};
-use crate::model::scene::{InputDerivatives, Inputs, Plan};
+use crate::model::assembly::Gears;
+use crate::model::dynamics::sizes::with_equations;
+use crate::model::dynamics::{Accepted, Acted, Largest, State};
+use crate::model::scene::{
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, MAX_DOF, MAX_PLANETS, Plan,
+};
 
 /// A body with a position and a velocity among the states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,8 @@
 //! Imposed speeds: which there are, and how they jump to their commands.
 
-use crate::model::assembly::body_effects::BodyEffects;
-use crate::model::assembly::model::{Gears, Model};
-use crate::model::dynamics::state::State;
-use crate::model::scene::Inputs;
-use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
+use crate::model::assembly::{BodyEffects, Gears, Model};
+use crate::model::dynamics::State;
+use crate::model::scene::{CARRIER, Inputs, MAX_DOF, PLANET};
 
 /// An imposed speed.
 pub struct ImposedSpeed {

@@ -4,17 +4,14 @@ use super::completed_step::{CompletedStep, Passed};
 use super::excessive_deflection::ExcessiveDeflection;
 use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
-use crate::model::assembly::model::Model;
+use crate::model::assembly::Model;
 use crate::model::assembly::rigid::MOST;
-use crate::model::dynamics::acting::Acted;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
-use crate::model::dynamics::equations::Equations;
 use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
-use crate::model::dynamics::rigid_equations::RigidEquations;
-use crate::model::dynamics::watched::Watched;
+use crate::model::dynamics::{Acted, Equations, RigidEquations, Watched};
 use crate::model::scene::layout::LEFT;
-use crate::model::setup::effect_outputs::{CONTACT_HEAT, HEATS};
+use crate::model::setup::{CONTACT_HEAT, HEATS};
 
 /// Sums that completed steps add to.
 pub struct Records<'a> {

@@ -2,9 +2,8 @@
 
 use super::completed_step::Passed;
 use crate::integrate::SecondOrder;
-use crate::model::assembly::model::Model;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
-use crate::model::dynamics::watched::LastLoads;
+use crate::model::assembly::Model;
+use crate::model::dynamics::{LARGEST, Largest, LastLoads};
 use crate::model::effects::strength::{Fatigue, GearStrength, RatedStep, Rolled, Sample};
 
 /// Adds a step to the damage of the teeth.

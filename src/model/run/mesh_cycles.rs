@@ -3,8 +3,8 @@
 
 use super::completed_step::Passed;
 use crate::integrate::{Curve, Extension, Point};
-use crate::model::assembly::model::Model;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
+use crate::model::assembly::Model;
+use crate::model::dynamics::{LARGEST, Largest};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::scene::layout::LEFT;
 

@@ -27,6 +27,7 @@ mod watching;
 pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
+pub use ledger::{Recorded, Records};
 pub use reports::Reported;
 pub use sensitivity::{Along, Direction, STENCIL};
 pub use simulation::Simulation;

@@ -5,14 +5,11 @@
 //! present, and the integration begins anew there.
 
 use super::events::{break_tooth, update_friction};
-use super::failure::StepFailure;
-use super::imposed;
 use super::stretch::{self, Stretch};
 use super::timeline::{self, Stop};
-use crate::model::assembly::model::{Gears, Model};
-use crate::model::dynamics::clock::Clock;
-use crate::model::dynamics::state::State;
-use crate::model::dynamics::watched::Watched;
+use super::{StepFailure, imposed};
+use crate::model::assembly::{Gears, Model};
+use crate::model::dynamics::{Clock, State, Watched};
 use crate::model::scene::{Inputs, Method};
 
 /// Begins anew at the present: inputs have changed, or something else has.

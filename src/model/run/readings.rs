@@ -1,29 +1,19 @@
 //! What can be read from a simulation: motion, forces, the ledger, and what is simulated.
 
-use super::cost_class::CostClass;
 use super::events::{energy, has_brakes, with_brakes};
-use super::imposed;
 use super::progress::complete;
-use super::simulation::Simulation;
-use crate::contact::tooth_load::ToothLoad;
+use super::{CostClass, Simulation, imposed};
+use crate::contact::ToothLoad;
 use crate::geometry::Pair;
-use crate::model::assembly::inertias::Inertias;
-use crate::model::assembly::model::Gears;
-use crate::model::dynamics::rigid_equations::RigidEquations;
-use crate::model::dynamics::sizes::Largest;
-use crate::model::dynamics::state::State;
-use crate::model::dynamics::watched::Watched;
-use crate::model::effect_kinds::effect::Changes;
-use crate::model::effect_kinds::friction_state::Mode;
+use crate::model::assembly::{Gears, Inertias};
+use crate::model::dynamics::{Largest, RigidEquations, State, Watched};
+use crate::model::effect_kinds::{Changes, Mode};
 use crate::model::outputs::forces::Forces;
-use crate::model::outputs::ledger_readings::LedgerReadings;
-use crate::model::outputs::motion::Motion;
 use crate::model::outputs::pairs::{PairLines, pair_lines};
-use crate::model::outputs::resultants;
-use crate::model::scene::Plan;
-use crate::model::scene::layout::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS};
-use crate::model::setup::Parameters;
-use crate::model::setup::effect_outputs::{STEP_READINGS, places_of};
+use crate::model::outputs::{LedgerReadings, Motion, resultants};
+use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, MAX_PLANETS, Plan};
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::{Parameters, STEP_READINGS};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 use crate::strength::LineContact;

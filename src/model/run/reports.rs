@@ -1,9 +1,9 @@
 //! What a simulation reports once while it runs: a law used outside its published range, a stress above the strength.
 
-use super::simulation::Simulation;
+use super::Simulation;
 use crate::friction::FrictionLaw;
-use crate::model::assembly::model::Gears;
-use crate::model::dynamics::sizes::Largest;
+use crate::model::assembly::Gears;
+use crate::model::dynamics::Largest;
 use crate::model::effects::strength::{Fatigue, Stressed};
 use crate::problem::Problem;
 
@@ -48,14 +48,15 @@ impl Simulation {
         }
         reported.start = true;
         let [root, flank] = [utilisation.root, utilisation.flank].map(|of| (of.safety(), of.time));
-        Some(Problem::new(
+        Some(problem!(
             "strength.rate_from",
-            format!(
-                "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
-                 t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; let them count from after the run-in, or take scene.start = \
-                 equilibrium",
-                root.0, root.1, flank.0, flank.1
-            ),
+            "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the roots was {:.3} at \
+             t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; let them count from after the run-in, or take scene.start = \
+             equilibrium",
+            root.0,
+            root.1,
+            flank.0,
+            flank.1
         ))
     }
 
@@ -79,8 +80,6 @@ impl Simulation {
                 });
             }
         }
-        found.map(|what| {
-            Problem::new("tooth_friction.law", format!("{what} at t = {:.6} s; reported once", state.time()))
-        })
+        found.map(|what| problem!("tooth_friction.law", "{what} at t = {:.6} s; reported once", state.time()))
     }
 }

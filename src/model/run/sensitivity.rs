@@ -4,19 +4,16 @@
 //! the direction themselves. Forces are read at four points along it, from which central differences of order 4 follow:
 //! with points 3e-4 of the natural magnitudes apart, the error is of the size of rounding.
 
-use super::exchange::STATES;
 use super::imposed::{add_impulse, body_effects, imposed_speeds};
-use super::simulation::Simulation;
+use super::{STATES, Simulation};
 use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::model::Gears;
-use crate::model::dynamics::acting::Acted;
+use crate::model::assembly::Gears;
+use crate::model::dynamics::Acted;
 use crate::model::dynamics::sizes::with_equations;
 use crate::model::outputs::forces::Forces;
-use crate::model::outputs::ledger_readings::LedgerReadings;
-use crate::model::outputs::motion::Motion;
 use crate::model::outputs::pairs::PairLines;
-use crate::model::scene::layout::{CARRIER, MAX_DOF, PLANET};
-use crate::model::scene::{InputDerivatives, Inputs};
+use crate::model::outputs::{LedgerReadings, Motion};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
 
 /// Distance of neighbouring points along a direction, in natural magnitudes.
 const APART: f64 = 3e-4;

@@ -3,19 +3,14 @@
 use std::sync::Arc;
 
 use super::events::{break_tooth, update_friction};
-use super::failure::StepFailure;
 use super::progress::{self, begin_anew};
-use super::{imposed, start, start_report, timeline};
-use crate::model::assembly::model::{Gears, Given, Model};
-use crate::model::dynamics::accepted::Accepted;
-use crate::model::dynamics::sizes::Largest;
-use crate::model::dynamics::state::State;
-use crate::model::dynamics::watched::Watched;
+use super::{StepFailure, imposed, start, start_report, timeline};
+use crate::model::assembly::{Gears, Given, Model};
+use crate::model::dynamics::{Accepted, Largest, State, Watched};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Start};
-use crate::model::setup::Parameters;
-use crate::model::setup::effect_outputs::HEATS;
+use crate::model::setup::{HEATS, Parameters};
 use crate::problem::Problem;
 
 /// First step tried after a start [s]: near the fastest motion of stiff teeth; the controller grows it in a few steps.

@@ -4,14 +4,10 @@ use super::carried::Carried;
 use super::equilibrium::{ROUNDS, press_sides, pressed_as_they_are, settle, settle_as_they_are};
 use super::imposed::body_effects;
 use crate::integrate::Point;
-use crate::model::assembly::ideal::Ideal;
-use crate::model::assembly::model::Model;
-use crate::model::assembly::teeth::SIGMA;
-use crate::model::dynamics::sizes::{LARGEST, Largest};
-use crate::model::dynamics::state::State;
+use crate::model::assembly::{Ideal, Model, SIGMA};
+use crate::model::dynamics::{LARGEST, Largest, State};
 use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::layout::CARRIER;
-use crate::model::scene::{GearContact, Inputs, Start};
+use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
 use crate::problem::Problem;
 
 /// Speeds at the start: imposed ones, and Willis' equation unless everything starts at rest.

@@ -2,12 +2,9 @@
 
 use super::start::Preload;
 use crate::integrate::SecondOrder;
-use crate::model::assembly::model::{Gears, Model};
-use crate::model::assembly::teeth::Teeth;
-use crate::model::dynamics::sizes::Largest;
-use crate::model::dynamics::state::State;
-use crate::model::scene::layout::{CARRIER, MAX_DOF, MAX_GROUPS};
-use crate::model::scene::{Inputs, Plan};
+use crate::model::assembly::{Gears, Model, Teeth};
+use crate::model::dynamics::{Largest, State};
+use crate::model::scene::{CARRIER, Inputs, MAX_DOF, MAX_GROUPS, Plan};
 use crate::problem::Problem;
 
 /// Part of the loads that an equilibrium may leave unbalanced.

@@ -1,25 +1,17 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
 use super::excessive_deflection::ExcessiveDeflection;
-use super::failure::StepFailure;
-use super::hints;
-use super::ledger::{Recorded, Records};
-use crate::contact::mesh::Law;
+use super::{Recorded, Records, StepFailure, hints};
+use crate::contact::Law;
 use crate::integrate::{
     self, AfterStep, Compared, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
 };
-use crate::model::assembly::model::{Gears, Model};
 use crate::model::assembly::rigid::MOST;
-use crate::model::assembly::teeth::Teeth;
-use crate::model::dynamics::clock::Clock;
-use crate::model::dynamics::equations::Equations;
+use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::power::Power;
-use crate::model::dynamics::rigid_equations::RigidEquations;
-use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LARGEST, LEAST};
-use crate::model::dynamics::state::State;
-use crate::model::dynamics::watched::Watched;
-use crate::model::scene::layout::{FRICTION_BODIES, MAX_GROUPS};
-use crate::model::scene::{Inputs, Method};
+use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LEAST};
+use crate::model::dynamics::{Clock, Equations, LARGEST, RigidEquations, State, Watched};
+use crate::model::scene::{FRICTION_BODIES, Inputs, MAX_GROUPS, Method};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
 const BUDGET: u64 = 2_000_000;

@@ -4,11 +4,10 @@
 //! before; long stretches end so that the integrator's clock is set back; and the host asks for a time. A stop is the first
 //! of these. The time moves by as much as the integrator's clock has moved, or the call fails.
 
-use super::failure::StepFailure;
+use super::StepFailure;
 use super::stretch::STRETCH;
-use crate::model::assembly::model::Model;
-use crate::model::dynamics::clock::Clock;
-use crate::model::dynamics::state::State;
+use crate::model::assembly::Model;
+use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
 /// By how much longer than before inputs are expected to hold: hosts add up steps, with all the rounding that brings.

@@ -3,10 +3,8 @@
 use super::completed_step::Passed;
 use super::load_history::count_fatigue;
 use super::mesh_cycles::add_to_history;
-use crate::model::assembly::model::Model;
-use crate::model::assembly::watch::Watch;
-use crate::model::dynamics::sizes::Largest;
-use crate::model::dynamics::watched::Watched;
+use crate::model::assembly::{Model, Watch};
+use crate::model::dynamics::{Largest, Watched};
 
 /// Adds a completed step to what it is watched for.
 ///

@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::inputs::Inputs;
+use super::Inputs;
 
 /// Highest order of the derivatives.
 pub const ORDERS: usize = 2;

@@ -12,7 +12,9 @@ mod solver;
 pub use drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
-pub use layout::Layout;
+pub use layout::{
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET,
+};
 pub use material::{InertiaSpec, Material};
 pub use plan::{Group, Plan, Requests};
 pub use solver::{Method, SolidTeeth, SolverSpec};

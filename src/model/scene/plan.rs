@@ -4,8 +4,9 @@
 //! as there are.
 
 use super::attached::{self, ENDS};
-use super::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive};
-use super::layout::{CARRIER, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS};
+use super::{
+    CARRIER, CarrierDrive, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin, Scene, SideDrive,
+};
 use crate::geometry::{GearSpec, Pair, assembly};
 use crate::problem::Problem;
 

@@ -1,6 +1,6 @@
 //! Advice on settings that are allowed and likely not meant.
 
-use super::parameters::Parameters;
+use super::Parameters;
 use crate::contact::ContactLaw;
 use crate::model::scene::{GearContact, PlanetSpin, SideDrive};
 use crate::problem::Problem;

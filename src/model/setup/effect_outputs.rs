@@ -1,6 +1,6 @@
 //! Which heat and which readings the effects have, and their places in the ledger.
 
-use crate::model::effect_kinds::effect::{Changes, Heat, Reading};
+use crate::model::effect_kinds::{Changes, Heat, Reading};
 use crate::model::effects::EFFECTS;
 
 /// Heat of contact damping, which no effect brings.

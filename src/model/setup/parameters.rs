@@ -1,9 +1,9 @@
 //! Everything a user can fix before the first step.
 
-use super::scene_effects::SceneEffects;
+use super::SceneEffects;
 use crate::contact::ContactSpec;
 use crate::geometry::{GearSpec, Pair};
-use crate::model::effect_kinds::effect::Setting;
+use crate::model::effect_kinds::Setting;
 use crate::model::effects::{EffectParameters, Effects};
 use crate::model::scene::{InertiaSpec, Material, Scene, SolidTeeth, SolverSpec};
 

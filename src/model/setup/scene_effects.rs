@@ -1,12 +1,11 @@
 //! The effects of a scene: what they check, require and bring, gathered from all that are on.
 
 use super::effect_outputs::heat_index;
-use crate::model::effect_kinds::body_effect::BodyEffect;
-use crate::model::effect_kinds::effect::{BUILT, Changes, Effect, Instant, Setting};
-use crate::model::effect_kinds::friction_source::FrictionSource;
-use crate::model::effect_kinds::teeth::{FlankFriction, ToothEffects};
+use crate::model::effect_kinds::{
+    BUILT, BodyEffect, Changes, Effect, FlankFriction, FrictionSource, Instant, Setting, ToothEffects,
+};
 use crate::model::effects::{Declared, EffectParameters, Effects, configured};
-use crate::model::scene::{GearContact, Plan, Requests};
+use crate::model::scene::{Plan, Requests};
 use crate::problem::Problem;
 
 /// The effects of a scene.
@@ -46,15 +45,13 @@ impl<'a> SceneEffects<'a> {
             if let (Some(needs), Some(switch)) = (declared.needs, declared.switch)
                 && !needs.contacts.contains(&contact)
             {
-                let contacts: Vec<&str> = needs.contacts.iter().map(|&contact| name(contact)).collect();
-                found.push(Problem::new(
+                let contacts: Vec<&str> = needs.contacts.iter().map(|contact| contact.literal()).collect();
+                found.push(problem!(
                     switch,
-                    format!(
-                        "does not work with scene.gear_contact = {}: {}; it needs scene.gear_contact = {}",
-                        name(contact),
-                        needs.why,
-                        contacts.join(" or ")
-                    ),
+                    "does not work with scene.gear_contact = {}: {}; it needs scene.gear_contact = {}",
+                    contact.literal(),
+                    needs.why,
+                    contacts.join(" or ")
                 ));
             }
             effect.check(&setting, &mut found);
@@ -114,14 +111,5 @@ pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, mut 
             effect.read(&Instant { on, ..*at }, its);
         }
         out = others;
-    }
-}
-
-fn name(contact: GearContact) -> &'static str {
-    match contact {
-        GearContact::Ideal => "ideal",
-        GearContact::Lumped => "lumped",
-        GearContact::Tooth => "tooth",
-        GearContact::Solid => "solid",
     }
 }

@@ -1,9 +1,9 @@
 //! Scenes that contradict themselves, refused by name.
 
-use super::parameters::Parameters;
+use super::Parameters;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
-use crate::model::effect_kinds::effect::BUILT;
+use crate::model::effect_kinds::BUILT;
 use crate::model::scene::{CarrierDrive, GearContact, PlanetSpin, SideDrive};
 use crate::problem::Problem;
 

@@ -8,8 +8,7 @@ mod scene;
 mod solver;
 
 use crate::declaration::{Parameter, Row, row};
-use crate::model::Parameters;
-use crate::model::effects;
+use crate::model::{Parameters, effects};
 
 /// Rows of all parameters.
 pub fn rows() -> Vec<Row<Parameter<Parameters>>> {

@@ -1,7 +1,6 @@
 //! Rows of integration and solid teeth.
 
-use crate::declaration::units;
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::{Parameter, Row, row, units};
 use crate::model::Parameters;
 
 /// Rows of `solver.…` and `solid.…`.

@@ -1,14 +1,14 @@
 //! The answer to a question of accuracy.
 
 use anyhow::Result;
-use bevel_differential::variables::Variable;
+use bevel_differential::variables::{Variable, assign};
 
 use super::Question;
-use super::bench::{Bench, Reference, Trial};
+use super::bench::{Bench, Trial};
 use super::gears::Gears;
 use super::reference::{self, Richest};
 use super::search::{Found, is_within, search};
-use super::switches::{Standing, Switch, effects, put};
+use super::switches::{Standing, Switch, effects};
 use super::want::{self, Want};
 use crate::problem::wrong;
 use crate::scene::Scene;
@@ -34,8 +34,10 @@ pub struct Answer {
     pub within: f64,
     /// Time from which on outputs count [s].
     pub from: f64,
-    /// What runs were compared with.
-    pub reference: Reference,
+    /// What runs were compared with; its errors are how far it strays.
+    pub reference: Trial,
+    /// What 100 % of each quantity is.
+    pub scales: Vec<f64>,
     /// All runs.
     pub trials: Vec<Trial>,
     /// Number of the chosen run; none if nothing is accurate enough.
@@ -90,7 +92,7 @@ pub enum Role {
 impl Answer {
     /// Whether the reference itself is not sure to a third of the accuracy.
     pub fn is_uncertain(&self) -> bool {
-        3.0 * self.reference.stray() > self.within
+        3.0 * self.reference.error() > self.within
     }
 
     /// The chosen run.
@@ -112,8 +114,8 @@ pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<A
     SceneRun::start(&scene, scene.step)?;
     let richest = reference::richest(&scene)?;
     let (reference, spent) = reference::run(&richest.scene, &wants, question, watch)?;
-    let uncertain = 3.0 * reference.stray() > question.within;
-    let limit = if uncertain { BUDGET_UNCERTAIN } else { BUDGET } * reference.cost;
+    let uncertain = 3.0 * reference.0.error() > question.within;
+    let limit = if uncertain { BUDGET_UNCERTAIN } else { BUDGET } * reference.0.cost;
     let mut bench = Bench::new(&wants, question.from, reference, [spent, limit], watch);
     let found = search(&mut bench, &scene, &richest, question.within, question.timed);
     let roles = roles(&mut bench, &scene, &richest, &found, question.within);
@@ -129,7 +131,7 @@ pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<A
         seconds[3] = Some(bench.reference.effort.seconds);
     }
     bench.watch.go_on()?;
-    let Bench { reference, trials, spent, .. } = bench;
+    let Bench { reference, scales, trials, spent, .. } = bench;
     Ok(Answer {
         within: question.within,
         from: question.from,
@@ -138,6 +140,7 @@ pub fn answer(scene: &Scene, question: &Question, watch: &mut Watch) -> Result<A
         effects: roles,
         chosen: found.chosen,
         reference,
+        scales,
         trials,
         cheaper,
         richer,
@@ -208,7 +211,7 @@ fn acting(bench: &mut Bench, switch: &Switch, [without, with]: [usize; 2], chose
 
 /// Largest difference between two runs, as a part of the scales.
 fn change(bench: &Bench, run: usize, other: usize) -> f64 {
-    let pairs = bench.trials[run].values.iter().zip(&bench.trials[other].values).zip(&bench.reference.scales);
+    let pairs = bench.trials[run].values.iter().zip(&bench.trials[other].values).zip(&bench.scales);
     pairs.fold(0.0, |most, ((&a, &b), &scale)| f64::max(most, Want::error(a, b, scale)))
 }
 
@@ -219,7 +222,9 @@ fn neutral(bench: &mut Bench, switch: &Switch, rich: usize, typical: Vec<(&'stat
     }
     let mut scene = bench.trials[rich].scene.clone();
     for &(row, value) in &typical {
-        put(row, value, &mut scene.parameters, &mut scene.inputs);
+        // typical values are within their ranges
+        let fits = assign(row, value, &mut scene.parameters, &mut scene.inputs);
+        debug_assert_eq!(fits, Ok(()));
     }
     let run = bench.run(&scene, &format!("typical values of {}", switch.name()));
     let by = run.ok().map(|run| change(bench, run, rich));

@@ -45,37 +45,17 @@ impl Trial {
     }
 }
 
-/// What runs are compared with.
-pub struct Reference {
-    /// The richest scene at the finest tolerance.
-    pub scene: Scene,
-    /// Values of the wanted quantities.
-    pub values: Vec<f64>,
-    /// What 100 % of each is.
-    pub scales: Vec<f64>,
-    /// How far each strays when nothing but the integrator changes.
-    pub strays: Vec<f64>,
-    /// What it took.
-    pub effort: Effort,
-    /// Price by its counts, in evaluations of plain teeth.
-    pub cost: f64,
-}
-
-impl Reference {
-    /// The largest of the strays.
-    pub fn stray(&self) -> f64 {
-        self.strays.iter().copied().fold(0.0, f64::max)
-    }
-}
-
 /// All runs.
 pub struct Bench<'a, 'w> {
     /// What is wanted.
     pub wants: &'a [Want],
     /// Time from which on outputs count [s].
     pub from: f64,
-    /// What runs are compared with.
-    pub reference: Reference,
+    /// What runs are compared with: the richest scene at the finest tolerance. Its errors are how far each quantity strays when
+    /// nothing but the integrator changes.
+    pub reference: Trial,
+    /// What 100 % of each quantity is.
+    pub scales: Vec<f64>,
     /// Runs that came to their end.
     pub trials: Vec<Trial>,
     /// Price of all runs so far, and how much it may be.
@@ -97,11 +77,11 @@ impl<'a, 'w> Bench<'a, 'w> {
     pub fn new(
         wants: &'a [Want],
         from: f64,
-        reference: Reference,
+        (reference, scales): (Trial, Vec<f64>),
         [spent, limit]: [f64; 2],
         watch: &'a mut Watch<'w>,
     ) -> Self {
-        Self { wants, from, reference, trials: Vec::new(), spent, limit, failed: Vec::new(), watch }
+        Self { wants, from, reference, scales, trials: Vec::new(), spent, limit, failed: Vec::new(), watch }
     }
 
     /// Whether there is room for one more run like `trial`.
@@ -132,9 +112,8 @@ impl<'a, 'w> Bench<'a, 'w> {
                 return Err(why);
             }
         };
-        let reference = &self.reference;
-        let errors =
-            (0..values.len()).map(|i| Want::error(values[i], reference.values[i], reference.scales[i])).collect();
+        let error = |i: usize| Want::error(values[i], self.reference.values[i], self.scales[i]);
+        let errors = (0..values.len()).map(error).collect();
         self.trials.push(Trial { scene: scene.clone(), what: what.to_owned(), values, errors, effort, cost });
         Ok(self.trials.len() - 1)
     }

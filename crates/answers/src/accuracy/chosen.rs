@@ -5,14 +5,14 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Variable, table};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
 use super::answer::Answer;
 use super::input_paths::moved;
 use super::words::{percent, setting};
 use crate::scene::load;
-use crate::scene::set::literal;
+use crate::scene::set::{Setting, SettingValue};
 use crate::text::shown;
 
 /// The scene with the chosen setting, as a file at `to`: paths in it lead to the same files.
@@ -60,15 +60,13 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
 }
 
 /// Value of a parameter or input, as a file has it.
-fn value(row: &Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
-    let (mut p, mut i) = (*p, *i);
-    Some(match row.access {
-        Access::Real(at) => (*at(&mut p)).into(),
-        Access::Input(at) => (*at(&mut i)).into(),
-        Access::Integer(at) => i64::from(*at(&mut p)).into(),
-        Access::Boolean(at) => (*at(&mut p)).into(),
-        Access::Enumeration(_, get, _) => literal(row, get(&p))?.0.into(),
-        Access::Output(_) => return None,
+fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
+    let setting = Setting::of(row, p, i)?;
+    Some(match setting.value {
+        SettingValue::Real(number) => number.into(),
+        SettingValue::Integer(number) => i64::from(number).into(),
+        SettingValue::Boolean(truth) => truth.into(),
+        SettingValue::Literal(_) => setting.text().into(),
     })
 }
 

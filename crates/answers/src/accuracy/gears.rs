@@ -58,17 +58,7 @@ impl Gears {
 
     /// In words.
     pub fn text(self) -> String {
-        let level = match self.level {
-            GearContact::Ideal => "ideal",
-            GearContact::Lumped => "lumped",
-            GearContact::Tooth => "tooth",
-            GearContact::Solid => "solid",
-        };
-        let law = match self.law {
-            ContactLaw::Impact => "impact",
-            ContactLaw::Line => "line",
-            ContactLaw::LineWeber => "line_weber",
-        };
+        let (level, law) = (self.level.literal(), self.law.literal());
         match self.level {
             GearContact::Ideal | GearContact::Lumped => level.into(),
             _ => format!("{level} {law}{}", if self.bodies { " + gear bodies" } else { "" }),

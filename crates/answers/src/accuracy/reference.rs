@@ -5,7 +5,7 @@ use bevel_differential::model::{Method, Parameters};
 use bevel_differential::variables::named;
 
 use super::Question;
-use super::bench::{Reference, values};
+use super::bench::{Trial, values};
 use super::gears::{self, Gears};
 use super::price;
 use super::record::{Record, in_one_line};
@@ -77,46 +77,41 @@ pub fn at_tolerance(p: &Parameters, tolerance: f64) -> Parameters {
     p
 }
 
-/// A run of the richest scene.
-struct Run {
-    scene: Scene,
-    record: Record,
-    figures: Vec<f64>,
-    cost: f64,
-}
-
-/// Runs the richest scene, finer and finer, until its integrator's error does not matter; with it what the runs cost.
-pub fn run(richest: &Scene, wants: &[Want], question: &Question, watch: &mut Watch) -> Result<(Reference, f64)> {
+/// Runs the richest scene, finer and finer, until its integrator's error does not matter; with what 100 % of each quantity is,
+/// and what the runs cost.
+pub fn run(
+    richest: &Scene,
+    wants: &[Want],
+    question: &Question,
+    watch: &mut Watch,
+) -> Result<((Trial, Vec<f64>), f64)> {
     let mut tolerance = (FIRST * question.within).min(COARSEST).min(richest.parameters.solver.relative_tolerance);
     let mut at = |tolerance: f64| {
         let scene = Scene { parameters: at_tolerance(&richest.parameters, tolerance), ..richest.clone() };
         watch.say(0.0, &format!("the reference, tolerance {tolerance:.0e}"));
         let record = Record::of(&scene, question.from, f64::INFINITY, watch)
             .map_err(|why| anyhow!("scene {}, with {}: {why}", scene.name, Gears::of(&scene.parameters).text()))?;
-        let figures = values(wants, &record).map_err(wrong)?;
-        let cost = price::cost(&scene.parameters, &record.effort);
-        Ok::<_, anyhow::Error>(Run { scene, record, figures, cost })
+        let (values, cost) = (values(wants, &record).map_err(wrong)?, price::cost(&scene.parameters, &record.effort));
+        let (what, effort) = ("the reference".into(), record.effort);
+        Ok::<_, anyhow::Error>((Trial { scene, what, values, errors: Vec::new(), effort, cost }, record))
     };
-    let mut last = at(tolerance)?;
+    let (mut last, _) = at(tolerance)?;
     let mut spent = last.cost;
     for refined in 1.. {
-        let between = at(FINER[0] * tolerance)?;
-        let finest = at(FINER[1] * tolerance)?;
+        let (between, _) = at(FINER[0] * tolerance)?;
+        let (mut finest, record) = at(FINER[1] * tolerance)?;
         tolerance *= FINER[1];
         spent += between.cost + finest.cost;
-        let scales =
-            wants.iter().map(|want| want.scale(&finest.scene, &finest.record)).collect::<Result<Vec<f64>, _>>();
+        let scales = wants.iter().map(|want| want.scale(&finest.scene, &record)).collect::<Result<Vec<f64>, _>>();
         let scales = scales.map_err(wrong)?;
         let stray = |i: usize| {
-            let from = |other: &Run| Want::error(other.figures[i], finest.figures[i], scales[i]);
+            let from = |other: &Trial| Want::error(other.values[i], finest.values[i], scales[i]);
             from(&last).max(from(&between))
         };
-        let strays: Vec<f64> = (0..wants.len()).map(stray).collect();
-        let steady = strays.iter().all(|&stray| stray < STEADY * question.within);
+        finest.errors = (0..wants.len()).map(stray).collect();
+        let steady = finest.errors.iter().all(|&stray| stray < STEADY * question.within);
         if steady || refined == REFINED || tolerance <= tolerances()[0] {
-            let Run { scene, record, figures, cost } = finest;
-            let reference = Reference { scene, values: figures, scales, strays, effort: record.effort, cost };
-            return Ok((reference, spent));
+            return Ok(((finest, scales), spent));
         }
         last = finest;
     }

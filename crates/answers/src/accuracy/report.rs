@@ -118,14 +118,13 @@ fn told(answer: &Answer, run: &Trial, place: usize) -> String {
 
 fn reference(answer: &Answer) -> String {
     let reference = &answer.reference;
-    let mut text = format!("{}; strays by {}", setting(&reference.scene.parameters), percent(reference.stray()));
+    let mut text = format!("{}; strays by {}", setting(&reference.scene.parameters), percent(reference.error()));
     if let Some(seconds) = answer.seconds[3] {
         text.push_str(&format!("; {} x real time", two(answer.scene.stop_time / seconds)));
     }
     text.push('.');
     if answer.is_uncertain() {
-        let worst = (0..reference.strays.len()).max_by(|&a, &b| reference.strays[a].total_cmp(&reference.strays[b]));
-        let name = worst.map_or(String::new(), |i| answer.wants[i].text(&answer.scene));
+        let name = answer.wants[reference.worst().0].text(&answer.scene);
         text.push_str(&format!(
             " NOT CERTAIN: {name} strays by more than a third of the accuracy when only the integrator's steps change, as in \
              motions with blows. Nothing below twice that can be told: ask for a steadier statistic (mean, rms), a later \
@@ -221,17 +220,12 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
             );
         }
     }
-    push(
-        "Not in it",
-        join("so not judged: ", names(&|s, role| matches!(role, Role::NotThere).then(|| s.name().into()))),
-    );
-    push("Set off", join("by the scene: ", names(&|s, role| matches!(role, Role::SetOff).then(|| s.name().into()))));
+    let of = |is: fn(&Role) -> bool| names(&|switch, role| is(role).then(|| switch.name().into()));
+    push("Not in it", join("so not judged: ", of(|role| matches!(role, Role::NotThere))));
+    push("Set off", join("by the scene: ", of(|role| matches!(role, Role::SetOff))));
     push(
         "Not asked",
-        join(
-            "only add outputs, and none of them is wanted: ",
-            names(&|s, role| matches!(role, Role::NotAsked).then(|| s.name().into())),
-        ),
+        join("only add outputs, and none of them is wanted: ", of(|role| matches!(role, Role::NotAsked))),
     );
     push(
         "Kept",

@@ -54,7 +54,7 @@ pub struct Found {
 /// Whether run `i` is accurate enough: within the accuracy with what the reference itself may stray; where that is more than
 /// can be told, within twice the stray.
 pub fn is_within(bench: &Bench, within: f64, i: usize) -> bool {
-    let errors = bench.trials[i].errors.iter().zip(&bench.reference.strays);
+    let errors = bench.trials[i].errors.iter().zip(&bench.reference.errors);
     errors.into_iter().all(|(&error, &stray)| {
         let certain = 3.0 * stray <= within;
         if certain { error + stray <= within } else { error <= within.max(2.0 * stray) }
@@ -138,7 +138,7 @@ fn minimal(bench: &mut Bench, mut chosen: usize, plainer: &[Gears], written: &Sc
 fn screening(bench: &mut Bench, richest: &Scene, within: f64) -> (f64, Option<usize>) {
     let mut screen = (SCREEN * within).clamp(SCREENS[0], SCREENS[1]);
     let finest = bench.reference.scene.parameters.solver.relative_tolerance;
-    let enough = (SCREEN_ERROR * within).max(2.0 * bench.reference.stray());
+    let enough = (SCREEN_ERROR * within).max(2.0 * bench.reference.error());
     loop {
         let scene = Scene { parameters: at_tolerance(&richest.parameters, screen), ..richest.clone() };
         let run = bench.run(&scene, &format!("all effects, tolerance {screen:.0e}")).ok();
@@ -229,7 +229,7 @@ fn other_method(bench: &mut Bench, chosen: usize, within: f64) -> usize {
         if !bench.has_room(bench.trials[chosen].cost) {
             break;
         }
-        let Ok(run) = bench.run(&scene, &format!("method {}", super::words::method(method))) else { continue };
+        let Ok(run) = bench.run(&scene, &format!("method {}", method.literal())) else { continue };
         if !is_within(bench, within, run) || bench.trials[run].effort.seconds > 2.0 * time {
             continue;
         }

@@ -2,7 +2,7 @@
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::{Access, Variable, named, table};
+use bevel_differential::variables::{Access, Variable, named, table, value_of};
 
 use crate::scene::Scene;
 use crate::scene::run::SceneRun;
@@ -71,9 +71,7 @@ impl Switch {
 
     /// Whether the effect is on in `p`.
     pub fn is_on(&self, p: &Parameters) -> bool {
-        // the table gives access to what it may change
-        let mut p = *p;
-        matches!(self.row.access, Access::Boolean(access) if *access(&mut p))
+        value_of(self.row, p, &Inputs::ZERO) == Some(1.0)
     }
 
     /// Switches the effect in `p`.
@@ -133,10 +131,9 @@ impl Switch {
         if self.is_bodies() {
             return Vec::new();
         }
-        let row = |name: &str| named(name);
         let declared = EFFECTS.iter().filter(|effect| effect.switch == Some(self.row.name));
         let examples =
-            declared.flat_map(|effect| effect.example).filter_map(|&(name, value)| Some((row(name)?, value)));
+            declared.flat_map(|effect| effect.example).filter_map(|&(name, value)| Some((named(name)?, value)));
         // an own parameter that the scene sets to zero has its start value for a typical one
         let own = scene.settings.iter().map(|setting| setting.row).filter(|row| group(row.name) == self.name());
         let starts = own.filter_map(|row| Some((row, number(row, &Parameters::default(), &Inputs::default())?)));
@@ -156,23 +153,8 @@ fn group(name: &str) -> &str {
 
 /// Value of a real or integer parameter, or of an input at the start.
 fn number(row: &Variable, p: &Parameters, i: &Inputs) -> Option<f64> {
-    let (mut p, mut i) = (*p, *i);
-    match row.access {
-        Access::Real(at) => Some(*at(&mut p)),
-        Access::Integer(at) => Some(f64::from(*at(&mut p))),
-        Access::Input(at) => Some(*at(&mut i)),
-        _ => None,
-    }
-}
-
-/// Sets a real or integer parameter, or an input.
-pub fn put(row: &Variable, value: f64, p: &mut Parameters, i: &mut Inputs) {
-    match row.access {
-        Access::Real(at) => *at(p) = value,
-        Access::Integer(at) => *at(p) = value as i32,
-        Access::Input(at) => *at(i) = value,
-        _ => {}
-    }
+    let is_number = !matches!(row.access, Access::Boolean(_) | Access::Enumeration(..));
+    value_of(row, p, i).filter(|_| is_number)
 }
 
 /// `scene` without the effects that are refused by name beside the rest; or what else is refused.

@@ -35,28 +35,17 @@ pub struct Row {
 
 /// All runs, the reference last.
 pub fn rows(answer: &Answer) -> Vec<Row> {
-    let reference = &answer.reference;
-    let last = Row {
-        tried: "the reference".into(),
-        place: "reference",
-        setting: setting(&reference.scene.parameters),
-        error: reference.stray(),
-        worst: String::new(),
-        evaluations: reference.effort.evaluations,
-        steps: reference.effort.steps,
-        price: reference.cost,
-        seconds: reference.effort.seconds,
-        errors: reference.strays.clone(),
-    };
-    answer.trials.iter().enumerate().map(|(i, trial)| row(answer, i, trial)).chain([last]).collect()
+    let places = [(answer.chosen, "chosen"), (answer.cheaper, "cheaper"), (answer.richer, "richer")];
+    let place = |i: usize| places.into_iter().find(|(run, _)| *run == Some(i)).map_or("", |(_, place)| place);
+    let last = Row { worst: String::new(), ..row(answer, "reference", &answer.reference) };
+    answer.trials.iter().enumerate().map(|(i, trial)| row(answer, place(i), trial)).chain([last]).collect()
 }
 
-fn row(answer: &Answer, i: usize, trial: &Trial) -> Row {
-    let places = [(answer.chosen, "chosen"), (answer.cheaper, "cheaper"), (answer.richer, "richer")];
+fn row(answer: &Answer, place: &'static str, trial: &Trial) -> Row {
     let (worst, error) = trial.worst();
     Row {
         tried: trial.what.clone(),
-        place: places.into_iter().find(|(run, _)| *run == Some(i)).map_or("", |(_, place)| place),
+        place,
         setting: setting(&trial.scene.parameters),
         error,
         worst: answer.wants[worst].text(&answer.scene),

@@ -39,17 +39,6 @@ pub fn two(value: f64) -> String {
     crate::text::numbers::significant(value, 2)
 }
 
-/// Word of a method.
-pub fn method(method: Method) -> &'static str {
-    match method {
-        Method::Adaptive => "adaptive",
-        Method::FixedStep => "fixed_step",
-        Method::Radau => "radau",
-        Method::Rodas4 => "rodas4",
-        Method::DormandPrince => "dormand_prince",
-    }
-}
-
 /// Effects that are on, gear bodies aside.
 pub fn effects_on(p: &Parameters) -> Vec<&'static str> {
     effects().filter(|switch| switch.is_on(p) && !switch.is_bodies()).map(|switch| switch.name()).collect()
@@ -67,7 +56,7 @@ pub fn solver(p: &Parameters) -> String {
     match p.solver.method {
         Method::Adaptive => format!("tolerance {}", power(p.solver.relative_tolerance)),
         Method::FixedStep => format!("fixed steps of {} s", three(p.solver.fixed_step)),
-        other => format!("{}, tolerance {}", method(other), power(p.solver.relative_tolerance)),
+        other => format!("{}, tolerance {}", other.literal(), power(p.solver.relative_tolerance)),
     }
 }
 

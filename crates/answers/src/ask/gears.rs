@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::geometry::design::Design;
 use crate::geometry::interference::InterferenceCheck;
-use crate::geometry::shape::CadShape;
+use crate::geometry::shape::shape;
 use crate::geometry::{json, text, xyz};
 use crate::problem::{Problem, Problems};
 use crate::scene::set::{real, value, variable};
@@ -57,9 +57,8 @@ impl GeometryQuestion {
         if self.solids {
             watch.say(1.0, "making solids");
             let density = design.parameters.material.density;
-            let shape =
-                CadShape::new(&design.pair, &design.spec, density, self.facets).map_err(|found| anyhow!("{found}"))?;
-            answer["shape"] = serde_json::to_value(shape)?;
+            let shape = shape(&design.pair, &design.spec, density, self.facets);
+            answer["shape"] = shape.map_err(|found| anyhow!("{found}"))?;
         }
         Ok(answer)
     }

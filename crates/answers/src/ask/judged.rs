@@ -116,7 +116,7 @@ impl AccuracyQuestion {
             "reference": {
                 "set": changed(&found.reference.scene),
                 "values": found.reference.values,
-                "scales": found.reference.scales,
+                "scales": found.scales,
             },
             "seconds": found.seconds,
             "spent": found.spent,

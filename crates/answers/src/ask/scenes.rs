@@ -12,7 +12,7 @@ use super::source::{Source, seconds};
 use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
 use crate::scene::run::{SceneRun, run};
-use crate::scene::set::{Setting, SettingValue};
+use crate::scene::set::Setting;
 use crate::scene::start_values::changed_values;
 use crate::scene::{self, Scene, loads, plan, script, ssv};
 use crate::text::shown;
@@ -170,15 +170,9 @@ impl PatternQuestion {
     }
 }
 
-/// Values by name: numbers of the interface, literals of enumerations.
+/// Values by name.
 fn values(settings: &[Setting]) -> Map<String, Value> {
-    let value = |setting: &Setting| match setting.value {
-        SettingValue::Real(number) => json!(number),
-        SettingValue::Integer(number) => json!(number),
-        SettingValue::Boolean(truth) => json!(truth),
-        SettingValue::Literal(_) => json!(setting.text()),
-    };
-    settings.iter().map(|setting| (setting.row.name.to_owned(), value(setting))).collect()
+    settings.iter().map(|setting| (setting.row.name.to_owned(), setting.json())).collect()
 }
 
 /// All that `scene` has otherwise than the FMU, and all that it names.

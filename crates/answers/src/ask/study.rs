@@ -5,7 +5,7 @@ use bevel_differential::model::Parameters;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::study::evaluation::{Results, SimulationRequest};
+use crate::study::evaluation::{Results, request};
 use crate::study::theory::Theory;
 use crate::study::{EXCERPT, comparison};
 
@@ -21,7 +21,7 @@ impl StudyQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let theory = Theory::new(&Parameters::default());
         let Some(results) = &self.results else {
-            return Ok(serde_json::to_value(SimulationRequest::new(&theory))?);
+            return Ok(request(&theory));
         };
         let report = comparison::report(&theory, results);
         Ok(json!({"text": report.terminal(), "document": report.markdown(), "excerpt": report.excerpt(&EXCERPT)}))

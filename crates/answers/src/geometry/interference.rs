@@ -11,9 +11,9 @@ use bevel_differential::geometry::assembly::phases;
 use bevel_differential::geometry::solid::Part;
 use bevel_differential::geometry::solid::interference::{Approach, FACETS, Interference, POSITIONS, Stance, Verdict};
 use bevel_differential::geometry::{GearSpec, Pair};
-use serde::Serialize;
 
 use super::design::Design;
+use super::json::Ordered;
 use crate::text::table::wrapped;
 use crate::watch::Watch;
 
@@ -30,39 +30,6 @@ pub struct InterferenceCheck {
     thicken: f64,
     /// With the teeth in the middle of their gaps, and with all play taken up on one side.
     stances: [Interference; 2],
-}
-
-/// The check in JSON: lengths in mm, angles in degrees.
-#[derive(Serialize)]
-pub struct InterferenceReport {
-    found: bool,
-    thicken: f64,
-    backlash: f64,
-    middle: StanceReport,
-    driving: StanceReport,
-    between_tip_cones_of_neighbouring_planets: f64,
-    between_tip_cones_of_side_gears: f64,
-}
-
-#[derive(Serialize)]
-struct StanceReport {
-    verdict: &'static str,
-    resolution: f64,
-    approaches: Vec<ApproachReport>,
-}
-
-#[derive(Serialize)]
-struct ApproachReport {
-    planet: &'static str,
-    side_gear: &'static str,
-    at_heel: f64,
-    at_toe: f64,
-    angle_from_planet_axis: f64,
-    angle_from_side_gear_axis: f64,
-    angle_from_plane_of_axes: f64,
-    planet_turned: f64,
-    planet_tooth: i32,
-    side_gear_tooth: i32,
 }
 
 impl InterferenceCheck {
@@ -206,48 +173,49 @@ impl InterferenceCheck {
         per_cone_distance * self.pair.outer_cone * MM
     }
 
-    /// For a program.
-    pub fn report(&self) -> InterferenceReport {
+    /// For a program: lengths in mm, angles in degrees.
+    pub fn report(&self) -> Ordered {
         let [middle, driving] = &self.stances;
         let [planets, sides] = middle.between_tips.map(f64::to_degrees);
-        InterferenceReport {
-            found: self.any(),
-            thicken: self.thicken * MM,
-            backlash: self.spec.backlash * MM,
-            middle: self.stance_report(middle),
-            driving: self.stance_report(driving),
-            between_tip_cones_of_neighbouring_planets: planets,
-            between_tip_cones_of_side_gears: sides,
-        }
+        Ordered::Object(vec![
+            ("found", self.any().into()),
+            ("thicken", (self.thicken * MM).into()),
+            ("backlash", (self.spec.backlash * MM).into()),
+            ("middle", self.stance_report(middle)),
+            ("driving", self.stance_report(driving)),
+            ("between_tip_cones_of_neighbouring_planets", planets.into()),
+            ("between_tip_cones_of_side_gears", sides.into()),
+        ])
     }
 
-    fn stance_report(&self, found: &Interference) -> StanceReport {
+    fn stance_report(&self, found: &Interference) -> Ordered {
         let near = |a: &&Approach| a.gap * self.pair.outer_cone < NEAR * self.pair.module;
-        let verdict = found.worst().map_or(Verdict::Clear, |worst| found.verdict(worst.gap));
-        StanceReport {
-            verdict: match verdict {
-                Verdict::Clear => "clear",
-                Verdict::Touching => "touching",
-                Verdict::Interfering => "interfering",
-            },
-            resolution: self.heel(found.resolution),
-            approaches: found.approaches.iter().filter(near).map(|a| self.approach_report(a)).collect(),
-        }
+        let verdict = match found.worst().map_or(Verdict::Clear, |worst| found.verdict(worst.gap)) {
+            Verdict::Clear => "clear",
+            Verdict::Touching => "touching",
+            Verdict::Interfering => "interfering",
+        };
+        let approaches = found.approaches.iter().filter(near).map(|a| self.approach_report(a));
+        Ordered::Object(vec![
+            ("verdict", verdict.into()),
+            ("resolution", self.heel(found.resolution).into()),
+            ("approaches", Ordered::List(approaches.collect())),
+        ])
     }
 
-    fn approach_report(&self, a: &Approach) -> ApproachReport {
-        ApproachReport {
-            planet: part(a.parts[0]),
-            side_gear: part(a.parts[1]),
-            at_heel: self.heel(a.gap),
-            at_toe: a.gap * self.pair.inner_cone * MM,
-            angle_from_planet_axis: a.polar[0].to_degrees(),
-            angle_from_side_gear_axis: a.polar[1].to_degrees(),
-            angle_from_plane_of_axes: a.azimuth.to_degrees(),
-            planet_turned: a.turn.to_degrees(),
-            planet_tooth: a.teeth[0],
-            side_gear_tooth: a.teeth[1],
-        }
+    fn approach_report(&self, a: &Approach) -> Ordered {
+        Ordered::Object(vec![
+            ("planet", part(a.parts[0]).into()),
+            ("side_gear", part(a.parts[1]).into()),
+            ("at_heel", self.heel(a.gap).into()),
+            ("at_toe", (a.gap * self.pair.inner_cone * MM).into()),
+            ("angle_from_planet_axis", a.polar[0].to_degrees().into()),
+            ("angle_from_side_gear_axis", a.polar[1].to_degrees().into()),
+            ("angle_from_plane_of_axes", a.azimuth.to_degrees().into()),
+            ("planet_turned", a.turn.to_degrees().into()),
+            ("planet_tooth", a.teeth[0].into()),
+            ("side_gear_tooth", a.teeth[1].into()),
+        ])
     }
 }
 

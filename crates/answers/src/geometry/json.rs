@@ -1,108 +1,92 @@
 //! The dimensions for a program: the rows of the table by key, in the table's order.
 
 use anyhow::Result;
-use bevel_differential::model::Parameters;
+use bevel_differential::model::Inputs;
+use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, Variable};
 use serde::{Serialize, Serializer};
 use serde_json::{Value, json};
 
 use super::design::{Design, parameters};
 use super::dimensions::{Dimension, DimensionGroup, QuantityKind, of_gears, of_pair};
-use super::interference::{InterferenceCheck, InterferenceReport};
+use super::interference::InterferenceCheck;
 use super::tredgold::{TredgoldComparison, comparisons};
-use crate::scene::set::literal;
+use crate::scene::set::Setting;
 
-/// Entries of an object in the order they are given, which a map of the library would lose.
-struct Ordered(Vec<(&'static str, JsonEntry)>);
-
+/// JSON whose objects keep the order in which their entries are given, which a map of the library would lose.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum JsonEntry {
-    Parameter {
-        value: Value,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        unit: Option<&'static str>,
-    },
-    Dimension {
-        value: Value,
-        unit: &'static str,
-        symbol: &'static str,
-        standard: Value,
-        meaning: String,
-    },
-    TredgoldComparison {
-        exact: f64,
-        tredgold: f64,
-        unit: &'static str,
-        relative_error: Option<f64>,
-    },
+pub enum Ordered {
+    /// A value without objects.
+    Value(Value),
+    /// A list.
+    List(Vec<Ordered>),
+    /// An object.
+    #[serde(serialize_with = "entries")]
+    Object(Vec<(&'static str, Ordered)>),
 }
 
-impl Serialize for Ordered {
-    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
-        to.collect_map(self.0.iter().map(|(key, value)| (key, value)))
+fn entries<S: Serializer>(entries: &[(&'static str, Ordered)], to: S) -> Result<S::Ok, S::Error> {
+    to.collect_map(entries.iter().map(|(key, value)| (key, value)))
+}
+
+impl<T: Into<Value>> From<T> for Ordered {
+    fn from(value: T) -> Self {
+        Self::Value(value.into())
     }
-}
-
-#[derive(Serialize)]
-struct Document {
-    parameters: Ordered,
-    planet: Ordered,
-    side_gear: Ordered,
-    pair: Ordered,
-    tredgold: Ordered,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    interference: Option<InterferenceReport>,
-    warnings: Vec<Value>,
 }
 
 /// All of it, with what the check of interference found if it was made.
 pub fn text(design: &Design, check: Option<&InterferenceCheck>) -> Result<String> {
-    let mut values = design.parameters;
-    let warnings = design.warnings.iter();
-    let document = Document {
-        parameters: Ordered(parameters().map(|row| (row.name, parameter(row, &mut values))).collect()),
-        planet: dimensions(of_gears(), design, 0),
-        side_gear: dimensions(of_gears(), design, 1),
-        pair: dimensions(of_pair(), design, 0),
-        tredgold: Ordered(comparisons(design).iter().map(|found| (found.key, comparison(found))).collect()),
-        interference: check.map(InterferenceCheck::report),
-        warnings: warnings.map(|found| json!({"variable": found.variable, "message": found.message})).collect(),
-    };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+    let parameter = |row: &'static Variable| (row.name, parameter(design, row));
+    let comparison = |found: &TredgoldComparison| (found.key, comparison(found));
+    let warning = |found: &Problem| json!({"variable": found.variable, "message": found.message});
+    let mut document = vec![
+        ("parameters", Ordered::Object(parameters().map(parameter).collect())),
+        ("planet", dimensions(of_gears(), design, 0)),
+        ("side_gear", dimensions(of_gears(), design, 1)),
+        ("pair", dimensions(of_pair(), design, 0)),
+        ("tredgold", Ordered::Object(comparisons(design).iter().map(comparison).collect())),
+    ];
+    document.extend(check.map(|check| ("interference", check.report())));
+    document.push(("warnings", design.warnings.iter().map(warning).collect::<Value>().into()));
+    Ok(serde_json::to_string_pretty(&Ordered::Object(document))? + "\n")
 }
 
 fn dimensions(groups: Vec<DimensionGroup>, design: &Design, i: usize) -> Ordered {
-    Ordered(groups.iter().flat_map(|group| &group.rows).map(|row| (row.key, dimension(row, design, i))).collect())
+    let rows = groups.iter().flat_map(|group| &group.rows);
+    Ordered::Object(rows.map(|row| (row.key, dimension(row, design, i))).collect())
 }
 
-fn dimension(row: &Dimension, design: &Design, i: usize) -> JsonEntry {
+fn dimension(row: &Dimension, design: &Design, i: usize) -> Ordered {
     let value = row.shown(design, i);
-    JsonEntry::Dimension {
+    Ordered::Object(vec![
         // whole numbers without a decimal point
-        value: if row.kind == QuantityKind::Count { Value::from(value as i64) } else { Value::from(value) },
-        unit: row.kind.unit(),
-        symbol: row.symbol,
-        standard: row.standard.map_or(Value::Bool(false), Value::from),
-        meaning: format!("{}: {}", row.term(), row.meaning),
-    }
+        ("value", if row.kind == QuantityKind::Count { (value as i64).into() } else { value.into() }),
+        ("unit", row.kind.unit().into()),
+        ("symbol", row.symbol.into()),
+        ("standard", row.standard.map_or(Value::Bool(false), Value::from).into()),
+        ("meaning", format!("{}: {}", row.term(), row.meaning).into()),
+    ])
 }
 
-fn comparison(found: &TredgoldComparison) -> JsonEntry {
+fn comparison(found: &TredgoldComparison) -> Ordered {
     let [exact, tredgold] = [found.exact, found.planar].map(|value| found.kind.shown(value));
-    JsonEntry::TredgoldComparison { exact, tredgold, unit: found.kind.unit(), relative_error: found.error() }
+    Ordered::Object(vec![
+        ("exact", exact.into()),
+        ("tredgold", tredgold.into()),
+        ("unit", found.kind.unit().into()),
+        ("relative_error", found.error().into()),
+    ])
 }
 
 /// A parameter as the FMU has it.
-fn parameter(row: &Variable, values: &mut Parameters) -> JsonEntry {
-    let value = match row.access {
-        Access::Real(access) => Value::from(*access(values)),
-        Access::Integer(access) => Value::from(*access(values)),
-        Access::Boolean(access) => Value::from(*access(values)),
-        Access::Enumeration(_, get, _) => Value::from(literal(row, get(values)).map(|(name, _)| name)),
-        // what shapes the gears are parameters
-        Access::Input(_) | Access::Output(_) => Value::Null,
-    };
-    let number = matches!(row.access, Access::Real(_) | Access::Integer(_));
-    JsonEntry::Parameter { value, unit: number.then(|| row.unit.map_or("1", |unit| unit.name)) }
+fn parameter(design: &Design, row: &'static Variable) -> Ordered {
+    // what shapes the gears are parameters
+    let setting = Setting::of(row, &design.parameters, &Inputs::default());
+    let mut entries = vec![("value", setting.map_or(Value::Null, |setting| setting.json()).into())];
+    if matches!(row.access, Access::Real(_) | Access::Integer(_)) {
+        entries.push(("unit", row.unit.map_or("1", |unit| unit.name).into()));
+    }
+    Ordered::Object(entries)
 }

@@ -11,7 +11,7 @@ use bevel_differential::geometry::solid::{GearSolid, Outline, Part};
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::numeric::cos;
 use bevel_differential::problem::Problem;
-use serde::Serialize;
+use serde_json::{Value, json};
 
 use super::assembly::{Body, Position, bodies, turned};
 use super::xyz::NAMES;
@@ -22,135 +22,87 @@ const NODES: usize = 48;
 /// A vector in the frame of a gear: z along its axis from apex to heel, tooth 0 centred on azimuth 0.
 type Point = [f64; 3];
 
-/// Both gears and their assembly.
-#[derive(Serialize)]
-pub struct CadShape {
-    /// Cone distance of the heel R_e [m].
-    outer_cone: f64,
-    /// Cone distance of the toe R_i [m].
-    inner_cone: f64,
-    /// Planet and side gear.
-    gears: [GearShape; 2],
-    /// The gears of the assembly where they stand.
-    bodies: Vec<Body>,
-    /// The planets' pins, if planets have bores.
-    pins: Option<Pins>,
-}
-
-/// One gear.
-#[derive(Serialize)]
-struct GearShape {
-    name: &'static str,
-    teeth: i32,
-    /// Polar angles of pitch, tip and root cone [rad].
-    pitch: f64,
-    tip: f64,
-    root: f64,
-    /// Diameter of the bore, 0 without one [m].
-    bore: f64,
-    /// Foot and flank of a tooth on the unit sphere, on the side of positive azimuth; the other side mirrors them. Where the
-    /// foot does not end where the flank begins, a meridian lies between. The foot is one point if it has no fillet.
-    foot: Vec<Point>,
-    flank: Vec<Point>,
-    /// Direction of the axis of the cone that the fillet is a part of, and half its angle [rad].
-    fillet_axis: Point,
-    fillet: f64,
-    mass: MassShape,
-    mesh: Mesh,
-}
-
-/// What the simulation takes a gear for.
-#[derive(Serialize)]
-struct MassShape {
-    /// Density [kg/m³].
-    density: f64,
-    /// Mass [kg].
-    mass: f64,
-    /// Distance of the centre of mass from the apex [m].
-    centre: f64,
-    /// Moments of inertia about the axis, and about any axis through the apex across it [kg·m²].
-    axial: f64,
-    transverse_at_apex: f64,
-}
-
-/// A closed surface.
-#[derive(Serialize)]
-struct Mesh {
-    /// Vertices [m].
-    vertices: Vec<Point>,
-    /// Triangles by numbers of vertices, counter-clockwise from outside.
-    triangles: Vec<[u32; 3]>,
+/// Both gears of `pair`, made from `spec`, of the density `density` [kg/m³], and their assembly; or why they do not assemble.
+/// Faceted surfaces have `facets` per flank.
+pub fn shape(pair: &Pair, spec: &GearSpec, density: f64, facets: usize) -> Result<Value, Problem> {
+    let bodies = bodies(spec, &Position::default())?;
+    let gears = [0, 1].map(|i| gear(pair, spec, i, density, facets));
+    Ok(json!({
+        // cone distances of heel and toe [m]
+        "outer_cone": pair.outer_cone,
+        "inner_cone": pair.inner_cone,
+        // planet and side gear
+        "gears": gears,
+        // the planets' pins, if planets have bores
+        "pins": (spec.planet_bore > 0.0).then(|| pins(pair, spec, &bodies)),
+        // the gears of the assembly where they stand
+        "bodies": bodies,
+    }))
 }
 
 /// The planets' pins in the frame of the assembly.
-#[derive(Serialize)]
-struct Pins {
-    /// Radius, that of the bores [m].
-    radius: f64,
-    /// Both ends of each [m]: at the heel faces of opposite planets, or at that of one planet and the apex.
-    rods: Vec<[Point; 2]>,
+fn pins(pair: &Pair, spec: &GearSpec, bodies: &[Body]) -> Value {
+    let length = pair.outer_cone * cos(pair.gears[0].root);
+    let opposite = spec.planet_count % 2 == 0;
+    let count = spec.planet_count as usize / if opposite { 2 } else { 1 };
+    let arms = bodies.iter().filter(|body| body.gear == 0).map(|body| turned(&body.rotation, [0.0, 0.0, length]));
+    let rods = arms.take(count).map(|end| [end.map(|x| if opposite { -x } else { 0.0 }), end]);
+    json!({
+        // that of the bores [m]
+        "radius": spec.planet_bore / 2.0,
+        // both ends of each [m]: at the heel faces of opposite planets, or at that of one planet and the apex
+        "rods": rods.collect::<Vec<[Point; 2]>>(),
+    })
 }
 
-impl CadShape {
-    /// Of the gears of `pair`, made from `spec`, of the density `density` [kg/m³]; or why they do not assemble. Faceted surfaces
-    /// have `facets` per flank.
-    pub fn new(pair: &Pair, spec: &GearSpec, density: f64, facets: usize) -> Result<Self, Problem> {
-        let bodies = bodies(spec, &Position::default())?;
-        Ok(Self {
-            outer_cone: pair.outer_cone,
-            inner_cone: pair.inner_cone,
-            gears: [0, 1].map(|i| GearShape::new(pair, spec, i, density, facets)),
-            pins: (spec.planet_bore > 0.0).then(|| Pins::new(pair, spec, &bodies)),
-            bodies,
-        })
+/// Gear `i` of the pair.
+fn gear(pair: &Pair, spec: &GearSpec, i: usize, density: f64, facets: usize) -> Value {
+    let gear = &pair.gears[i];
+    let Outline { foot: f, nodes } = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, NODES);
+    // by rising polar angle
+    let of = |parts: &[Part]| -> Vec<Point> {
+        let side = nodes.iter().rev().filter(|node| node.azimuth > 0.0 && parts.contains(&node.part));
+        side.map(|node| direction(node.polar, node.azimuth).into()).collect()
+    };
+    let (mut foot, flank) = (of(&[Part::Fillet, Part::Meridian]), of(&[Part::Flank]));
+    if !f.has_meridian(gear) {
+        foot.extend(flank.first());
     }
-}
-
-impl Pins {
-    fn new(pair: &Pair, spec: &GearSpec, bodies: &[Body]) -> Self {
-        let length = pair.outer_cone * cos(pair.gears[0].root);
-        let opposite = spec.planet_count % 2 == 0;
-        let count = spec.planet_count as usize / if opposite { 2 } else { 1 };
-        let arms = bodies.iter().filter(|body| body.gear == 0).map(|body| turned(&body.rotation, [0.0, 0.0, length]));
-        let rods = arms.take(count).map(|end| [end.map(|x| if opposite { -x } else { 0.0 }), end]).collect();
-        Self { radius: spec.planet_bore / 2.0, rods }
-    }
-}
-
-impl GearShape {
-    fn new(pair: &Pair, spec: &GearSpec, i: usize, density: f64, facets: usize) -> Self {
-        let gear = &pair.gears[i];
-        let Outline { foot: f, nodes } = Outline::new(gear, spec.root_fillet * pair.module / pair.outer_cone, NODES);
-        // by rising polar angle
-        let of = |parts: &[Part]| -> Vec<Point> {
-            let side = nodes.iter().rev().filter(|node| node.azimuth > 0.0 && parts.contains(&node.part));
-            side.map(|node| direction(node.polar, node.azimuth).into()).collect()
-        };
-        let (mut foot, flank) = (of(&[Part::Fillet, Part::Meridian]), of(&[Part::Flank]));
-        if !f.has_meridian(gear) {
-            foot.extend(flank.first());
-        }
-        let mass = gear_mass(pair, spec, i, density);
-        let solid = GearSolid::new(pair, spec, i, facets, 1);
-        Self {
-            name: NAMES[i],
-            teeth: gear.teeth,
-            pitch: gear.pitch,
-            tip: gear.tip,
-            root: gear.root,
-            bore: [spec.planet_bore, spec.side_bore][i],
-            foot,
-            flank,
-            fillet_axis: direction(f.floor + f.radius, f.centre).into(),
-            fillet: f.radius,
-            mass: MassShape {
-                density,
-                mass: mass.mass,
-                centre: mass.centre,
-                axial: mass.axial,
-                transverse_at_apex: mass.transverse_at_apex,
-            },
-            mesh: Mesh { vertices: solid.vertices.iter().map(|&v| v.into()).collect(), triangles: solid.triangles },
-        }
-    }
+    let mass = gear_mass(pair, spec, i, density);
+    let solid = GearSolid::new(pair, spec, i, facets, 1);
+    let bores = [spec.planet_bore, spec.side_bore];
+    json!({
+        "name": NAMES[i],
+        "teeth": gear.teeth,
+        // polar angles of pitch, tip and root cone [rad]
+        "pitch": gear.pitch,
+        "tip": gear.tip,
+        "root": gear.root,
+        // diameter of the bore, 0 without one [m]
+        "bore": bores[i],
+        // foot and flank of a tooth on the unit sphere, on the side of positive azimuth; the other side mirrors them. Where the
+        // foot does not end where the flank begins, a meridian lies between. The foot is one point if it has no fillet.
+        "foot": foot,
+        "flank": flank,
+        // direction of the axis of the cone that the fillet is a part of, and half its angle [rad]
+        "fillet_axis": Point::from(direction(f.floor + f.radius, f.centre)),
+        "fillet": f.radius,
+        // what the simulation takes the gear for
+        "mass": {
+            // [kg/m³]
+            "density": density,
+            // [kg]
+            "mass": mass.mass,
+            // distance of the centre of mass from the apex [m]
+            "centre": mass.centre,
+            // moments of inertia about the axis, and about any axis through the apex across it [kg·m²]
+            "axial": mass.axial,
+            "transverse_at_apex": mass.transverse_at_apex,
+        },
+        // a closed surface: vertices [m], and triangles by their numbers, counter-clockwise from outside
+        "mesh": {
+            "vertices": solid.vertices.iter().map(|&v| v.into()).collect::<Vec<Point>>(),
+            "triangles": solid.triangles,
+        },
+    })
 }

@@ -113,13 +113,6 @@ pub fn find(what: &str, folder: &Path) -> Result<Scene> {
     Err(Problems::from(Problem { hint: hint.map(str::to_owned), ..Problem::of("scene", what, message) }).into())
 }
 
-/// The same scene, changed by `assignments`, each `name=value`: a variable of the FMU, stop_time or step.
-pub fn find_with<T: AsRef<str>>(what: &str, folder: &Path, assignments: &[T]) -> Result<Scene> {
-    let mut scene = find(what, folder)?;
-    assignments::apply(&mut scene, assignments)?;
-    Ok(scene)
-}
-
 /// Files of all scenes in `folder`, by name.
 pub fn files(folder: &Path) -> Result<Vec<PathBuf>> {
     let unreadable = || format!("{} cannot be read", shown(folder));

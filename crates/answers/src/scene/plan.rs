@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
-use bevel_differential::variables::{Access, Causality, Variable, named, table};
+use bevel_differential::variables::{Access, Causality, Variable, named, number, table};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -121,7 +121,7 @@ fn unfelt(scene: &Scene) -> Vec<Problem> {
     };
     for setting in scene.events.iter().flat_map(|event| &event.settings) {
         setting.apply(&mut parameters, &mut inputs);
-        later(setting.row.name, felt::number(setting.row, &mut parameters, &mut inputs), &mut parameters);
+        later(setting.row.name, number(setting.row, &mut parameters, &mut inputs), &mut parameters);
     }
     for table in &scene.input_tables {
         table.values.iter().for_each(|&value| later(table.row.name, Some(value), &mut parameters));

@@ -1,7 +1,7 @@
 //! A value for a variable: taken from a file, checked, and put where the table's access leads.
 
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table};
+use bevel_differential::variables::{Access, Variability, Variable, assign, check_value, table, value_of};
 use toml::Value;
 
 use super::units;
@@ -41,6 +41,19 @@ impl Setting {
         Ok(Self { row, value: known(row, value).map_err(wrong)? })
     }
 
+    /// A parameter, or an input at the start, with the value that it has there; outputs have none.
+    pub fn of(row: &'static Variable, parameters: &Parameters, inputs: &Inputs) -> Option<Self> {
+        let number = value_of(row, parameters, inputs)?;
+        let value = match row.access {
+            Access::Real(_) | Access::Input(_) => SettingValue::Real(number),
+            Access::Integer(_) => SettingValue::Integer(number as i32),
+            Access::Boolean(_) => SettingValue::Boolean(number != 0.0),
+            Access::Enumeration(..) => SettingValue::Literal(number as i32),
+            Access::Output(_) => return None,
+        };
+        Some(Self { row, value })
+    }
+
     /// Whether it may be set while a simulation runs.
     pub fn may_come_later(&self) -> bool {
         self.row.variability != Variability::Fixed
@@ -56,6 +69,16 @@ impl Setting {
         // `known` has found that it fits
         let fits = assign(self.row, number, parameters, inputs);
         debug_assert_eq!(fits, Ok(()));
+    }
+
+    /// The value for programs: a number of the interface, or the name of a literal.
+    pub fn json(&self) -> serde_json::Value {
+        match self.value {
+            SettingValue::Real(number) => number.into(),
+            SettingValue::Integer(number) => number.into(),
+            SettingValue::Boolean(truth) => truth.into(),
+            SettingValue::Literal(_) => self.text().into(),
+        }
     }
 
     /// The value as a reader wants it.

@@ -1,17 +1,17 @@
 //! What a host sets before the start to get a scene.
 
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variable, table};
+use bevel_differential::variables::{Access, Variable, table, value_of};
 
 use super::Scene;
-use super::set::{Setting, SettingValue};
+use super::set::Setting;
 
 /// Start values of `scene` in the order of the FMU's variables: parameters that it names or that differ from the FMU's own,
 /// then all inputs.
 pub fn start_values(scene: &Scene) -> Vec<Setting> {
     let all = table().rows.iter();
     all.filter(|row| matches!(row.access, Access::Input(_)) || is_of_scene(scene, row))
-        .filter_map(|row| Some(Setting { row, value: value(scene.parameters, scene.inputs, row)? }))
+        .filter_map(|row| Setting::of(row, &scene.parameters, &scene.inputs))
         .collect()
 }
 
@@ -21,19 +21,8 @@ pub fn changed_values(scene: &Scene) -> Vec<Setting> {
 }
 
 /// Whether `scene` names a variable or has another value than the FMU.
-fn is_of_scene(scene: &Scene, row: &Variable) -> bool {
+fn is_of_scene(scene: &Scene, row: &'static Variable) -> bool {
     let named = scene.settings.iter().any(|setting| setting.row.name == row.name);
-    named || value(scene.parameters, scene.inputs, row) != value(Parameters::default(), Inputs::default(), row)
-}
-
-/// Value of a parameter or of an input at the start; outputs have none.
-fn value(mut parameters: Parameters, mut inputs: Inputs, row: &Variable) -> Option<SettingValue> {
-    Some(match row.access {
-        Access::Real(access) => SettingValue::Real(*access(&mut parameters)),
-        Access::Input(access) => SettingValue::Real(*access(&mut inputs)),
-        Access::Integer(access) => SettingValue::Integer(*access(&mut parameters)),
-        Access::Boolean(access) => SettingValue::Boolean(*access(&mut parameters)),
-        Access::Enumeration(_, get, _) => SettingValue::Literal(get(&parameters)),
-        Access::Output(_) => return None,
-    })
+    let value = |p: &Parameters, i: &Inputs| value_of(row, p, i);
+    named || value(&scene.parameters, &scene.inputs) != value(&Parameters::default(), &Inputs::default())
 }

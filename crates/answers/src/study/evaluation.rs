@@ -1,9 +1,8 @@
 //! What to simulate for the study, and what comes out.
 
-use std::collections::BTreeMap;
-
 use bevel_differential::model::{Inputs, Parameters, PlanetSpin, Start};
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use serde_json::{Value, json};
 
 use crate::study::published;
 use crate::study::theory::Theory;
@@ -21,95 +20,57 @@ const START_INTERVAL: f64 = 1e-6;
 /// After the start, speeds within this fraction of theory count as settled.
 pub const SETTLED_BAND: f64 = 0.01;
 
-/// Start value and its unit, empty for the unit of the interface.
-type StartValue = (f64, &'static str);
-
-/// What to simulate.
-#[derive(Serialize)]
-pub struct SimulationRequest {
-    /// Length of the records for the spectra [s].
-    record: f64,
-    /// Length of the study's own record [s].
-    duration: f64,
-    /// Output interval [s].
-    interval: f64,
-    /// Length of the records of the starts [s], and their output interval [s].
-    start_record: f64,
-    start_interval: f64,
-    /// Length of the window of the spectra [s].
-    spectrum_window: f64,
-    /// Speeds within this fraction of theory count as settled.
-    settled_band: f64,
-    /// Meshing frequency that the study claims for driving straight ahead [Hz].
-    claimed_frequency: f64,
-    /// Ripple of the speeds that the study shows, either way [%].
-    claimed_ripple: f64,
-    /// Load on each half-shaft [N·m].
-    load: f64,
-    /// Teeth of a planet.
-    planet_teeth: i32,
-    /// Both cases.
-    straight: CaseRequest,
-    turning: CaseRequest,
-}
-
-/// One case: what to set, and theory for the figures.
-#[derive(Serialize)]
-struct CaseRequest {
-    start_values: BTreeMap<&'static str, StartValue>,
-    /// Vehicle speed [km/h].
-    vehicle_speed: f64,
-    /// Carrier speed [deg/s].
-    carrier_speed: f64,
-    /// Speeds of left and right side gear [deg/s].
-    side_speeds: [f64; 2],
-    /// Tangential force at the outer pitch circle [N].
-    tangential_force: f64,
-    /// Normal force of one mesh [N].
-    normal_force: f64,
-    /// Meshing frequency [Hz].
-    mesh_frequency: f64,
-}
-
-impl SimulationRequest {
-    /// The study's two cases, from rolling, unloaded teeth.
-    pub fn new(theory: &Theory) -> Self {
-        let rolling = ("scene.start", (f64::from(Start::Rolling as i32), ""));
-        let case = |vehicle_speed: f64, carrier: f64, spin: f64, extra: &[(&'static str, StartValue)]| {
-            let loads = ["left.load_torque", "right.load_torque"].map(|name| (name, (published::LOAD, "")));
-            let mut start_values = BTreeMap::from([rolling, ("carrier.speed_command", (carrier, "deg/s"))]);
-            start_values.extend(loads);
-            start_values.extend(extra.iter().copied());
-            CaseRequest {
-                start_values,
-                vehicle_speed,
-                carrier_speed: carrier,
-                side_speeds: theory.side_speeds(carrier, spin),
-                tangential_force: theory.outer_tangential_force(published::LOAD),
-                normal_force: theory.normal_force(published::LOAD),
-                mesh_frequency: theory.mesh_frequency(spin),
-            }
-        };
-        let turn = [
-            ("scene.planet_spin", (f64::from(PlanetSpin::Imposed as i32), "")),
-            ("planet.spin_command", (published::PLANET_SPIN, "deg/s")),
-        ];
-        Self {
-            record: RECORD,
-            duration: published::DURATION,
-            interval: published::INTERVAL,
-            start_record: START_RECORD,
-            start_interval: START_INTERVAL,
-            spectrum_window: SPECTRUM_PERIODS / theory.mesh_frequency(published::PLANET_SPIN),
-            settled_band: SETTLED_BAND,
-            claimed_frequency: published::MESH_FREQUENCY,
-            claimed_ripple: published::RIPPLE,
-            load: published::LOAD,
-            planet_teeth: Parameters::default().geometry.planet_teeth,
-            straight: case(published::VEHICLE_SPEED[0], published::CARRIER_SPEED[0], 0.0, &[]),
-            turning: case(published::VEHICLE_SPEED[1], published::CARRIER_SPEED[1], published::PLANET_SPIN, &turn),
-        }
-    }
+/// What to simulate for the study: its two cases, from rolling, unloaded teeth.
+pub fn request(theory: &Theory) -> Value {
+    // what to set, each with its unit, empty for that of the interface; and theory for the figures
+    let case = |i: usize, spin: f64| {
+        let carrier = published::CARRIER_SPEED[i];
+        json!({
+            "start_values": {
+                "scene.start": [f64::from(Start::Rolling as i32), ""],
+                "carrier.speed_command": [carrier, "deg/s"],
+                "left.load_torque": [published::LOAD, ""],
+                "right.load_torque": [published::LOAD, ""],
+            },
+            // [km/h]
+            "vehicle_speed": published::VEHICLE_SPEED[i],
+            // [deg/s]
+            "carrier_speed": carrier,
+            // of left and right side gear [deg/s]
+            "side_speeds": theory.side_speeds(carrier, spin),
+            // at the outer pitch circle [N]
+            "tangential_force": theory.outer_tangential_force(published::LOAD),
+            // of one mesh [N]
+            "normal_force": theory.normal_force(published::LOAD),
+            // [Hz]
+            "mesh_frequency": theory.mesh_frequency(spin),
+        })
+    };
+    let (straight, mut turning) = (case(0, 0.0), case(1, published::PLANET_SPIN));
+    turning["start_values"]["scene.planet_spin"] = json!([f64::from(PlanetSpin::Imposed as i32), ""]);
+    turning["start_values"]["planet.spin_command"] = json!([published::PLANET_SPIN, "deg/s"]);
+    json!({
+        // length of the records for the spectra, of the study's own record, and its output interval [s]
+        "record": RECORD,
+        "duration": published::DURATION,
+        "interval": published::INTERVAL,
+        // length of the records of the starts, and their output interval [s]
+        "start_record": START_RECORD,
+        "start_interval": START_INTERVAL,
+        // length of the window of the spectra [s]
+        "spectrum_window": SPECTRUM_PERIODS / theory.mesh_frequency(published::PLANET_SPIN),
+        // speeds within this fraction of theory count as settled
+        "settled_band": SETTLED_BAND,
+        // meshing frequency that the study claims for driving straight ahead [Hz]
+        "claimed_frequency": published::MESH_FREQUENCY,
+        // ripple of the speeds that the study shows, either way [%]
+        "claimed_ripple": published::RIPPLE,
+        // on each half-shaft [N·m]
+        "load": published::LOAD,
+        "planet_teeth": Parameters::default().geometry.planet_teeth,
+        "straight": straight,
+        "turning": turning,
+    })
 }
 
 /// Default inputs of the FMU: carrier speed [deg/s], load [N·m], stiffness [N/mm^1.5].

@@ -39,12 +39,8 @@ impl Cell {
 pub struct ComparisonRow {
     /// What, with its unit.
     pub quantity: &'static str,
-    /// The study's number.
-    pub study: Cell,
-    /// Theory.
-    pub theory: Cell,
-    /// This program.
-    pub program: Cell,
+    /// The study's number, theory, this program.
+    pub cells: [Cell; 3],
     /// Number of the note that belongs to it, counted from 1.
     pub note: Option<usize>,
 }
@@ -52,21 +48,16 @@ pub struct ComparisonRow {
 impl ComparisonRow {
     /// Relative difference of the program from theory.
     fn difference(&self) -> String {
-        match (self.theory.value(), self.program.value()) {
-            (Some(theory), Some(program)) if theory != 0.0 => signed_percent(program / theory - 1.0),
+        match self.cells.each_ref().map(Cell::value) {
+            [_, Some(theory), Some(program)] if theory != 0.0 => signed_percent(program / theory - 1.0),
             _ => String::new(),
         }
     }
 
-    fn cells(&self) -> [String; 5] {
+    fn texts(&self) -> [String; 5] {
         let note = self.note.map_or(String::new(), |n| format!(" [{n}]"));
-        [
-            format!("{}{note}", self.quantity),
-            self.study.text(),
-            self.theory.text(),
-            self.program.text(),
-            self.difference(),
-        ]
+        let [study, theory, program] = self.cells.each_ref().map(Cell::text);
+        [format!("{}{note}", self.quantity), study, theory, program, self.difference()]
     }
 }
 
@@ -103,7 +94,7 @@ impl ComparisonReport {
 
     fn table(&self) -> Table {
         let mut table = Table::new(HEAD).left([0]);
-        self.rows.iter().for_each(|row| table.push(row.cells()));
+        self.rows.iter().for_each(|row| table.push(row.texts()));
         table
     }
 }
@@ -116,9 +107,7 @@ mod tests {
     fn an_excerpt_has_the_rows_it_names_and_no_notes() {
         let row = |quantity, note| ComparisonRow {
             quantity,
-            study: Cell::Empty,
-            theory: Cell::Number(2.0, 0),
-            program: Cell::Number(3.0, 0),
+            cells: [Cell::Empty, Cell::Number(2.0, 0), Cell::Number(3.0, 0)],
             note,
         };
         let report = ComparisonReport { rows: vec![row("a", Some(1)), row("b", None)], notes: vec!["why".into()] };

@@ -36,16 +36,6 @@ impl CsvFile {
     }
 }
 
-/// A number as a cell.
-pub fn number(value: f64) -> String {
-    if value.is_nan() { "nan".into() } else { format!("{value:.6e}") }
-}
-
-/// The same, "nan" where there is none.
-pub fn number_or_nan(value: Option<f64>) -> String {
-    number(value.unwrap_or(f64::NAN))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use answers::scene::run::run;
-use answers::scene::{Scene, find, find_with, load};
+use answers::scene::{Scene, assignments, find, load};
 use answers::watch::Watch;
 use anyhow::Result;
 
@@ -12,6 +12,13 @@ use crate::folder;
 
 const FRAME: &str = "description = \"d\"\nstop_time = \"100 ms\"\nstep = \"1 ms\"\noutputs = [\"left.speed\"]\n";
 const INPUTS: &str = "[[inputs]]\nfile = \"cycle.csv\"\n";
+
+/// The scene `what` of `folder`, changed by `changes`.
+fn find_with(what: &str, folder: &Path, changes: &[impl AsRef<str>]) -> Result<Scene> {
+    let mut scene = find(what, folder)?;
+    assignments::apply(&mut scene, changes)?;
+    Ok(scene)
+}
 
 /// A folder of its own for each test, removed at its end.
 struct Folder(PathBuf);

@@ -7,8 +7,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::integrate::Curve;
-use crate::model::scene::Plan;
-use crate::model::scene::layout::{MAX_GROUPS, MAX_PLANETS};
+use crate::model::scene::{MAX_GROUPS, MAX_PLANETS, Plan};
 
 /// Most quantities: speeds of both side gears, then transmission errors by group of planets and side.
 pub const MOST_QUANTITIES: usize = 2 + 2 * MAX_GROUPS;

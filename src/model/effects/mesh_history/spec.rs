@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{self, DEG_PER_S, MM};
 use crate::declaration::{Parameter, Row};
-use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
+use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 
 /// Reading of the peak-to-peak value of an output.

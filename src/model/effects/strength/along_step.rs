@@ -4,12 +4,10 @@
 //! in the middle and at both ends of a step, and Simpson's rule is halved where it differs from the straight line by more than
 //! [`ROUGH`] of the damage: then its own error is some 1e-5. Peaks are those of the parabolas through these loads.
 
-use super::fatigue::Fatigue;
-use super::gear_strength::GearStrength;
 use super::interval::{Three, bend, crest, mean, turn};
-use super::mesh_load::{FlankLoad, MeshLoad};
 use super::overload::{Overload, Stressed};
-use crate::model::scene::layout::MAX_GROUPS;
+use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
+use crate::model::scene::MAX_GROUPS;
 use crate::strength::{Cycle, loaded_flank};
 
 /// Largest difference of Simpson's rule from the straight line, as a part of the damage of the step or of the run on the mean.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::overload::Overloads;
 use super::utilisation::Utilisation;
-use crate::model::scene::layout::MAX_GROUPS;
+use crate::model::scene::MAX_GROUPS;
 use crate::strength::{Damage, FlankDamage, Rating, StandingTeeth, ToothDamage};
 
 /// Damage of the teeth so far.

@@ -1,10 +1,8 @@
 //! Constants of the strength of the gears, and the readings of stress, damage and safety.
 
-use super::fatigue::Fatigue;
-use super::mesh_load::{FlankLoad, MeshLoad};
-use super::spec::StrengthSpec;
+use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
 use crate::contact::pair_load::PairLoad;
-use crate::model::effect_kinds::effect::Setting;
+use crate::model::effect_kinds::Setting;
 use crate::problem::Problem;
 use crate::strength::Rating;
 use crate::strength::face_load::root_factor;
@@ -28,12 +26,10 @@ impl GearStrength {
         let elastic = (setting.material.young_modulus, setting.material.poisson_ratio);
         let rating = Rating::new(setting.pair, elastic, &material, spec.tool_radius);
         let Some(rating) = rating else {
-            return Err(Problem::new(
+            return Err(problem!(
                 "strength.tool_radius",
-                format!(
-                    "{} m_n: a tooth cut with this tool has no sound root section; choose a smaller radius or more teeth",
-                    spec.tool_radius
-                ),
+                "{} m_n: a tooth cut with this tool has no sound root section; choose a smaller radius or more teeth",
+                spec.tool_radius
             ));
         };
         Ok(Self { rating, application: spec.application_factor, mean_cone: setting.pair.mean_cone })

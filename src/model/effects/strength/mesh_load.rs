@@ -1,6 +1,6 @@
 //! Load of a mesh as its strength is rated, flank by flank.
 
-use crate::contact::pairs::Flank;
+use crate::contact::Flank;
 
 /// Load of one flank of a mesh: sums over its pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -73,14 +73,12 @@ impl Overload {
                 ("strength.contact_strength", format!("contact stress between {planet} and the {side} side gear"))
             }
         };
-        Problem::new(
+        problem!(
             variable,
-            format!(
-                "{stress} of {:.1} MPa exceeds the strength of {:.1} MPa at t = {:.6} s; reported once",
-                self.stress * 1e-6,
-                self.strength * 1e-6,
-                self.time
-            ),
+            "{stress} of {:.1} MPa exceeds the strength of {:.1} MPa at t = {:.6} s; reported once",
+            self.stress * 1e-6,
+            self.strength * 1e-6,
+            self.time
         )
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::declaration::units::{self, MPA};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::effect::{Changes, Declare, Effect, Needs, Reading};
+use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 use crate::strength::{Material, SnCurve};
 
