@@ -5,9 +5,9 @@ use bevel_differential::model::Parameters;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
+use crate::study::comparison;
 use crate::study::evaluation::{Results, request};
 use crate::study::theory::Theory;
-use crate::study::{EXCERPT, comparison};
 
 /// What to simulate for the study; with the results of that the comparison.
 #[derive(Deserialize)]
@@ -24,6 +24,6 @@ impl StudyQuestion {
             return Ok(request(&theory));
         };
         let report = comparison::report(&theory, results);
-        Ok(json!({"text": report.terminal(), "document": report.markdown(), "excerpt": report.excerpt(&EXCERPT)}))
+        Ok(json!({"text": report.terminal(), "document": report.markdown()}))
     }
 }

@@ -85,13 +85,6 @@ impl ComparisonReport {
         format!("{}\n{}", self.table().markdown(), notes.collect::<String>())
     }
 
-    /// For README.md: the rows of `quantities`, without notes.
-    pub fn excerpt(&self, quantities: &[&str]) -> String {
-        let rows = self.rows.iter().filter(|row| quantities.contains(&row.quantity));
-        let rows = rows.map(|row| ComparisonRow { note: None, ..row.clone() });
-        Self { rows: rows.collect(), notes: Vec::new() }.table().markdown()
-    }
-
     fn table(&self) -> Table {
         let mut table = Table::new(HEAD).left([0]);
         self.rows.iter().for_each(|row| table.push(row.texts()));
@@ -104,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_excerpt_has_the_rows_it_names_and_no_notes() {
+    fn rows_name_their_notes() {
         let row = |quantity, note| ComparisonRow {
             quantity,
             cells: [Cell::Empty, Cell::Number(2.0, 0), Cell::Number(3.0, 0)],
@@ -112,8 +105,5 @@ mod tests {
         };
         let report = ComparisonReport { rows: vec![row("a", Some(1)), row("b", None)], notes: vec!["why".into()] };
         assert!(report.markdown().contains("| a [1] ") && report.markdown().ends_with("\n1. why\n"));
-        let excerpt = report.excerpt(&["a"]);
-        assert!(excerpt.contains("| a ") && excerpt.contains("+50 %") && !excerpt.contains("| b "), "{excerpt}");
-        assert_eq!(excerpt.lines().count(), 3, "{excerpt}");
     }
 }

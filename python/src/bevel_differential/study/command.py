@@ -38,8 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
             with Scene.load(name, fmu=arguments.fmu) as scene:
                 write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
     found = ask({"ask": "study", "results": results})
-    for name, text in (("table.md", found["document"]), ("excerpt.md", found["excerpt"])):
-        (folder / name).write_text(text, encoding="utf-8")
+    (folder / "table.md").write_text(found["document"], encoding="utf-8")
     print(found["text"])
     print(f"results: {folder}")
     print(f"reports: {', '.join(str(folder / f'{name}.html') for name in SCENES)}")
