@@ -1,5 +1,5 @@
-"""What is wanted of a run, by which figure of a series over time, and what must hold. Figures are those of `accuracy`, from the same
-library."""
+"""What is wanted of a run, by which figure of a series over time, and what must hold. Figures are those of `accuracy`, from the
+same library."""
 
 import operator
 import re

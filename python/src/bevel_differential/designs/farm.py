@@ -151,7 +151,8 @@ _own = threading.local()
 
 
 def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
-    """Rows of a chunk, on a worker. The task comes packed with each chunk; it is kept for the next ones, and with it the FMU's instance."""
+    """Rows of a chunk, on a worker. The task comes packed with each chunk; it is kept for the next ones, and with it the
+    FMU's instance."""
     if getattr(_own, "packed", None) != packed:
         if hasattr(_own, "task"):
             _own.task.close()

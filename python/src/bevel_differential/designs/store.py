@@ -1,5 +1,5 @@
-"""Rows of designs as a table, and results in a Parquet file. While they arrive they are kept in parts next to it, so that little is lost by an interrupt, a crash
-or a full disk."""
+"""Rows of designs as a table, and results in a Parquet file. While they arrive they are kept in parts next to it, so that
+little is lost by an interrupt, a crash or a full disk."""
 
 import hashlib
 import json

@@ -66,8 +66,8 @@ QUANTITIES = {
     # Design). The case holds the pin outside each planet, so that one section carries the planet's whole force
     "pin.shear": Quantity(STRESS, lambda values, _: 16.0 * values[PIN_FORCE] / (3.0 * pi * _pin(values) ** 2), (PIN_FORCE,)),
     # mean pressure between pin and planet: F/(d l), l = b cos δ_f the length of the bore
-    "pin.pressure": Quantity(STRESS, lambda values, pair: values[PIN_FORCE] / (_pin(values) * pair.face_width * cos(pair.gears[0].root)),
-                             (PIN_FORCE,)),
+    "pin.pressure": Quantity(STRESS, lambda values, pair: values[PIN_FORCE] / (
+        _pin(values) * pair.face_width * cos(pair.gears[0].root)), (PIN_FORCE,)),
     # width of a washer from the pin to the planet's root circle at the heel: R_e sin δ_f − d/2
     "washer.planet_width": Quantity(LENGTH, lambda values, pair: pair.back_face(0) - 0.5 * _pin(values)),
     # mean pressure of that washer: F_a/(π (r_o² − r_i²))

@@ -1,5 +1,5 @@
-"""The search: NSGA-II of pymoo on the unit cube, a generation at a time; and the folder with all designs that were evaluated, so that
-it can go on."""
+"""The search: NSGA-II of pymoo on the unit cube, a generation at a time; and the folder with all designs that were evaluated, so
+that it can go on."""
 
 import itertools
 import json

@@ -1,5 +1,5 @@
-"""Drawings of the gears: an axial section with cones, face, bodies and dimensions; and teeth in mesh at the heel, closed forms of the
-spherical involute, unrolled about the pitch point."""
+"""Drawings of the gears: an axial section with cones, face, bodies and dimensions; and teeth in mesh at the heel, closed forms of
+the spherical involute, unrolled about the pitch point."""
 
 import math
 from typing import TYPE_CHECKING

@@ -26,7 +26,8 @@ def pair_of(run: Simulated) -> Pair:
     """The pair with the cones that the FMU has."""
     names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
     pair = Pair.of({name: run.value(name) for name in names})
-    planet, side = (replace(gear, **{cone: run.constant(f"geometry.{name}_{cone}_angle") for cone in ("pitch", "base", "tip", "root")})
+    cones = ("pitch", "base", "tip", "root")
+    planet, side = (replace(gear, **{cone: run.constant(f"geometry.{name}_{cone}_angle") for cone in cones})
                     for gear, name in zip(pair.gears, GEARS))
     return replace(pair, gears=(planet, side), outer_cone=run.constant("geometry.outer_cone_distance"))
 

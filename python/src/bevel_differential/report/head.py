@@ -33,8 +33,8 @@ def verdicts(run: Simulated) -> list[Text]:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:
         root, flank = float(run.record["safety.root_min"][-1]), float(run.record["safety.flank_min"][-1])
-        found.append(Text(f"Smallest safety factors of the run{strength.where(run)}: roots {words.number(root, 3)}, flanks {words.number(flank, 3)}; "
-                          "below 1 the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
+        found.append(Text(f"Smallest safety factors of the run{strength.where(run)}: roots {words.number(root, 3)}, "
+                          f"flanks {words.number(flank, 3)}; below 1 the life is finite, or the tooth breaks.", "verdict", min(root, flank) >= 1.0))
     found.append(Text(_split(run), "verdict"))
     return found
 
@@ -75,7 +75,8 @@ def _facts(run):
         ("took", f"{words.quantity(1e3 * run.seconds, 'ms', 3)}: {words.number(real, 2)} × real time"),
     ]
     if run.added:
-        rows.append(("switched on for this report", f"{words.listed(run.added)}: they only add outputs. The scene's own outputs with and without them "
+        rows.append(("switched on for this report", f"{words.listed(run.added)}: they only add outputs. The scene's own outputs with "
+                                                    "and without them "
                      + ("are the same to the last bit." if run.difference == 0.0 else
                         f"differ by {run.difference:.1e} of their largest values.")))
     rows += [("not available here", reason) for reason in run.refused.values()]

@@ -141,7 +141,8 @@ def _draw(picture, run, pair: Pair, loaded):
                   xlim=(ends[0] - 1.0, ends[1] + 3.0))
         flank.set_aspect("equal")
         flank.grid(False)
-        picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither").set_label("largest pressure, MPa")
+        bar = picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither")
+        bar.set_label("largest pressure, MPa")
         scale, unit = style.kilo([contacts.force])
         loads.plot(contacts.force / scale, MM * contacts.height, ".", color=style.BLUE, ms=4)
         loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
@@ -161,7 +162,8 @@ def _caption(name, contacts):
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
         return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, "
-                f"{words.quantity(low, 'mm', 3)} from the pitch line at the mean cone distance, as wide as Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
+                f"{words.quantity(low, 'mm', 3)} from the pitch line at the mean cone distance, as wide as "
+                f"Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
     return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} "
             f"at the mean cone distance, in strips up to {words.quantity(widest, 'mm', 2)} wide.")
 

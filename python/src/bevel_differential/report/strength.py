@@ -72,7 +72,8 @@ def section(run: Simulated) -> Section:
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
                     f"Ratings of the whole run by effects.strength, with the application factor {factor}. They see every step "
-                    "of the solver, the picture only the communication points; 1000 is the most that a safety factor shows.", left=2))
+                    "of the solver, the picture only the communication points; "
+                    "1000 is the most that a safety factor shows.", left=2))
     if told := advice(run):
         found.say(told)
     return found

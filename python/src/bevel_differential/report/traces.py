@@ -23,7 +23,8 @@ OF_MESHES = ("planet[1].left_normal_force", "planet[1].right_normal_force", "lef
 def section(run: Simulated) -> Section:
     """All three pictures."""
     found = Section("traces", "Traces")
-    for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds), ("torques", TORQUES, _torques)):
+    for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds),
+                                   ("torques", TORQUES, _torques)):
         found.add(Picture(name, style.drawn(name)(_draw)(run, outputs), caption(run)))
     return found
 

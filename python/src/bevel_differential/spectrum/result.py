@@ -183,7 +183,8 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     # events begin in their steady state, not as the scene does
-    of_scene = {} if scene is None else {name: value for name, value in Scene.load(scene, fmu).values.items() if name != "scene.start"}
+    of_scene = Scene.load(scene, fmu).values if scene is not None else {}
+    of_scene.pop("scene.start", None)
     given = {**of_scene, **(parameters or {})}
     vehicle = {name: QUANTITIES[name].number(value) for name, value in given.items() if name in QUANTITIES}
     values = {name: value for name, value in given.items() if name not in QUANTITIES}
