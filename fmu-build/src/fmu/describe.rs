@@ -48,7 +48,7 @@ impl DescribeCommand {
 
 /// What is out of date: the description in `file`, or the list of effects in a document.
 pub fn stale_document(file: &Path) -> Result<Option<String>> {
-    if is_stale(file)? {
+    if fs::read_to_string(file).ok() != Some(model_description()?) {
         return Ok(Some(paths::shown(file).to_string()));
     }
     Ok(effect_list::stale()?.map(str::to_owned))
@@ -85,10 +85,18 @@ pub fn described(choices: Choices) -> Result<String> {
         .with("generationDateAndTime", GENERATION_TIME)
         .with("variableNamingConvention", "structured")
         .with("numberOfEventIndicators", EVENT_INDICATORS)
-        .child(model_exchange())
-        .child(co_simulation())
+        .child(kind_of_fmu("ModelExchange", |kind| kind.with("completedIntegratorStepNotNeeded", false)))
+        .child(kind_of_fmu("CoSimulation", |kind| {
+            kind.with("canHandleVariableCommunicationStepSize", true)
+                .with("canInterpolateInputs", true)
+                .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
+                .with("canRunAsynchronuously", false)
+        }))
         .child(Element::new("UnitDefinitions").children(units_in_use(table).map(unit)))
-        .children((choices == Choices::Enumerations).then(|| type_definitions(table)))
+        .children(
+            (choices == Choices::Enumerations)
+                .then(|| Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))),
+        )
         .child(Element::new("LogCategories").children(Category::ALL.map(|(category, description)| {
             Element::new("Category").with("name", category.name().to_string_lossy()).with("description", description)
         })))
@@ -103,11 +111,6 @@ pub fn described(choices: Choices) -> Result<String> {
     root.document().context("the model description cannot be written")
 }
 
-/// Whether `file` holds something else than the present model description.
-pub fn is_stale(file: &Path) -> Result<bool> {
-    Ok(fs::read_to_string(file).ok() != Some(model_description()?))
-}
-
 /// Writes the model description to `file`.
 pub fn write(file: &Path) -> Result<()> {
     if let Some(folder) = file.parent() {
@@ -116,23 +119,10 @@ pub fn write(file: &Path) -> Result<()> {
     fs::write(file, model_description()?).with_context(|| format!("{} cannot be written", file.display()))
 }
 
-fn model_exchange() -> Element {
-    let kind = Element::new("ModelExchange").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
-    for_both_kinds(kind.with("completedIntegratorStepNotNeeded", false))
-}
-
-fn co_simulation() -> Element {
-    let kind = Element::new("CoSimulation").with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false);
-    for_both_kinds(
-        kind.with("canHandleVariableCommunicationStepSize", true)
-            .with("canInterpolateInputs", true)
-            .with("maxOutputDerivativeOrder", OUTPUT_ORDER)
-            .with("canRunAsynchronuously", false),
-    )
-}
-
-fn for_both_kinds(kind: Element) -> Element {
-    kind.with("canBeInstantiatedOnlyOncePerProcess", false)
+/// What the FMU can do as one of both kinds, with its `own` attributes.
+fn kind_of_fmu(name: &'static str, own: impl FnOnce(Element) -> Element) -> Element {
+    own(Element::new(name).with("modelIdentifier", MODEL_NAME).with("needsExecutionTool", false))
+        .with("canBeInstantiatedOnlyOncePerProcess", false)
         .with("canNotUseMemoryManagementFunctions", true)
         .with("canGetAndSetFMUstate", true)
         .with("canSerializeFMUstate", true)
@@ -160,10 +150,6 @@ fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
         Access::Enumeration(kind, ..) => Some(kind),
         _ => None,
     }
-}
-
-fn type_definitions(table: &'static Table) -> Element {
-    Element::new("TypeDefinitions").children(enumerations(table).map(enumeration))
 }
 
 /// Enumeration types in the order of their first use.

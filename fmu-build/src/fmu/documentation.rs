@@ -142,7 +142,11 @@ fn parameter_groups() -> Vec<(&'static str, Vec<&'static Variable>)> {
 }
 
 fn variables(causality: Causality, rows: Vec<&Variable>) -> Element {
-    Element::new("table").child(head(causality)).children(rows.into_iter().map(row))
+    let titles: &[&str] = match has_start(causality) {
+        true => &["Name", "Unit", "Start", "Allowed", "Meaning"],
+        false => &["Name", "Unit", "Meaning"],
+    };
+    table_of(titles, rows.into_iter().map(row))
 }
 
 fn title(text: &str) -> Element {
@@ -159,14 +163,17 @@ fn figure(figure: &Figure) -> Element {
         .child(Element::new("figcaption").text(figure.caption))
 }
 
+/// A row of a table: a cell each, th in the head and td below.
+fn row_of(kind: &'static str, cells: impl IntoIterator<Item = impl AsRef<str>>) -> Element {
+    Element::new("tr").children(cells.into_iter().map(|cell| Element::new(kind).text(cell.as_ref())))
+}
+
 fn table_of(titles: &[&str], rows: impl Iterator<Item = Element>) -> Element {
-    let head = Element::new("tr").children(titles.iter().map(|title| Element::new("th").text(title)));
-    Element::new("table").child(head).children(rows)
+    Element::new("table").child(row_of("th", titles)).children(rows)
 }
 
 fn platform(library: &Library) -> Element {
-    let cells = [library.platform, &library.needs];
-    Element::new("tr").children(cells.map(|cell| Element::new("td").text(cell)))
+    row_of("td", [library.platform, &library.needs])
 }
 
 fn licences(linked: &LinkedPart) -> Element {
@@ -174,23 +181,12 @@ fn licences(linked: &LinkedPart) -> Element {
         let link = Element::new("a").with("href", format!("licenses/{file}"));
         Element::new("div").child(link.text(file.rsplit('/').next().unwrap_or(file)))
     });
-    Element::new("tr")
-        .children([&linked.name, &linked.licence].map(|cell| Element::new("td").text(cell)))
-        .child(Element::new("td").children(links))
+    row_of("td", [&linked.name, &linked.licence]).child(Element::new("td").children(links))
 }
 
 /// Whether variables of a causality have start values and ranges.
 fn has_start(causality: Causality) -> bool {
     matches!(causality, Causality::Parameter | Causality::Input)
-}
-
-fn head(causality: Causality) -> Element {
-    let mut titles = vec!["Name", "Unit"];
-    if has_start(causality) {
-        titles.extend(["Start", "Allowed"]);
-    }
-    titles.push("Meaning");
-    Element::new("tr").children(titles.into_iter().map(|title| Element::new("th").text(title)))
 }
 
 fn row(row: &Variable) -> Element {
@@ -208,7 +204,7 @@ fn row(row: &Variable) -> Element {
         }
     }
     cells.push(meaning);
-    Element::new("tr").children(cells.into_iter().map(|cell| Element::new("td").text(cell)))
+    row_of("td", cells)
 }
 
 /// Unit of a variable, with the unit that hosts show.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use bevel_differential::model::{EFFECTS, GearContact, InputField, effects};
-use bevel_differential::variables::{Causality, Variable, table};
+use bevel_differential::variables::{Causality, Variable, named, table};
 use serde_json::{Value, json};
 
 use crate::fmu::documentation::start;
@@ -79,14 +79,11 @@ fn described(effect: &Declared) -> Value {
 
 /// Literals of scene.gear_contact that the effect works with.
 fn contacts(effect: &Declared) -> Vec<&'static str> {
-    let all = [
-        (GearContact::Ideal, "ideal"),
-        (GearContact::Lumped, "lumped"),
-        (GearContact::Tooth, "tooth"),
-        (GearContact::Solid, "solid"),
-    ];
-    let works = |contact: &GearContact| effect.needs.is_none_or(|needs| needs.contacts.contains(contact));
-    all.into_iter().filter(|(contact, _)| works(contact)).map(|(_, name)| name).collect()
+    let Some(Access::Enumeration(kind, ..)) = named("scene.gear_contact").map(|row| row.access) else {
+        return Vec::new();
+    };
+    let works = |value| effect.needs.is_none_or(|needs| needs.contacts.iter().any(|&contact| contact as i32 == value));
+    kind.choices.iter().filter(|choice| works(choice.value)).map(|choice| choice.name).collect()
 }
 
 /// Rows of the effect's own parameters, named `NAME.parameter`.

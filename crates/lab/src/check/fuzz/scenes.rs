@@ -33,15 +33,7 @@ pub fn start(unit: &Unit, r: &mut Random) -> bool {
         if attempt < TRIES {
             draw(unit, r);
         }
-        // SAFETY: a live component
-        let statuses = unsafe {
-            [
-                fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
-                fmi2EnterInitializationMode(unit.c),
-                fmi2ExitInitializationMode(unit.c),
-            ]
-        };
-        if statuses == [Status::Ok; 3] {
+        if initialised(unit) {
             if unit.kind == MODEL_EXCHANGE {
                 // SAFETY: a live component and a place for the answer
                 unsafe {
@@ -53,6 +45,19 @@ pub fn start(unit: &Unit, r: &mut Random) -> bool {
         }
     }
     false
+}
+
+/// Sets an instance up and initialises it; whether all calls succeed.
+fn initialised(unit: &Unit) -> bool {
+    // SAFETY: a live component
+    let statuses = unsafe {
+        [
+            fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
+            fmi2EnterInitializationMode(unit.c),
+            fmi2ExitInitializationMode(unit.c),
+        ]
+    };
+    statuses == [Status::Ok; 3]
 }
 
 fn draw(unit: &Unit, r: &mut Random) {
@@ -100,12 +105,8 @@ fn find(name: &str) -> Option<usize> {
 pub fn study(unit: &Unit) -> Option<Vec<u64>> {
     // SAFETY, for all: a live component and room for the counts passed
     unsafe {
-        let mut statuses = vec![
-            fmi2Reset(unit.c),
-            fmi2SetupExperiment(unit.c, 0, 0.0, 0.0, 0, 0.0),
-            fmi2EnterInitializationMode(unit.c),
-            fmi2ExitInitializationMode(unit.c),
-        ];
+        let mut statuses = vec![fmi2Reset(unit.c)];
+        let fine = initialised(unit);
         let mut numbers = vec![f64::NAN; bevel_differential::model::STATES + EVENT_INDICATORS];
         if unit.kind == MODEL_EXCHANGE {
             let (rates, indicators) = numbers.split_at_mut(bevel_differential::model::STATES);
@@ -118,7 +119,7 @@ pub fn study(unit: &Unit) -> Option<Vec<u64>> {
             statuses.push(fmi2GetReal(unit.c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
         }
         unit.said();
-        let fine = statuses.iter().all(|&status| status == Status::Ok);
+        let fine = fine && statuses.iter().all(|&status| status == Status::Ok);
         fine.then(|| numbers.into_iter().map(f64::to_bits).collect())
     }
 }
