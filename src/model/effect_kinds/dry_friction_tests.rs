@@ -2,9 +2,9 @@
 
 use super::dry_friction::*;
 use super::friction_part::FrictionPart;
+use super::friction_part::Slip;
+use super::friction_part::SurfaceLoad;
 use super::friction_state::{FrictionState, Mode};
-use super::slip::Slip;
-use super::surface_load::SurfaceLoad;
 
 const STIFFNESS: f64 = 1e3;
 
