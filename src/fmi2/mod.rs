@@ -20,6 +20,7 @@ mod instance;
 mod log;
 mod panic_guard;
 #[cfg(test)]
+#[path = "tests/panics.rs"]
 mod panics;
 mod snapshot;
 mod types;

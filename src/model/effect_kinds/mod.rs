@@ -4,6 +4,7 @@
 pub mod body_effect;
 pub mod dry_friction;
 #[cfg(test)]
+#[path = "tests/dry_friction.rs"]
 mod dry_friction_tests;
 pub mod effect;
 pub mod friction;

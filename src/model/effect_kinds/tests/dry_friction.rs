@@ -1,9 +1,7 @@
 //! Tests of the stick element.
 
 use super::dry_friction::*;
-use super::friction_part::FrictionPart;
-use super::friction_part::Slip;
-use super::friction_part::SurfaceLoad;
+use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
 use super::friction_state::{FrictionState, Mode};
 
 const STIFFNESS: f64 = 1e3;
