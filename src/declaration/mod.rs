@@ -5,11 +5,9 @@
 
 mod access;
 mod row;
-mod rows;
 pub mod units;
 
 pub use crate::spec::{Choice, EnumType};
 pub use access::{Field, GetChoice, Parameter, SetChoice};
-pub use row::{Causality, Range, Row, Variability};
-pub use rows::row;
+pub use row::{Causality, Range, Row, Variability, row};
 pub use units::{DisplayUnit, Shown, Unit};

@@ -1,6 +1,9 @@
-//! A row: what a variable is named, what it may be, and `A`, the way to its value.
+//! A row: what a variable is named, what it may be, and `A`, the way to its value. How rows are written: first the name and what
+//! it is, then conditions, at last what kind of variable it is and the way to its value.
 
-use super::{DisplayUnit, Unit};
+use super::access::keep;
+use super::{DisplayUnit, Parameter, Shown, Unit};
+use crate::spec::Choices;
 
 /// FMI causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,5 +80,99 @@ impl<A> Row<A> {
             when: self.when,
             access: to(self.access),
         }
+    }
+}
+
+/// The beginning of a row: a name and what it is.
+#[inline(always)]
+pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
+    Row {
+        name,
+        description,
+        causality: Causality::Parameter,
+        variability: Variability::Fixed,
+        unit: None,
+        display: None,
+        range: None,
+        nominal: None,
+        derivative_of: None,
+        switch: None,
+        when: None,
+        access: (),
+    }
+}
+
+impl Row<()> {
+    /// A scene feels the value under `condition` alone (`variables::felt`).
+    #[inline(always)]
+    pub const fn when(self, condition: &'static str) -> Self {
+        Row { when: Some(condition), ..self }
+    }
+
+    /// The parameter may be changed while a simulation runs as well.
+    #[inline(always)]
+    pub const fn tunable(self) -> Self {
+        Row { variability: Variability::Tunable, ..self }
+    }
+
+    #[inline(always)]
+    const fn number(self, Shown(unit, display): Shown, range: Option<Range>) -> Self {
+        Row { unit: Some(unit), display, range, ..self }
+    }
+
+    /// A real parameter.
+    pub fn real<P: 'static>(
+        self,
+        unit: impl Into<Shown>,
+        (min, max): (f64, f64),
+        at: fn(&mut P) -> &mut f64,
+    ) -> Row<Parameter<P>> {
+        self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(keep(at)))
+    }
+
+    /// An integer parameter.
+    pub fn integer<P: 'static>(self, (min, max): (i32, i32), at: fn(&mut P) -> &mut i32) -> Row<Parameter<P>> {
+        let range = Some(Range { min: f64::from(min), max: f64::from(max) });
+        Row { range, ..self }.map(|()| Parameter::Integer(keep(at)))
+    }
+
+    /// A Boolean parameter.
+    pub fn switch<P: 'static>(self, at: fn(&mut P) -> &mut bool) -> Row<Parameter<P>> {
+        self.map(|()| Parameter::Boolean(keep(at)))
+    }
+
+    /// A parameter that is one of several choices.
+    pub fn choice<P: Copy + 'static, E: Choices>(self, at: fn(&mut P) -> &mut E) -> Row<Parameter<P>> {
+        let get = move |p: &P| at(&mut { *p }).value();
+        let set = move |p: &mut P, value| {
+            if let Some(choice) = E::of(value) {
+                *at(p) = choice;
+            }
+        };
+        self.map(|()| Parameter::Enumeration(E::TYPE, keep(get), keep(set)))
+    }
+
+    /// An input between −`limit` and `limit`.
+    pub fn input<A>(self, unit: impl Into<Shown>, limit: f64, at: A) -> Row<A> {
+        self.of(Causality::Input).number(unit.into(), Some(Range { min: -limit, max: limit })).map(|()| at)
+    }
+
+    /// An input between 0 and `max`.
+    pub fn command<A>(self, unit: impl Into<Shown>, max: f64, at: A) -> Row<A> {
+        self.of(Causality::Input).number(unit.into(), Some(Range { min: 0.0, max })).map(|()| at)
+    }
+
+    /// An output.
+    pub fn output<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
+        self.of(Causality::Output).number(unit.into(), None).map(|()| of)
+    }
+
+    /// A parameter that follows from others.
+    pub fn calculated<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
+        Row { causality: Causality::CalculatedParameter, ..self.number(unit.into(), None).map(|()| of) }
+    }
+
+    const fn of(self, causality: Causality) -> Self {
+        Row { causality, variability: Variability::Continuous, ..self }
     }
 }

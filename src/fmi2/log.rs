@@ -3,10 +3,8 @@
 //! FMI 2.0.4, sections 2.1.3 and 2.1.5: a call that does not return fmi2OK has called the logger; other messages are debug
 //! logging, which the host switches on and filters by category. Errors are logged always.
 
-use std::ffi::{CStr, CString};
+use std::ffi::{CStr, CString, c_void};
 use std::ptr;
-
-use crate::fmi2::c_types::c_void;
 
 use super::types::{CallbackFunctions, Logger, Status};
 

@@ -9,7 +9,6 @@
 //! - The state `fatal` is never entered: instances share no mutable data, so fmi2Reset always restores an instance.
 //! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
 
-mod c_types;
 mod call_error;
 mod calls;
 mod component;
@@ -21,6 +20,7 @@ mod instance;
 mod log;
 mod panic_guard;
 #[cfg(test)]
+#[path = "tests/panics.rs"]
 mod panics;
 mod snapshot;
 mod types;

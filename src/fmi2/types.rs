@@ -1,6 +1,7 @@
 //! Types of the FMI 2.0 headers, platform "default".
 
-use crate::fmi2::c_types::{c_char, c_int, c_uint, c_void};
+use std::ffi::{c_char, c_int, c_uint, c_void};
+
 use serde::{Deserialize, Serialize};
 
 /// fmi2Boolean: 0 is false.

@@ -28,9 +28,9 @@ pub use dynamics::watched::Watched;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::strength::Fatigue;
 pub use effects::{EFFECTS, EffectParameters, Effects};
+pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;
-pub use outputs::mesh_forces::MeshForces;
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PairLine, PairLines};
 pub use run::{

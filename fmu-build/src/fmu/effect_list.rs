@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::{Context, Result};
 use bevel_differential::model::{EFFECTS, GearContact, InputField, effects};
-use bevel_differential::variables::{Causality, Variable, named, table};
+use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use serde_json::{Value, json};
 
 use crate::fmu::documentation::start;

@@ -1,6 +1,5 @@
 //! From parameters to constants: inertias, contact laws, meshes, effects, gathered in `Model`.
 
-pub mod additions;
 pub mod body_effects;
 pub mod face;
 pub mod ideal;
@@ -12,12 +11,9 @@ pub mod rigid;
 mod shelf;
 mod solid;
 pub mod teeth;
-pub mod watch;
 
-pub use additions::Additions;
 pub use body_effects::BodyEffects;
 pub use ideal::{Ideal, IdealMotion};
 pub use inertias::Inertias;
-pub use model::{Gears, Given, Model};
-pub use teeth::{SIGMA, Teeth};
-pub use watch::Watch;
+pub use model::{Gears, Given, Model, Watch};
+pub use teeth::{Additions, SIGMA, Teeth};

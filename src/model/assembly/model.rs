@@ -3,7 +3,7 @@
 use super::kept::Kept;
 use super::laws::Laws;
 use super::rigid::Rigid;
-use super::{Additions, BodyEffects, Ideal, Inertias, Teeth, Watch, solid};
+use super::{Additions, BodyEffects, Ideal, Inertias, Teeth, solid};
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::{FlankGaps, Mesh};
@@ -187,4 +187,13 @@ fn teeth(
         bodies,
     };
     Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, additions)
+}
+
+/// What steps are watched for.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// Stress and fatigue.
+    pub strength: Option<GearStrength>,
+    /// Peak-to-peak values over mesh cycles.
+    pub mesh_history: bool,
 }

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Additions, Inertias};
-use crate::contact::Mesh;
+use super::{BodyEffects, Inertias};
 use crate::contact::bodies::SharedBodies;
+use crate::contact::detailed::Detailed;
+use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::Pair;
 use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
 
@@ -89,4 +90,23 @@ impl Teeth {
             additions: Box::new(additions),
         }
     }
+}
+
+/// What acts in a scene besides plain teeth.
+#[derive(Clone, Debug)]
+pub struct Additions {
+    /// The mesh in detail.
+    pub detailed: Detailed,
+    /// Whether an effect needs it while all teeth are sound.
+    pub in_detail: bool,
+    /// Index of the heat of friction along the flanks.
+    pub friction_heat: usize,
+    /// Gaps of the tooth pairs, while intact and once a tooth is broken.
+    pub gaps: [Option<Arc<FlankGaps>>; 2],
+    /// Teeth without errors, for their numbers.
+    pub perfect: FlankGaps,
+    /// Mass of a planet times its distance from the carrier's axis [kg·m].
+    pub planet_moment: f64,
+    /// Effects on bodies.
+    pub bodies: BodyEffects,
 }

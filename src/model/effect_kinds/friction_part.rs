@@ -1,6 +1,5 @@
-//! Part of the dry friction on a body that one source contributes.
-
-use super::SurfaceLoad;
+//! Part of the dry friction on a body that one source contributes, and what it depends on: the load on the surface, and how the
+//! body moves against it.
 
 /// Limit torque of one source, and its heat.
 #[derive(Clone, Copy, Debug)]
@@ -24,4 +23,23 @@ impl FrictionPart {
     pub(super) fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
+}
+
+/// Loads that press the surfaces together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SurfaceLoad {
+    /// Thrust on a side gear, or on a planet [N].
+    pub thrust: f64,
+    /// Magnitude of the torque of the meshes on a side gear [N·m], of the force across a planet's pin [N], or limit
+    /// torque of a wheel [N·m].
+    pub load: f64,
+}
+
+/// Motion of a body against the surface it rubs on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slip {
+    /// Position [rad].
+    pub position: f64,
+    /// Speed [rad/s].
+    pub speed: f64,
 }

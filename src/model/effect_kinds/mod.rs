@@ -4,22 +4,19 @@
 pub mod body_effect;
 pub mod dry_friction;
 #[cfg(test)]
+#[path = "tests/dry_friction.rs"]
 mod dry_friction_tests;
 pub mod effect;
 pub mod friction;
 pub mod friction_part;
 pub mod friction_source;
 pub mod friction_state;
-pub mod slip;
-pub mod surface_load;
 pub mod teeth;
 
 pub use body_effect::{Action, Bodies, BodyEffect, Slopes};
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use friction::Friction;
-pub use friction_part::FrictionPart;
+pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
 pub use friction_source::{FrictionSource, PlanetFriction, SideFriction, WheelFriction};
 pub use friction_state::{FrictionState, Mode};
-pub use slip::Slip;
-pub use surface_load::SurfaceLoad;
 pub use teeth::{FlankFriction, ToothEffects};

@@ -1,6 +1,5 @@
 //! Forces, torques and powers of a differential, and the ratios that follow from them.
 
-use super::mesh_forces::MeshForces;
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::scene::MAX_PLANETS;
 use crate::model::setup::effect_outputs::INSTANT_READINGS;
@@ -77,6 +76,23 @@ const MOST_BIAS: f64 = 1e6;
 pub fn efficiency(forces: &Forces) -> f64 {
     let fed = forces.power_in.max(0.0) + (-forces.power_out).max(0.0);
     if fed > 0.0 { (1.0 - forces.power_loss / fed).max(0.0) } else { 1.0 }
+}
+
+/// One mesh (a planet with one side gear).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MeshForces {
+    /// Sum of the normal forces of its tooth pairs [N].
+    pub normal: f64,
+    /// Tooth pairs carrying load.
+    pub pairs: f64,
+    /// Thrust on the side gear, along its axis away from the apex [N].
+    pub side_thrust: f64,
+    /// Thrust on the planet, along its axis away from the apex [N].
+    pub planet_thrust: f64,
+    /// Force on the side gear along the carrier's direction of rotation [N]; negative on the coast flank.
+    pub tangential: f64,
+    /// Transmission error: approach of the drive flanks at the mean cone distance [m].
+    pub transmission_error: f64,
 }
 
 #[cfg(test)]

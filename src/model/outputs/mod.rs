@@ -2,7 +2,6 @@
 
 pub mod forces;
 pub mod ledger_readings;
-pub mod mesh_forces;
 pub mod motion;
 pub mod pairs;
 pub mod resultants;

@@ -1,7 +1,7 @@
 //! Forces, torques and powers at an instant: what outputs read, computed when asked for.
 
+use super::forces::MeshForces;
 use super::forces::{Forces, bias};
-use super::mesh_forces::MeshForces;
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};

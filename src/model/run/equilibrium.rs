@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::carried::Carried;
-use super::excessive_deflection::limit_name;
+use super::failure::limit_name;
 use super::hints;
 use crate::contact::FlankGaps;
 use crate::integrate::{Matrix, Point};

@@ -1,7 +1,7 @@
 //! The ledger of completed steps: work, heat, mesh cycles, fatigue.
 
 use super::completed_step::{CompletedStep, Passed};
-use super::excessive_deflection::ExcessiveDeflection;
+use super::failure::ExcessiveDeflection;
 use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;

@@ -2,17 +2,13 @@
 
 mod carried;
 mod completed_step;
-mod cost_class;
 mod equilibrium;
 mod events;
-mod excessive_deflection;
 mod exchange;
 mod failure;
 mod hints;
 mod imposed;
 mod ledger;
-mod load_history;
-mod mesh_cycles;
 mod progress;
 mod readings;
 mod reports;
@@ -24,10 +20,10 @@ mod stretch;
 mod timeline;
 mod watching;
 
-pub use cost_class::CostClass;
 pub use exchange::{BODIES, Body, INDICATORS, STATES, Update};
 pub use failure::StepFailure;
 pub use ledger::{Recorded, Records};
+pub use readings::CostClass;
 pub use reports::Reported;
 pub use sensitivity::{Along, Direction, STENCIL};
 pub use simulation::Simulation;

@@ -2,7 +2,7 @@
 
 use super::events::{energy, has_brakes, with_brakes};
 use super::progress::complete;
-use super::{CostClass, Simulation, imposed};
+use super::{Simulation, imposed};
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
@@ -255,4 +255,19 @@ impl Simulation {
         let effects = if effects.is_empty() { "none".into() } else { effects.join(", ") };
         format!("{}; effects on: {effects}", self.model.ideal.plan.describe())
     }
+}
+
+/// What a step costs, by what has to be evaluated, cheapest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum CostClass {
+    /// No teeth and no effect on bodies: a step is a formula.
+    ClosedForm,
+    /// No teeth, but torques of effects: integrated, without fast motion.
+    Rigid,
+    /// Teeth or springs that see no effect.
+    Teeth,
+    /// The same with effects on bodies.
+    TeethAndBodies,
+    /// Teeth slice by slice: errors, friction, pins.
+    TeethInDetail,
 }

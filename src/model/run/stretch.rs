@@ -1,6 +1,6 @@
 //! Integration of a stretch of time, with its ledger: work, heat, mesh cycles, fatigue, switches of dry friction.
 
-use super::excessive_deflection::ExcessiveDeflection;
+use super::failure::ExcessiveDeflection;
 use super::{Recorded, Records, StepFailure, hints};
 use crate::contact::Law;
 use crate::integrate::{

@@ -1,10 +1,14 @@
-//! What steps are watched for beside the ledger.
+//! What steps are watched for beside the ledger, by the integrator's continuous extension: loads of the teeth, as fatigue counts
+//! them; side speeds and transmission errors, as the history of mesh cycles takes them, so that extremes between the ends of
+//! steps count.
 
 use super::completed_step::Passed;
-use super::load_history::count_fatigue;
-use super::mesh_cycles::add_to_history;
+use crate::integrate::{Curve, Extension, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
-use crate::model::dynamics::{Largest, Watched};
+use crate::model::dynamics::{LARGEST, Largest, LastLoads, Watched};
+use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
+use crate::model::effects::strength::{Fatigue, GearStrength, RatedStep, Rolled, Sample};
+use crate::model::scene::layout::LEFT;
 
 /// Adds a completed step to what it is watched for.
 ///
@@ -18,4 +22,74 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
     if watch.mesh_history {
         add_to_history(equations, model, step, &mut watched.mesh_history);
     }
+}
+
+/// Adds a step to the damage of the teeth.
+pub fn count_fatigue(
+    equations: &Largest,
+    (model, strength): (&Model, &GearStrength),
+    step: &Passed,
+    (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
+) {
+    let Passed { h, begin, way, part } = step;
+    // of three planets that differ there is a fourth group, without members
+    let groups = model.ideal.plan.groups().len();
+    let layout = &equations.teeth.layout;
+    let first = layout.planet(0);
+    let rolled = |q: &[f64; LARGEST]| {
+        let mut rolled = Rolled { roll: [q[0], q[1]], ..Rolled::default() };
+        rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
+        rolled
+    };
+    let mut sample = |fraction: f64, sample: &mut Sample| {
+        let at = way.at(fraction * part);
+        (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
+        sample.mesh[..groups].fill(Default::default());
+        for g in 0..groups {
+            for s in 0..2 {
+                equations.pair_loads(&model.pair, &at, g, s, |load| strength.add_load(&mut sample.mesh[g][s], load));
+            }
+        }
+    };
+    let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
+    if from > 0.0 {
+        strength.roll(fatigue, &rolled(&way.start.q), &rolled(&way.at(from * part).q));
+    }
+    if from < 1.0 {
+        let members = &layout.members[..groups];
+        let teeth = (groups, equations.fault);
+        let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == way.start);
+        let last = last.get_or_insert_default();
+        let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
+        strength.count(fatigue, &mut rated, &mut last.loads, are_known);
+        (last.at, last.teeth) = (way.at(*part), teeth);
+    }
+}
+
+/// Adds a step to the history; one that was cut short counts as far as it was taken.
+pub fn add_to_history(equations: &Largest, model: &Model, step: &Passed, history: &mut MeshHistory) {
+    let extension = &step.way;
+    let pitch = model.periods[LEFT];
+    let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
+    let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));
+    let mesh = &equations.teeth.mesh;
+    let error = |g: usize, s: usize| {
+        curve(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
+    };
+    let mut quantities = [speeds[0]; MOST_QUANTITIES];
+    quantities[1] = speeds[1];
+    // of three planets that differ there is a fourth group, without members
+    let groups = model.ideal.plan.groups().len();
+    let count = 2 + 2 * groups;
+    for (i, quantity) in quantities[2..count].iter_mut().enumerate() {
+        *quantity = error(i / 2, i % 2);
+    }
+    history.add(&rolling, &quantities[..count], step.part);
+}
+
+/// A quantity that depends linearly on the motion.
+fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
+    let Extension { start, end, bends } = extension;
+    let nothing = of(&Point::ZERO);
+    Curve { start: of(start), end: of(end), bends: bends.each_ref().map(|bend| of(bend) - nothing) }
 }

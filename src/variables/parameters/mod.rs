@@ -4,7 +4,6 @@
 mod bodies;
 mod contact;
 mod gears;
-mod scene;
 mod solver;
 
 use crate::declaration::{Parameter, Row, row};
@@ -15,7 +14,7 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
     let mut rows = gears::rows();
     rows.extend(bodies::rows());
     rows.extend(contact::rows());
-    rows.extend(scene::rows());
+    rows.extend(scene());
     rows.extend(teeth());
     rows.extend(
         effects::switches().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.effects))),
@@ -25,6 +24,18 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
         effects::parameters().into_iter().map(|row| row.map(|at| at.within(|p: &mut Parameters| &mut p.specs))),
     );
     rows
+}
+
+/// Rows of drives, representation of tooth contact, and start: `scene.…`.
+fn scene() -> Vec<Row<Parameter<Parameters>>> {
+    vec![
+        row("scene.carrier_drive", "How the carrier is driven").choice(|p| &mut p.scene.carrier_drive),
+        row("scene.left_drive", "How the left half-shaft is driven").choice(|p| &mut p.scene.left_drive),
+        row("scene.right_drive", "How the right half-shaft is driven").choice(|p| &mut p.scene.right_drive),
+        row("scene.planet_spin", "Whether planets spin freely on their pins").choice(|p| &mut p.scene.planet_spin),
+        row("scene.gear_contact", "Representation of tooth contact").choice(|p| &mut p.scene.gear_contact),
+        row("scene.start", "State at the start time").choice(|p| &mut p.scene.start),
+    ]
 }
 
 /// Switches of two properties of plain teeth.

@@ -13,7 +13,6 @@ pub mod bench;
 pub mod chosen;
 pub mod fraction;
 pub mod gears;
-pub mod input_paths;
 pub mod knowledge;
 pub mod price;
 pub mod record;

@@ -13,7 +13,7 @@ use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::Setting;
-use crate::scene::start_values::changed_values;
+use crate::scene::set::changed_values;
 use crate::scene::{self, Scene, loads, plan, script, ssv};
 use crate::text::shown;
 use crate::watch::Watch;

@@ -158,17 +158,10 @@ fn flatten<'a>(prefix: &str, table: &'a Table, out: &mut Vec<(String, &'a Value)
 }
 
 fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Event> {
-    let Some(value) = table.remove("time") else {
-        problems.push("[[at]] has no time".to_owned());
-        return None;
-    };
-    let time = match seconds(&value) {
-        Ok(time) => time,
-        Err(problem) => {
-            problems.push(format!("[[at]] time = {}: {problem}", written(&value)));
-            return None;
-        }
-    };
+    let time = table.remove("time").ok_or_else(|| "[[at]] has no time".to_owned());
+    let time = time
+        .and_then(|value| seconds(&value).map_err(|problem| format!("[[at]] time = {}: {problem}", written(&value))));
+    let time = time.map_err(|problem| problems.push(problem)).ok()?;
     if !stop_time.is_nan() && !(0.0..=stop_time).contains(&time) {
         let [time, stop_time] = [time, stop_time].map(digits);
         problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
@@ -199,31 +192,17 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
 fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<InputTable> {
     let place = format!("[[table]] input = \"{}\":", entry.input);
     let mut wrong = |what: String| problems.push(format!("{place} {what}"));
-    let row: &'static Variable = match variable(&entry.input) {
-        Ok(row) if matches!(row.access, Access::Input(_)) => row,
-        Ok(_) => {
-            wrong("is not an input".into());
-            return None;
-        }
-        Err(problem) => {
-            wrong(problem);
-            return None;
-        }
+    let row = match variable(&entry.input) {
+        Ok(row) if !matches!(row.access, Access::Input(_)) => Err("is not an input".into()),
+        found => found,
     };
-    let mut values = Vec::new();
-    for value in &entry.value {
-        match real(row, value) {
-            Ok(value) => values.push(value),
-            Err(problem) => wrong(format!("value {}: {problem}", written(value))),
-        }
-    }
-    let mut times = Vec::new();
-    for value in &entry.time {
-        match seconds(value) {
-            Ok(time) => times.push(time),
-            Err(problem) => wrong(format!("time {}: {problem}", written(value))),
-        }
-    }
+    let row = row.map_err(&mut wrong).ok()?;
+    let mut numbers = |what: &str, entries: &[Value], read: &dyn Fn(&Value) -> Result<f64, String>| -> Vec<f64> {
+        let told = |entry: &Value, problem: String| format!("{what} {}: {problem}", written(entry));
+        entries.iter().filter_map(|entry| read(entry).map_err(|problem| wrong(told(entry, problem))).ok()).collect()
+    };
+    let values = numbers("value", &entry.value, &|value| real(row, value));
+    let times = numbers("time", &entry.time, &seconds);
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
         wrong(format!("has {} times and {} values", entry.time.len(), entry.value.len()));
     }

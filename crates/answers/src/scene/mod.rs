@@ -9,7 +9,6 @@ pub mod run;
 pub mod script;
 pub mod set;
 pub mod ssv;
-pub mod start_values;
 pub mod times;
 pub mod units;
 

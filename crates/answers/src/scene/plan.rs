@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::felt::{self, Situation};
-use bevel_differential::variables::{Access, Causality, Variable, named, number, table};
+use bevel_differential::variables::{Causality, named, number, table, value_of};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -131,21 +131,15 @@ fn unfelt(scene: &Scene) -> Vec<Problem> {
 
 /// Literal and meaning of an enumeration in `scene`.
 fn choice(scene: &Scene, name: &str) -> String {
-    let known = row(name).and_then(|row| match row.access {
-        Access::Enumeration(_, get, _) => literal(row, get(&scene.parameters)),
-        _ => None,
-    });
+    let known = named(name).and_then(|row| literal(row, value_of(row, &scene.parameters, &scene.inputs)? as i32));
     known.map_or(String::new(), |(literal, meaning)| format!("{literal}: {meaning}"))
 }
 
 /// How each shaft is driven, with the values at the start.
 fn drives(scene: &Scene) -> Vec<String> {
     let value = |name: &str| {
-        let mut inputs: Inputs = scene.inputs;
-        row(name).map_or(String::new(), |row| match row.access {
-            Access::Input(access) => format!("{name} = {}", units::text(row, *access(&mut inputs))),
-            _ => String::new(),
-        })
+        let value = named(name).and_then(|row| Some((row, value_of(row, &scene.parameters, &scene.inputs)?)));
+        value.map_or(String::new(), |(row, value)| format!("{name} = {}", units::text(row, value)))
     };
     let driven = |name: &str| choice(scene, name).split(':').next().unwrap_or_default().to_owned();
     let mut drives = vec![format!("carrier by {}", driven("scene.carrier_drive"))];
@@ -162,19 +156,11 @@ fn drives(scene: &Scene) -> Vec<String> {
     drives
 }
 
-fn row(name: &str) -> Option<&'static Variable> {
-    named(name)
-}
-
 /// The effect of a switch.
 fn description(name: &str) -> String {
-    let text = row(name).filter(|row| row.causality == Causality::Parameter).map_or("", |row| row.description);
+    let text = named(name).filter(|row| row.causality == Causality::Parameter).map_or("", |row| row.description);
     // the text after the semicolon says what happens without it
     let on = text.split(';').next().unwrap_or(text);
-    let mut defaults = Parameters::default();
-    let usual = row(name).is_some_and(|row| match row.access {
-        Access::Boolean(access) => *access(&mut defaults),
-        _ => false,
-    });
-    if usual { format!("{on} (on unless switched off)") } else { on.to_owned() }
+    let start = named(name).and_then(|row| value_of(row, &Parameters::default(), &Inputs::ZERO));
+    if start == Some(1.0) { format!("{on} (on unless switched off)") } else { on.to_owned() }
 }

@@ -91,16 +91,10 @@ impl<'a> SceneRun<'a> {
             }
             self.events += 1;
         }
-        for InputTable { row, .. } in &self.scene.input_tables {
-            if let Access::Input(access) = row.access {
-                // the last one wins where two tables name one input
-                let value = self
-                    .scene
-                    .input_tables
-                    .iter()
-                    .rfind(|input_table| input_table.row.name == row.name)
-                    .map(|t| t.at(time));
-                *access(&mut self.inputs) = value.unwrap_or_default();
+        // the last one wins where two tables name one input
+        for table in &self.scene.input_tables {
+            if let Access::Input(access) = table.row.access {
+                *access(&mut self.inputs) = table.at(time);
             }
         }
         self.simulation.set_inputs(&self.inputs);

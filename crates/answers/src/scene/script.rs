@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use anyhow::{Context, Result};
 
+use super::set::changed_values;
 use super::set::{Setting, SettingValue};
-use super::start_values::changed_values;
 use super::{InputTable, Scene, units};
 
 /// Widest line of numbers.

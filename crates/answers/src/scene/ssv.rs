@@ -5,8 +5,8 @@ use bevel_differential::variables::units::{Base, Unit};
 use bevel_differential::variables::{Access, EnumType};
 
 use super::Scene;
+use super::set::start_values;
 use super::set::{Setting, SettingValue, literal};
-use super::start_values::start_values;
 use crate::text::xml::Element;
 
 const SSV: &str = "http://ssp-standard.org/SSP1/SystemStructureParameterValues";

@@ -8,7 +8,7 @@ use super::exports::{fmi2FreeInstance, fmi2GetReal, fmi2Reset};
 use super::types::{ComponentPointer, Kind, Status};
 use super::{Call, Instance, Log, Phase};
 
-#[path = "../../tests/common/recorder.rs"]
+#[path = "../../../tests/common/recorder.rs"]
 mod recorder;
 
 use recorder::Recorder;
@@ -61,14 +61,14 @@ const ENTRIES: [&str; 5] = ["call!(c, ", "panic_guard::catch(", "component::free
 #[test]
 fn every_export_catches_panics() {
     let files = [
-        include_str!("exports/derivatives.rs"),
-        include_str!("exports/exchange.rs"),
-        include_str!("exports/lifecycle.rs"),
-        include_str!("exports/states.rs"),
-        include_str!("exports/stepping.rs"),
-        include_str!("exports/variables.rs"),
+        include_str!("../exports/derivatives.rs"),
+        include_str!("../exports/exchange.rs"),
+        include_str!("../exports/lifecycle.rs"),
+        include_str!("../exports/states.rs"),
+        include_str!("../exports/stepping.rs"),
+        include_str!("../exports/variables.rs"),
     ];
-    let listed = include_str!("exports/mod.rs").lines().filter(|line| line.starts_with("mod ")).count();
+    let listed = include_str!("../exports/mod.rs").lines().filter(|line| line.starts_with("mod ")).count();
     assert_eq!(files.len(), listed, "a file of exports is not checked");
     let mut seen = 0;
     for export in files.iter().flat_map(|file| file.split("#[unsafe(no_mangle)]").skip(1)) {
@@ -79,5 +79,5 @@ fn every_export_catches_panics() {
     }
     let unmangled: usize = files.iter().map(|file| file.matches("no_mangle").count()).sum();
     assert_eq!(seen, unmangled);
-    assert!(include_str!("exports/mod.rs").contains("{ run($c, Call::$call, body) }"), "call! goes through `run`");
+    assert!(include_str!("../exports/mod.rs").contains("{ run($c, Call::$call, body) }"), "call! goes through `run`");
 }

@@ -1,10 +1,8 @@
 //! Tests of the stick element.
 
 use super::dry_friction::*;
-use super::friction_part::FrictionPart;
+use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
 use super::friction_state::{FrictionState, Mode};
-use super::slip::Slip;
-use super::surface_load::SurfaceLoad;
 
 const STIFFNESS: f64 = 1e3;
 
