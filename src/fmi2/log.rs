@@ -3,9 +3,10 @@
 //! FMI 2.0.4, sections 2.1.3 and 2.1.5: a call that does not return fmi2OK has called the logger; other messages are debug
 //! logging, which the host switches on and filters by category. Errors are logged always.
 
-use std::ffi::{CStr, CString, c_void};
+use std::ffi::{CStr, CString};
 use std::ptr;
 
+use super::c_types::c_void;
 use super::types::{CallbackFunctions, Logger, Status};
 
 /// Log category, as listed in the model description.

@@ -9,6 +9,7 @@
 //! - The state `fatal` is never entered: instances share no mutable data, so fmi2Reset always restores an instance.
 //! - Parameters and inputs can be read in any state, outputs from initialisation mode on.
 
+mod c_types;
 mod call_error;
 mod calls;
 mod component;

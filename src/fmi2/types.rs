@@ -1,6 +1,6 @@
 //! Types of the FMI 2.0 headers, platform "default".
 
-use std::ffi::{c_char, c_int, c_uint, c_void};
+use crate::fmi2::c_types::{c_char, c_int, c_uint, c_void};
 
 use serde::{Deserialize, Serialize};
 

@@ -75,3 +75,19 @@ fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
         if (value < 0.0) == (begin < 0.0) { low = middle } else { high = middle }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots_of_quadratics_are_found() {
+        for [a, b] in [[1.0, 3.0], [-2.0, 0.5], [1e-3, 1e3], [-4.0, -0.25]] {
+            let mut found = quadratic_roots([a * b, -(a + b), 1.0]);
+            found.sort_by(f64::total_cmp);
+            let expected = [f64::min(a, b), f64::max(a, b)];
+            assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 1e-14 * expected[i].abs()), "{a} {b}: {found:?}");
+        }
+        assert_eq!(quadratic_roots([1.0, 0.0, 1.0]), [0.0; 2]);
+    }
+}

@@ -110,3 +110,25 @@ fn gears_that_cannot_be_built_give_errors() {
     let lopsided = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([3.0, 0.1], [0.05, 3.1]) };
     assert_refused(&lopsided, &["geometry.side_addendum", "no tooth at the pitch circle"]);
 }
+
+#[test]
+fn a_rim_is_measured_along_the_toe_s_front_cone() {
+    let spec = GearSpec { planet_bore: 22e-3, ..usual() };
+    let pair = Pair::new(&spec);
+    // from the root cone at the toe straight to the bore, at right angles to the root cone's line
+    let (sine, cosine) = (pair.gears[0].root.sin(), pair.gears[0].root.cos());
+    let (mut near, mut far) = (0.0, 0.1);
+    for _ in 0..100 {
+        let middle = 0.5 * (near + far);
+        let radius = pair.inner_cone * sine - middle * cosine;
+        if radius > spec.planet_bore / 2.0 { near = middle } else { far = middle }
+    }
+    assert_warns(&spec, &[&format!("the planet's rim at the toe is {:.2} mm", 1e3 * near)]);
+}
+
+#[test]
+fn a_right_angle_is_one_to_the_accuracy_it_can_be_typed_with() {
+    use std::f64::consts::FRAC_PI_2;
+    assert!([-0.99e-6, 0.99e-6].into_iter().all(|off| Pair::is_right_angle(FRAC_PI_2 + off)));
+    assert!([-1.01e-6, 1.01e-6].into_iter().all(|off| !Pair::is_right_angle(FRAC_PI_2 + off)));
+}

@@ -91,3 +91,44 @@ fn steps_of_fixed_size_keep_their_order_when_driven() {
     let order = (error(0.01) / error(0.005)).log2();
     assert!((order - 2.0).abs() < 0.2, "{order}");
 }
+
+/// A system that counts how often it is asked.
+struct Counting(Driven, std::cell::Cell<u64>);
+
+impl SecondOrder<1> for Counting {
+    type Power = ();
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
+        self.evaluate_at(at, 0.0)
+    }
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
+        self.linearise_at(at, 0.0)
+    }
+    fn is_driven(&self) -> bool {
+        true
+    }
+    fn evaluate_at(&self, at: &Point<1>, time: f64) -> ([f64; 1], ()) {
+        self.1.set(self.1.get() + 1);
+        self.0.evaluate_at(at, time)
+    }
+    fn linearise_at(&self, at: &Point<1>, time: f64) -> Linearisation<1, ()> {
+        self.1.set(self.1.get() + 1);
+        self.0.linearise_at(at, time)
+    }
+    fn drift(&self, at: &Point<1>, time: f64) -> [f64; 1] {
+        self.0.drift(at, time)
+    }
+    fn weights(&self, at: &Point<1>) -> Point<1> {
+        self.0.weights(at)
+    }
+}
+
+#[test]
+fn steps_of_fixed_size_count_what_they_ask_for() {
+    let system = Counting(Driven(5.0), std::cell::Cell::new(0));
+    let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
+    let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
+    let counts = (&mut statistics, &mut budget);
+    advance_fixed(&system, &mut point, &mut time, 1.0, 0.01, counts, |_| Ok::<_, ()>(AfterStep::Continue)).unwrap();
+    assert_eq!((statistics.accepted, statistics.evaluations), (100, system.1.get()));
+}

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use anyhow::{Context, Result};
-use bevel_differential::model::{EFFECTS, GearContact, InputField, effects};
+use bevel_differential::model::{EFFECTS, InputField, effects};
 use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use serde_json::{Value, json};
 

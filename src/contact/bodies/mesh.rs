@@ -197,3 +197,27 @@ fn softening(pair: &Pair, i: usize, poisson: f64) -> f64 {
     let square = poisson * poisson;
     1.0 + square / (1.0 - square) * ends
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{AddendumSystem, GearSpec};
+
+    #[test]
+    fn softening_hangs_on_the_shape_of_a_tooth_and_not_on_its_size() {
+        // heights in modules alone: Gleason's have a constant in mm
+        let spec = GearSpec { addendum_system: AddendumSystem::Standard, ..GearSpec::default() };
+        let larger = GearSpec {
+            module: 10.0 * spec.module,
+            face_width: 10.0 * spec.face_width,
+            backlash: 10.0 * spec.backlash,
+            ..spec
+        };
+        let [small, large] = [spec, larger].map(|spec| [0, 1].map(|i| softening(&Pair::new(&spec), i, 0.3)));
+        assert!((0..2).all(|i| (small[i] - large[i]).abs() < 1e-12), "{small:?} {large:?}");
+        // a tooth no wider than high is a thin plate, a wide one nearly in plane strain
+        let of_width = |width: f64| softening(&Pair::new(&GearSpec { face_width: width, ..spec }), 0, 0.3);
+        assert!((of_width(3e-3) - 1.0 / (1.0 - 0.09)).abs() < 1e-12);
+        assert!(of_width(14e-3) < of_width(10e-3) && of_width(10e-3) < of_width(3e-3));
+    }
+}

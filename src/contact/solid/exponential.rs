@@ -74,6 +74,14 @@ mod tests {
     }
 
     #[test]
+    fn the_series_ends_where_a_rounding_does() {
+        for z in [0.1, 0.3, 0.45, 0.49] {
+            let mean = mean_exponential([-z, z], [libm::exp(-z), libm::exp(z)]).v;
+            assert!((mean * z / libm::sinh(z) - 1.0).abs() < 1e-15, "{z}: {mean}");
+        }
+    }
+
+    #[test]
     fn the_mean_exponential_and_its_derivatives_are_exact() {
         // by Gauss-Legendre over the interval, five points on short pieces
         let points = [

@@ -199,6 +199,18 @@ mod tests {
     }
 
     #[test]
+    fn slope_and_curvature_of_a_level_are_those_of_its_values() {
+        let level = Level::new(END, 0.3);
+        for k in 1..100 {
+            let (x, h) = (0.01 * f64::from(k) * level.length, 1e-5 * level.length);
+            let [before, at, after] = [x - h, x, x + h].map(|x| level.at(x));
+            let [slope, curvature] = [after.v - before.v, after.d - before.d].map(|change| change / (2.0 * h));
+            assert!((at.d - slope).abs() < 1e-6 * END.d.abs(), "{x}: {} {slope}", at.d);
+            assert!((at.dd - curvature).abs() < 1e-5 * (END.d / level.length).abs(), "{x}: {} {curvature}", at.dd);
+        }
+    }
+
+    #[test]
     fn a_corner_far_from_and_near_to_its_mate_s_base_circle_is_met() {
         for bend in [0.03, 2e-4, 8e-7] {
             let (f, part) = (function(bend), CornerPart { bend, ..PART });

@@ -7,7 +7,7 @@
 #![allow(clippy::missing_safety_doc)] // the section above holds for all
 #![allow(non_snake_case)] // FMI's names
 
-use std::ffi::{c_char, c_int};
+use super::c_types::{c_char, c_int};
 
 use super::component::run;
 use super::types::*;

@@ -29,3 +29,10 @@ fn small_loads_count_as_150_newton_per_millimetre_and_are_reported() {
     assert_eq!(outside(&fast).unwrap().quantity, "sum speed v_Σ");
     assert_eq!(coefficient(&spec, &fast), coefficient(&spec, &Conditions { rolling: 90.0, ..AT }));
 }
+
+#[test]
+fn the_least_load_is_that_of_the_report() {
+    // w ≥ 150 N/mm: one per cent inside and outside
+    assert_eq!(outside(&Conditions { line_load: 151.5e3, ..AT }), None);
+    assert!(outside(&Conditions { line_load: 148.5e3, ..AT }).is_some());
+}

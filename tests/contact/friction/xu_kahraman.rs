@@ -34,3 +34,28 @@ fn value_equals_the_formula_by_hand() {
     let light = Conditions { line_load: 1e4, ..at };
     assert_eq!(outside(&spec, &light).unwrap().quantity, "Hertzian pressure P");
 }
+
+#[test]
+fn the_ranges_of_the_fit_are_those_of_the_thesis() {
+    let spec = |rms: f64| ToothFrictionSpec { roughness: rms / 1.253_314_137_315_5, ..ToothFrictionSpec::default() };
+    // entraining speed, slide-to-roll ratio, pressure in GPa, radius in mm, rms roughness in µm
+    let quantity = |[speed, ratio, pressure, radius, rms]: [f64; 5]| {
+        let (radius, modulus) = (radius * 1e-3, 1.15e11);
+        let line_load = (pressure * 1e9).powi(2) * std::f64::consts::PI * radius / modulus;
+        let at = Conditions { sliding: ratio * speed, rolling: 2.0 * speed, line_load, radius, modulus };
+        outside(&spec(rms * 1e-6), &at).map(|outside| outside.quantity)
+    };
+    let usual = [10.0, 0.5, 1.0, 20.0, 0.3];
+    assert_eq!(quantity(usual), None);
+    for (i, [low, high]) in
+        [[1.0, 20.0], [f64::NAN, 1.0], [0.5, 2.5], [5.0, 80.0], [f64::NAN, 0.6]].into_iter().enumerate()
+    {
+        for (limit, inward) in [(low, 1.01), (high, 0.99)] {
+            let at = |value: f64| std::array::from_fn(|k| if k == i { value } else { usual[k] });
+            if limit.is_finite() {
+                assert_eq!(quantity(at(limit * inward)), None, "{i}: just within {limit}");
+                assert!(quantity(at(limit / inward)).is_some(), "{i}: just outside {limit}");
+            }
+        }
+    }
+}

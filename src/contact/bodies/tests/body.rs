@@ -95,3 +95,24 @@ fn a_bore_that_takes_torque_lets_all_teeth_turn_with_the_load() {
     assert!(mean(&held) > 0.2 * held.between(0.0)[0][0]);
     assert!(mean(&free).abs() < 1e-3 * free.between(0.0)[0][0]);
 }
+
+#[test]
+fn waves_too_short_for_a_finite_face_go_on_where_it_ends() {
+    let pair = Pair::new(&GearSpec::default());
+    let section = SectionSpec::of_gear(&pair, 1).with_fillet(0.4 * pair.module, "").expect("a gap");
+    let elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
+    let support = Support::Bore(0.03);
+    let body = GearBody::new(&pair, 1, (&section, &elasticity), support, "").expect("a body");
+    let held = support.held(&pair, 1, "").expect("a bore");
+    let cone = HollowCone { surface: body.root.polar, held, face: [pair.inner_cone, pair.outer_cone], elasticity };
+    let n = FINITE + 1;
+    let finite = cone.compliance(n, support.turns(), ACROSS).expect("elastic");
+    let waves = body.root.waves(n);
+    let factor = 2.0 * TAU * sin(body.root.polar) * sin(body.root.polar);
+    for (row, load) in waves.iter().enumerate() {
+        let expected =
+            factor * (0..3).map(|i| load[i] * (0..3).map(|j| finite[(i, j)] * load[j]).sum::<f64>()).sum::<f64>();
+        let found = body.harmonics[n][row][row];
+        assert!((found / expected - 1.0).abs() < 0.03, "{row}: {found:e} {expected:e}");
+    }
+}

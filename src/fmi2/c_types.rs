@@ -1,0 +1,7 @@
+//! The types of C that the functions of FMI take.
+
+#[cfg(target_family = "wasm")]
+pub use core::ffi::{c_char, c_int, c_uint, c_void};
+
+#[cfg(not(target_family = "wasm"))]
+pub use libc::{c_char, c_int, c_uint, c_void};
