@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use crate::fmu::documentation::start;
 use crate::tools::paths;
-use crate::tools::sections::{self, MarkedSection};
+use crate::tools::sections;
 use answers::text::table::Table;
 
 type Declared = bevel_differential::model::effects::Declared;
@@ -19,37 +19,25 @@ type Declared = bevel_differential::model::effects::Declared;
 /// Most letters of a description in a table of the documents, so that no line is longer than 160.
 const LONGEST: usize = 96;
 
-/// The sections of documents that list the effects.
-fn sections() -> [MarkedSection; 3] {
+/// The sections of documents that list the effects: document, lines around it, text.
+fn sections() -> [(&'static str, [&'static str; 2], String); 3] {
     [
-        MarkedSection {
-            document: "README.md",
-            marks: ["<!-- effects begin -->", "<!-- effects end -->"],
-            text: overview().markdown(),
-        },
-        MarkedSection {
-            document: "docs/effects.md",
-            marks: ["<!-- interface:begin -->", "<!-- interface:end -->"],
-            text: interface().markdown(),
-        },
-        MarkedSection {
-            document: "docs/effects.md",
-            marks: ["<!-- parameters:begin -->", "<!-- parameters:end -->"],
-            text: parameters().markdown(),
-        },
+        ("README.md", ["<!-- effects begin -->", "<!-- effects end -->"], overview().markdown()),
+        ("docs/effects.md", ["<!-- interface:begin -->", "<!-- interface:end -->"], interface().markdown()),
+        ("docs/effects.md", ["<!-- parameters:begin -->", "<!-- parameters:end -->"], parameters().markdown()),
     ]
 }
 
 /// Renews the sections of documents that list the effects.
 pub fn write() -> Result<()> {
-    sections().iter().try_for_each(|section| sections::renew(section.document, section.marks, &section.text))
+    sections().iter().try_for_each(|(document, marks, text)| sections::renew(document, *marks, text))
 }
 
 /// The document whose list of effects is out of date, if any.
 pub fn stale() -> Result<Option<&'static str>> {
-    for section in sections() {
-        if !sections::is_current(&section)? {
-            return Ok(Some(section.document));
+    for (document, marks, text) in sections() {
+        if !sections::is_current(document, marks, &text)? {
+            return Ok(Some(document));
         }
     }
     Ok(None)

@@ -17,8 +17,6 @@ use crate::tools::files::write_whole;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
 
-pub use crate::fmu::libraries::build_library;
-
 /// Permissions of the archive's files.
 const PLAIN: u32 = 0o644;
 const EXECUTABLE: u32 = 0o755;

@@ -1,26 +1,12 @@
-//! Python scripts whose progress is shown.
+//! Programs whose progress is shown.
 
-use std::ffi::OsStr;
 use std::io::{BufRead, BufReader, Read};
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::thread;
 
 use anyhow::{Context, Result, bail};
 
 use crate::tools::progress::Progress;
-use crate::tools::python::Environment;
-
-/// Runs `script` to its end and returns what it printed, as [`follow`] does.
-pub fn run(
-    environment: &Environment,
-    script: &Path,
-    arguments: &[impl AsRef<OsStr>],
-    progress: &Progress,
-) -> Result<String> {
-    let name = script.file_name().unwrap_or_default().display().to_string();
-    follow(environment.command().arg(script).args(arguments), &name, progress)
-}
 
 /// Runs a command, called `name`, to its end and returns what it printed. Its lines "progress <fraction> <what>" on standard error
 /// move the bar; other lines there are the error if it fails.

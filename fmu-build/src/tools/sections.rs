@@ -7,21 +7,11 @@ use anyhow::{Context, Result};
 
 use crate::tools::paths;
 
-/// A section of a document that a command writes.
-pub struct MarkedSection {
-    /// Path of the document in the workspace.
-    pub document: &'static str,
-    /// Lines around the section.
-    pub marks: [&'static str; 2],
-    /// What stands between them.
-    pub text: String,
-}
-
-/// Whether a document has the section as it should be.
-pub fn is_current(section: &MarkedSection) -> Result<bool> {
-    let file = paths::workspace().join(section.document);
-    let old = fs::read_to_string(&file).with_context(|| format!("{} cannot be read", section.document))?;
-    Ok(replaced(&old, section.marks, &section.text).is_some_and(|renewed| renewed == old))
+/// Whether a document has `text` between the lines `marks`.
+pub fn is_current(document: &str, marks: [&str; 2], text: &str) -> Result<bool> {
+    let file = paths::workspace().join(document);
+    let old = fs::read_to_string(&file).with_context(|| format!("{document} cannot be read"))?;
+    Ok(replaced(&old, marks, text).is_some_and(|renewed| renewed == old))
 }
 
 /// Puts `text` between the two lines `marks` of `document`, a path in the workspace.

@@ -3,12 +3,15 @@
 use anyhow::Result;
 use clap::{ArgMatches, Args};
 
+/// What runs a command with the options that were given.
+type Runs = dyn Fn(&ArgMatches) -> Result<()>;
+
 /// A command.
 pub struct Command {
     /// Its name, its options, its help.
     pub declared: clap::Command,
-    /// Runs it with the options that were given.
-    pub run: Box<dyn Fn(&ArgMatches) -> Result<()>>,
+    /// What runs it.
+    pub run: Box<Runs>,
 }
 
 impl Command {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use answers::text::table::for_terminal;
 use anyhow::{Context, Result};
 use clap::{Arg, ArgAction, ArgMatches, value_parser};
-use fmu_build::fmu::{package, plain_types};
+use fmu_build::fmu::{libraries, package, plain_types};
 use fmu_build::tools::progress::Progress;
 use fmu_build::tools::python::{Environment, Wanted};
 use fmu_build::tools::{paths, script, sections};
@@ -236,7 +236,7 @@ impl Given {
             Self::PlainFmu => plain_types::package(&packaged()?)?.into(),
             Self::Equations => {
                 progress.stage("building the equations as a library");
-                package::build_library("foreign-solvers")?.into()
+                libraries::build_library("foreign-solvers")?.into()
             }
             Self::Folder => folder.unwrap_or(Path::new("")).into(),
             Self::Target(name) => paths::target().join(name).into(),

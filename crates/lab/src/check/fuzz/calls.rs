@@ -7,8 +7,7 @@ use bevel_differential::fmi2::*;
 use bevel_differential::model::STATES;
 use bevel_differential::variables::guid;
 
-use super::arguments::{Flaws, VariableKind, references, row};
-use super::call_result::CallResult;
+use super::arguments::{CallResult, Flaws, VariableKind, references, row};
 use super::functions::Function;
 use super::random::Random;
 use super::states::{HELD, HeldStates, a_state, deserialize, get_state};

@@ -5,7 +5,6 @@
 //! processes of this program, started by python/fuzz.py, so that a crash or a hang is reported with its seed.
 
 mod arguments;
-mod call_result;
 mod calls;
 mod functions;
 mod random;

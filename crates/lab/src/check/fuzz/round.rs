@@ -5,7 +5,7 @@ use std::ptr;
 use bevel_differential::fmi2::*;
 use cpu_time::ThreadTime;
 
-use super::call_result::CallResult;
+use super::arguments::CallResult;
 use super::calls::call;
 use super::functions::Function;
 use super::random::Random;

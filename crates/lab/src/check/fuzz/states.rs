@@ -5,8 +5,7 @@ use std::ptr;
 use bevel_differential::fmi2::*;
 use bevel_differential::variables::fnv1a;
 
-use super::arguments::Flaws;
-use super::call_result::CallResult;
+use super::arguments::{CallResult, Flaws};
 use super::random::Random;
 use super::unit::serialised;
 
