@@ -7,8 +7,8 @@ use crate::mirror::scene::Step;
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::felt::{Situation, is_felt, number};
-use bevel_differential::variables::{Access, Range, Variable, table};
+use bevel_differential::variables::felt::{Situation, is_felt};
+use bevel_differential::variables::{Access, Range, Variable, number, table};
 use ways::{Test, ways};
 
 /// Parameters and inputs of a scene, and its steps.
