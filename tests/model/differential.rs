@@ -62,3 +62,31 @@ fn a_clone_goes_its_own_way() {
     other.advance(0.02).expect("a step");
     assert_eq!(it.get("left.speed"), other.get("left.speed"));
 }
+
+#[test]
+fn a_pin_gives_way_by_its_force_over_its_stiffness() {
+    let (stiffness, load, teeth) = (2e8, 700.0, [11.0, 17.0]);
+    let (module, face) = (4.5e-3, 14e-3);
+    let mut it = Differential::new();
+    for (name, value) in [
+        ("geometry.planet_teeth", teeth[0]),
+        ("geometry.side_teeth", teeth[1]),
+        ("geometry.planet_count", 3.0),
+        ("geometry.module", module),
+        ("geometry.face_width", face),
+        ("effects.pin_compliance", 1.0),
+        ("pin_compliance.pin_stiffness", stiffness),
+        ("left.load_torque", load),
+        ("right.load_torque", load),
+    ] {
+        it.set(name, value).expect(name);
+    }
+    it.set_text("scene.start", "equilibrium").expect("a start");
+    it.advance(1e-3).expect("a step");
+    // each of three pins carries a third of both loads, at the middle of the face on the planet's axis
+    let mean = 0.5 * module * f64::hypot(teeth[0], teeth[1]) - 0.5 * face;
+    let arm = mean * teeth[1] / f64::hypot(teeth[0], teeth[1]);
+    let expected = 2.0 * load / 3.0 / (arm * arm * stiffness);
+    let found = it.get("planet[1].pin_angle").expect("an angle");
+    assert!((found.abs() / expected - 1.0).abs() < 1e-6, "{found:e} {expected:e}");
+}

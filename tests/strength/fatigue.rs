@@ -127,6 +127,15 @@ fn root_stress_is_linear_in_force_and_total() {
 }
 
 #[test]
+fn a_load_at_the_base_circle_but_for_roundings_has_a_form() {
+    let profile = Profile::of(&default_pair(), 0, 0.25);
+    let base = profile.teeth * profile.pressure_angle.cos();
+    let [at, below] =
+        [base, base * (1.0 - 1e-13)].map(|load| ToothForm::new(&profile, load).expect("a form").form_factor);
+    assert!((below / at - 1.0).abs() < 1e-6, "{below} {at}");
+}
+
+#[test]
 fn a_tooth_without_a_root_has_no_form() {
     let sound = Profile::of(&default_pair(), 0, 0.25);
     let wrong = |change: &dyn Fn(&mut Profile)| {

@@ -67,7 +67,7 @@ impl State {
             statistics: Statistics::default(),
             work: 0.0,
             heat: [0.0; HEATS],
-            friction: [FrictionState::default(); FRICTION_BODIES],
+            friction: [FrictionState::at_rest(0.0, 1e-3); FRICTION_BODIES],
             bias: Bias::default(),
             fault: false,
             lock: 0.0,
@@ -232,5 +232,21 @@ impl BodyEffects {
             || state.input_derivatives.is_some()
             || state.lock > 0.0
             || state.friction.iter().any(|friction| friction.stiffness > 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
+        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], pins: false, attached: [false; _] };
+        for side in 0..2 {
+            let mut state = State::at_rest(0.0, 1e-3);
+            state.move_anchors(side, 2.0, &layout);
+            let moved: Vec<usize> = (0..state.friction.len()).filter(|&k| state.friction[k].anchor != 0.0).collect();
+            assert_eq!(moved, [side, FRICTION_WHEELS + side]);
+        }
     }
 }
