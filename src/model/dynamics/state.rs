@@ -67,7 +67,7 @@ impl State {
             statistics: Statistics::default(),
             work: 0.0,
             heat: [0.0; HEATS],
-            friction: [FrictionState::at_rest(0.0, 1e-3); FRICTION_BODIES],
+            friction: [FrictionState::default(); FRICTION_BODIES],
             bias: Bias::default(),
             fault: false,
             lock: 0.0,
