@@ -23,7 +23,7 @@ main { display: block; padding: 0; }
 
 def opened(page: Page, file: Path, fragment: str, time: float) -> None:
     """Opens a set-up and stops at a time of its run [s]."""
-    page.goto(f"{file.resolve().as_uri()}#{fragment}")
+    page.goto(f"{file.resolve().as_uri()}#{fragment}&picture=fine")
     page.wait_for_function("window.page?.isOver && page.view.differential.gears", timeout=PATIENCE)
     page.evaluate(f"page.seek({time})")
     settled(page)

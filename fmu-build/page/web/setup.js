@@ -10,8 +10,8 @@ const FIRST = "study_turning";
 const MOST_POINTS = 2e5; // of a run
 export const MOST_TRACES = 6; // as many as there are colours for them
 // words of the address that are no variables, and what they are when it has none
-const PLAIN = { view: "whole", colour: "load", speeds: "deg/s" };
-const KNOWN = { view: PRESETS, colour: MODES, speeds: SPEEDS };
+const PLAIN = { view: "whole", colour: "load", speeds: "deg/s", picture: "auto" };
+const KNOWN = { view: PRESETS, colour: MODES, speeds: SPEEDS, picture: { auto: true, fine: true } };
 
 export class Setup {
   constructor(table) {

@@ -22,7 +22,8 @@ export const PRESETS = {
 export class View {
   constructor(canvas, labels) {
     this.canvas = canvas;
-    this.isCoarse = isDrawnByProcessor();
+    // `picture=fine` in the address is for pictures to keep
+    this.isCoarse = isDrawnByProcessor() && !location.hash.includes("picture=fine");
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.isCoarse, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;

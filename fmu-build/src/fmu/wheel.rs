@@ -116,6 +116,13 @@ fn write_parts(libraries: &[Library], packing: Packing, package: &Path) -> Resul
     for scene in scene::files(&paths::scenes())? {
         copy_file(&scene, &package.join("scenes"))?;
     }
+    let designs = from.join("examples").join("design");
+    for file in fs::read_dir(&designs).with_context(|| format!("{} cannot be read", paths::shown(&designs)))? {
+        let file = file?.path();
+        if file.extension().is_some_and(|ending| ending == "toml" || ending == "csv") {
+            copy_file(&file, &package.join("examples"))?;
+        }
+    }
     // beside the FMU, not in it: its address stays, and links to set-ups with it
     if let (Some(page), _) = page::made()? {
         write_whole(&package.join("page").join(page::FILE), &page)?;

@@ -38,5 +38,5 @@ def found() -> Path:
     for place in places:
         if place.is_file():
             return place.resolve()
-    raise DifferentialError("the page is not in this package: make it in a checkout with `cargo run --release -- page`, and then "
-                            "the wheel with `cargo run --release -- wheel`")
+    raise DifferentialError("the page is not in this package. It comes with a wheel that was built where the page was made: in a "
+                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`")

@@ -12,7 +12,7 @@ QUICK = {"population": 32, "generations": 12, "starts": 1}
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds what the command takes."""
-    parser.add_argument("problem", type=Path, help="problem file (TOML); see docs/optimisation.md")
+    parser.add_argument("problem", type=Path, help="problem file (TOML), such as study_gears.toml of `bevel-differential examples`")
     parser.add_argument("--out", type=Path, help="folder of the results (start value: target/optimise/NAME)")
     parser.add_argument("--population", type=int, help="designs of a generation")
     parser.add_argument("--generations", type=int, help="how many generations")

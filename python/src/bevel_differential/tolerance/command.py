@@ -10,7 +10,7 @@ QUICK = 64
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """What the command takes."""
-    parser.add_argument("file", help="tolerance file (docs/tolerances.md)")
+    parser.add_argument("file", help="tolerance file (TOML), such as tolerances.toml of `bevel-differential examples`")
     parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
     parser.add_argument("--seed", type=int, help="another draw")
     parser.add_argument("--quick", action="store_true", help=f"{QUICK} draws: a first look")

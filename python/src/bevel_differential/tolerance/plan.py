@@ -41,7 +41,7 @@ class Plan:
         """The plan of a file; `runs` and `seed` instead of those in it. All errors of the factors are reported at once."""
         file, fmu = Path(file), Fmu.of(fmu)
         if not file.is_file():
-            raise DifferentialError(f"{file}: No such file or directory; the example is examples/design/tolerances.toml")
+            raise DifferentialError(f"{file}: there is no such file; `bevel-differential examples` writes one to begin with")
         found = read_toml(file)
         problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(found.keys() - KEYS)]
         problems += [f"{key} is missing" for key in NEEDED if key not in found]
