@@ -140,8 +140,10 @@ def _draw_error(picture, run, part, orders, sizes):
     if orders is not None:
         panels[0].axvspan(run.time[part][0], run.time[part][-1], color=style.GREEN, alpha=0.12, lw=0)
         panels[1].bar(orders, UM * sizes, color=style.BLUE, width=0.5)
-        panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders, yscale="log")
-        panels[1].set_ylim(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0)
+        panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
+        # a logarithmic axis within a decade has no round numbers to tell
+        if sizes.max() > 10.0 * sizes.min():
+            panels[1].set(yscale="log", ylim=(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0))
 
 
 def _over_time(run):

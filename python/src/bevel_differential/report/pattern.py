@@ -136,7 +136,7 @@ def _draw(picture, run, pair: Pair, loaded):
             flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=style.GREY, lw=1.2)
         flank.text(ends[1] + 0.3, 0.0, "pitch line", color=style.GREY, fontsize=8, va="center")
         flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=style.GREY, fontsize=8, va="center")
-        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="center")
+        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=style.GREY, fontsize=8, va="bottom")
         flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
                   xlim=(ends[0] - 1.0, ends[1] + 3.0))
         flank.set_aspect("equal")

@@ -101,7 +101,7 @@ def _draw(picture, run, spectra: Waterfall, expected):
     top = float(sizes.max())
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
     edges = np.append(spectra.orders, spectra.orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
-    mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma",
+    mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma_r",
                             norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
     upper.set(ylabel="carrier speed, rpm")
     upper.grid(False)
@@ -134,8 +134,9 @@ def _caption(run, up, spectra, expected):
     return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; "
             f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
-            f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}. Theory "
-            f"has no free constant: {marks}.")
+            f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}."
+            f"{' It hardly changes with the speed: no resonance lies in this range.' if course[k] < 1.2 * course.min() else ''} "
+            f"Theory has no free constant: {marks}.")
 
 
 def _table(run, spectra, expected):

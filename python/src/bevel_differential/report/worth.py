@@ -141,14 +141,14 @@ def _draw(picture, tried):
     picture.set_figheight(0.34 * len(outputs) + 1.9)
     panels = picture.subplots(1, 2, sharey=True)
     tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
-    labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", "\n", one.name) for one in rows]
+    labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", " ", one.name) for one in rows]
     for panel, (title, table) in zip(panels, tables):
         values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
         reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
         panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
         for (row, column), value in np.ndenumerate(values):
             panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
-        panel.set_xticks(range(len(rows)), labels, fontsize=8)
+        panel.set_xticks(range(len(rows)), labels, fontsize=8, rotation=35, ha="right", rotation_mode="anchor")
         panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
         panel.set_title(f"change of the {title}, %")
         panel.grid(False)
@@ -163,12 +163,14 @@ def _cell(percent, nothing):
 
 
 def _caption(tried):
+    # a mean tells more than a swing, which is large where hardly anything swings
     one = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
-              key=lambda one: max(map(abs, (*one.mean.values(), *one.swing.values()))))
-    what, change = _largest(one)[0]
+              key=lambda one: max(map(abs, one.mean.values())))
+    what, change = max(one.mean.items(), key=lambda pair: abs(pair[1]))
     return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
             "has in the scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than "
-            f"0.01 %. The largest change by one effect is that of {one.name}: {what} by {words.signed(100.0 * change)} %.")
+            f"0.01 %. The largest change by one effect is that of {one.name}: the mean of {what} changes by "
+            f"{words.signed(100.0 * change)} %.")
 
 
 def _largest(one):
