@@ -1,0 +1,39 @@
+"""Building the package from its source: what is missing is said, and a package that has its FMU is left alone."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("hatchling")
+FILE = Path(__file__).resolve().parents[2] / "python" / "hatch_build.py"
+
+
+@pytest.fixture
+def hook():
+    """hook(folder): the hook for a package in a folder."""
+    spec = importlib.util.spec_from_file_location("hatch_build", FILE)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return lambda folder: module.FmuHook(str(folder), {}, None, None, "", "wheel")
+
+
+def test_without_rust_the_remedy_is_named(hook, tmp_path, monkeypatch):
+    (tmp_path / "Cargo.toml").touch()
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pytest.raises(SystemExit, match=r"cargo is not on the search path.*https://rustup\.rs"):
+        hook(tmp_path / "python").initialize("standard", {})
+
+
+def test_a_folder_without_the_sources_is_refused(hook, tmp_path):
+    with pytest.raises(SystemExit, match="install from a whole checkout"):
+        hook(tmp_path / "python").initialize("standard", {})
+
+
+def test_a_package_with_its_fmu_is_left_alone(hook, tmp_path):
+    package = tmp_path / "src" / "bevel_differential"
+    package.mkdir(parents=True)
+    (package / "BevelDifferential.fmu").touch()
+    found = {}
+    hook(tmp_path).initialize("standard", found)
+    assert found == {}
