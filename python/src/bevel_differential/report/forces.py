@@ -96,7 +96,7 @@ def transmission_error(run: Simulated) -> Section:
         orders, sizes = spectrum(run, part)
     except DifferentialError as reason:
         found.add(Picture("error", _draw_error(run, None, None, None), _over_time(run)))
-        found.say(f"There are no orders of the mesh: {reason}.{' The run-up below has them.' if run.has_pairs else ''}")
+        found.say(f"There are no orders of the mesh: {reason}.{' The run-up, which --quick leaves out, has them.' if run.has_pairs else ''}")
         return found
     found.add(Picture("error", _draw_error(run, part, orders, sizes), f"{_over_time(run)} {_by_order(run, part, orders, sizes)}"))
     return found

@@ -5,9 +5,10 @@ from pathlib import Path
 
 from ..answers import Progress
 from ..extras import needed
+from ..output_file import write_whole
 from ..progress import part, silent
 from ..scene import Scene
-from ..values import DifferentialError, FileName
+from ..values import FileName
 from . import energy, forces, gears, head, pattern, strength, traces, waterfall, worth
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
@@ -36,10 +37,7 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     sections += [section(run) for section in LAST]
     if not quick:
         sections.append(worth.section(run, part(progress, EFFECTS, 1.0)))
-    try:
-        Path(file).write_text(page(run, sections), encoding="utf-8")
-    except OSError as error:
-        raise DifferentialError(f"{file}: {error.strerror}") from None
+    write_whole(file, page(run, sections))
     progress(1.0, "done")
     return Path(file)
 
