@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bevel_differential import Scene, extras, shipped_scenes
+from bevel_differential import DifferentialError, Scene, extras, shipped_scenes
 from bevel_differential.command import main
 from bevel_differential.report.simulated import ONLY_GIVE_OUTPUTS
 from bevel_differential.report.worth import PART_OF_THE_QUESTION
