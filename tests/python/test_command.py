@@ -103,7 +103,10 @@ def test_failures_are_listed_by_message_the_most_frequent_first(capsys):
 
 @pytest.mark.parametrize("arguments, status, parts", [
     (["swep"], 2, ["swep", "did you mean sweep"]),
-    (["run"], 2, ["scene", "run --help"]),
+    (["loads"], 2, ["scene", "loads --help"]),
+    (["run", "--set", "geometry.module=4 mm"], 2, ["--set", "name a scene"]),
+    (["run", "study_turning", "--stop", "1 ms", "--parquet", "a.csv"], 1, ["--parquet a.csv", "--csv"]),
+    ([*SWEEP, "--runs", "2", "--out", "a.csv"], 1, ["a.csv", "a.parquet"]),
     (["run", "study_turning", "--set", "left.load_torque"], 2, ["--set", "NAME=VALUE"]),
     (["sweep", "--plan", "all"], 2, ["--plan", "all"]),
     (["run", "study_turnin"], 1, ["study_turnin", "did you mean study_turning"]),

@@ -99,5 +99,6 @@ def _overview():
 
 
 def _said(what, status):
-    print(f"{NAME}: {chr(10).join(str(what).splitlines())}", file=sys.stderr)
+    for line in str(what).replace(":\n", ": ").splitlines():
+        print(f"{NAME}: {line.strip()}", file=sys.stderr)
     return status

@@ -135,7 +135,7 @@ def _caption(run, up, spectra, expected):
             f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
             f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}."
-            f"{' It hardly changes with the speed: no resonance lies in this range.' if course[k] < 1.2 * course.min() else ''} "
+            f"{' It hardly changes with the speed: no critical speed lies in this range.' if course[k] < 1.2 * course.min() else ''} "
             f"Theory has no free constant: {marks}.")
 
 

@@ -12,7 +12,7 @@ from ..differential import Differential
 from ..fmu import Fmu
 from ..records import write
 from ..scene import Scene
-from ..text import aligned, markdown
+from ..text import aligned
 from ..values import DifferentialError, FileName, Value, suggestion
 from .cycle import DRIVES, QUANTITIES, read_cycle
 from .damage import MODES, Event, EventDamage, evaluate
@@ -158,7 +158,8 @@ class SpectrumResult:
 
     def markdown(self) -> list[str]:
         """The table as lines of Markdown."""
-        return markdown(self.cells(), (0, 8)).splitlines()
+        lines = [f"| {' | '.join(row)} |" for row in self.cells()]
+        return [lines[0], f"|---{7 * '|--:'}|---|--:|--:|", *lines[1:]]
 
     def cells(self) -> list[tuple[str, ...]]:
         """The table as text, its head first, with the columns that tell most."""
