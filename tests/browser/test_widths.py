@@ -19,7 +19,7 @@ def sized(request, opened):
 
 def look(live, view):
     live.ask("view => document.querySelector(`[data-camera=${view}]`).click()", view)
-    live.answer("started")
+    live.answer("started", "refused")
 
 
 def goes_on(live):
