@@ -63,8 +63,8 @@ def test_gears_readings_and_trace_cursor_follow_the_scrubbed_time(turn, found):
             number, unit = reading(turn.text(f"{side}-speed"))
             # four digits are shown
             assert unit == "°/s" and np.isclose(number, DEGREES * now[f"{side}.speed"], rtol=6e-4)
-            shown = next(text for text in legend if text.startswith(f"{side}.speed"))
-            assert reading(shown.removeprefix(f"{side}.speed ")) == (number, unit)
+            shown = next(text for text in legend if text.startswith(f"{side} speed"))
+            assert reading(shown.removeprefix(f"{side} speed ")) == (number, unit)
         assert float(turn.text("clock").split(" ")[0]) == pytest.approx(time, abs=1e-3)
         cursor = [line_at(turn, share) for share in (time / stop, (time / stop + 0.45) % 1.0)]
         assert cursor[0] and not cursor[1], f"the line in the plots is not at {time} s"

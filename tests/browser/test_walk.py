@@ -15,7 +15,7 @@ def test_the_walk_has_five_steps_and_each_runs_its_scene(live, found, scene_name
         record = live.record(["carrier.speed"])
         assert record["time"][-1] == Scene.load(name).stop
         assert live.page.locator("#scene").input_value() == name
-        shown = live.ask("[...document.querySelectorAll('.legend span')].map((each) => each.firstChild.textContent.trim())")
+        shown = live.ask("[...document.querySelectorAll('.legend span')].map((each) => each.title)")
         assert sorted(shown) == sorted(live.link()["show"].split(" "))
         scenes.append(name)
         texts.add(live.page.locator("[data-walk=text]").inner_text())
