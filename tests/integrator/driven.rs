@@ -1,5 +1,7 @@
 //! Systems whose accelerations depend on the time: as accurate as those with the time as a degree of freedom.
 
+use std::cell::Cell;
+
 use bevel_differential::integrate::{
     AfterStep, Control, Linearisation, Point, SecondOrder, SolverContext, Statistics, Step, advance, advance_fixed,
 };
@@ -12,10 +14,17 @@ with_every_method!(
     the_driver_passes_the_time_to_the_system
 );
 
-/// The problem `forced` with the time itself in place of its clock.
-struct Driven(f64);
+/// The problem `forced` with the time itself in place of its clock; it counts how often it is asked.
+struct Driven {
+    lambda: f64,
+    asked: Cell<u64>,
+}
 
 impl Driven {
+    fn new(lambda: f64) -> Self {
+        Self { lambda, asked: Cell::new(0) }
+    }
+
     fn with_clock(at: &Point<1>, time: f64) -> Point<2> {
         Point { q: [at.q[0], time], v: [at.v[0], 1.0] }
     }
@@ -34,15 +43,17 @@ impl SecondOrder<1> for Driven {
         true
     }
     fn evaluate_at(&self, at: &Point<1>, time: f64) -> ([f64; 1], ()) {
-        ([forced(self.0).evaluate(&Self::with_clock(at, time)).0[0]], ())
+        self.asked.set(self.asked.get() + 1);
+        ([forced(self.lambda).evaluate(&Self::with_clock(at, time)).0[0]], ())
     }
     fn linearise_at(&self, at: &Point<1>, time: f64) -> Linearisation<1, ()> {
-        let lin = forced(self.0).linearise(&Self::with_clock(at, time));
+        self.asked.set(self.asked.get() + 1);
+        let lin = forced(self.lambda).linearise(&Self::with_clock(at, time));
         let (by_position, by_velocity) = ([[lin.by_position[0][0]]], [[lin.by_velocity[0][0]]]);
         Linearisation { acceleration: [lin.acceleration[0]], by_position, by_velocity, power: () }
     }
     fn drift(&self, at: &Point<1>, time: f64) -> [f64; 1] {
-        [forced(self.0).linearise(&Self::with_clock(at, time)).by_position[0][1]]
+        [forced(self.lambda).linearise(&Self::with_clock(at, time)).by_position[0][1]]
     }
     fn weights(&self, _: &Point<1>) -> Point<1> {
         Point { q: [1.0], v: [1.0] }
@@ -55,7 +66,7 @@ fn a_driven_system_moves_like_one_with_the_time_as_a_degree_of_freedom<M: Known>
     let (mut clock, mut driven, mut time) = (forced_exact(0.0), Point { q: [0.0], v: [1.0] }, 0.0);
     for h in [0.05, 0.11, 0.02, 0.17] {
         let with_clock = step_from::<M, 2, _>(&forced(lambda), (&clock, 0.0), h);
-        let without = step_from::<M, 1, _>(&Driven(lambda), (&driven, time), h);
+        let without = step_from::<M, 1, _>(&Driven::new(lambda), (&driven, time), h);
         let (two, one) = (&with_clock.extension, &without.extension);
         for (a, b) in [(two.end, one.end), (two.at(0.3), one.at(0.3)), (with_clock.error, without.error)] {
             let off = (a.q[0] - b.q[0]).abs().max((a.v[0] - b.v[0]).abs());
@@ -73,7 +84,7 @@ fn the_driver_passes_the_time_to_the_system<M: Known>() {
         let context =
             SolverContext { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
         let go_on = |_: Step<1, ()>| Ok::<_, ()>(AfterStep::Continue);
-        advance(&M::METHOD, &Driven(50.0), &mut point, &mut time, until, context, go_on).unwrap();
+        advance(&M::METHOD, &Driven::new(50.0), &mut point, &mut time, until, context, go_on).unwrap();
     }
     assert!((point.v[0] - 1f64.cos()).abs() < 1e-7, "{:e}", point.v[0] - 1f64.cos());
 }
@@ -84,51 +95,22 @@ fn steps_of_fixed_size_keep_their_order_when_driven() {
         let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
         let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
         let counts = (&mut statistics, &mut budget);
-        advance_fixed(&Driven(5.0), &mut point, &mut time, 1.0, step, counts, |_| Ok::<_, ()>(AfterStep::Continue))
-            .unwrap();
+        advance_fixed(&Driven::new(5.0), &mut point, &mut time, 1.0, step, counts, |_| {
+            Ok::<_, ()>(AfterStep::Continue)
+        })
+        .unwrap();
         (point.v[0] - 1f64.cos()).abs()
     };
     let order = (error(0.01) / error(0.005)).log2();
     assert!((order - 2.0).abs() < 0.2, "{order}");
 }
 
-/// A system that counts how often it is asked.
-struct Counting(Driven, std::cell::Cell<u64>);
-
-impl SecondOrder<1> for Counting {
-    type Power = ();
-
-    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
-        self.evaluate_at(at, 0.0)
-    }
-    fn linearise(&self, at: &Point<1>) -> Linearisation<1, ()> {
-        self.linearise_at(at, 0.0)
-    }
-    fn is_driven(&self) -> bool {
-        true
-    }
-    fn evaluate_at(&self, at: &Point<1>, time: f64) -> ([f64; 1], ()) {
-        self.1.set(self.1.get() + 1);
-        self.0.evaluate_at(at, time)
-    }
-    fn linearise_at(&self, at: &Point<1>, time: f64) -> Linearisation<1, ()> {
-        self.1.set(self.1.get() + 1);
-        self.0.linearise_at(at, time)
-    }
-    fn drift(&self, at: &Point<1>, time: f64) -> [f64; 1] {
-        self.0.drift(at, time)
-    }
-    fn weights(&self, at: &Point<1>) -> Point<1> {
-        self.0.weights(at)
-    }
-}
-
 #[test]
 fn steps_of_fixed_size_count_what_they_ask_for() {
-    let system = Counting(Driven(5.0), std::cell::Cell::new(0));
+    let system = Driven::new(5.0);
     let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
     let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
     let counts = (&mut statistics, &mut budget);
     advance_fixed(&system, &mut point, &mut time, 1.0, 0.01, counts, |_| Ok::<_, ()>(AfterStep::Continue)).unwrap();
-    assert_eq!((statistics.accepted, statistics.evaluations), (100, system.1.get()));
+    assert_eq!((statistics.accepted, statistics.evaluations), (100, system.asked.get()));
 }

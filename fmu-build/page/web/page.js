@@ -54,7 +54,8 @@ export class Page {
       this.moved = true;
     });
     const labels = Object.fromEntries([...document.querySelectorAll("[data-label]")].map((label) => [label.dataset.label, label]));
-    this.view = new View($("canvas"), labels);
+    this.setup.read(location.hash);
+    this.view = new View($("canvas"), labels, this.setup.picture === "fine");
     this.legend = new Legend($("legend"), (name) => this.switchOn(name));
     this.flank = new Flank($("flank"), this.table);
     this.traces = new Traces($("traces"), this.table, (time) => this.seek(time));

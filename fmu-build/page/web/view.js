@@ -20,10 +20,10 @@ export const PRESETS = {
 };
 
 export class View {
-  constructor(canvas, labels) {
+  // `isFine` draws every pixel where the processor draws, too, for pictures to keep.
+  constructor(canvas, labels, isFine) {
     this.canvas = canvas;
-    // `picture=fine` in the address is for pictures to keep
-    this.isCoarse = isDrawnByProcessor() && !location.hash.includes("picture=fine");
+    this.isCoarse = !isFine && isDrawnByProcessor();
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.isCoarse, alpha: true });
     this.renderer.toneMapping = ACESFilmicToneMapping;
     this.renderer.toneMappingExposure = 1.1;

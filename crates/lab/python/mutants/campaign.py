@@ -26,37 +26,38 @@ PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
 PATIENCE, GRACE = 5.0, 10.0
 # tests that take longer without a change [s] try none: they ask which settings act at all, not how much
 LONGEST = 300.0
-SWITCH = '''//! Which change acts, and which ones a test comes by.
+# in place of a change's number: those that are come by are written to a file
+WATCH = 4096
+SWITCH = f'''//! Which change acts, and which ones a test comes by.
 use std::io::Write;
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{{AtomicBool, Ordering}};
 static CHOSEN: OnceLock<u32> = OnceLock::new();
-static REACHED: [AtomicBool; 4096] = [const { AtomicBool::new(false) }; 4096];
-/// Number of the change that acts; 4096 writes those that are come by to a file.
-const WATCH: u32 = 4096;
+static REACHED: [AtomicBool; {WATCH}] = [const {{ AtomicBool::new(false) }}; {WATCH}];
 /// Whether change `k` acts.
 #[inline]
-pub fn on(k: u32) -> bool {
+pub fn on(k: u32) -> bool {{
     let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
-    if chosen == WATCH {
+    if chosen == {WATCH} {{
         come_by(k);
-    }
+    }}
     k == chosen
-}
+}}
 #[cold]
-fn come_by(k: u32) {
-    if !REACHED[k as usize].load(Ordering::Relaxed) && !REACHED[k as usize].swap(true, Ordering::Relaxed) {
+fn come_by(k: u32) {{
+    if !REACHED[k as usize].swap(true, Ordering::Relaxed) {{
         let file = std::env::var("MUTANTS_REACHED").expect("a file");
         let mut file = std::fs::OpenOptions::new().append(true).create(true).open(file).expect("can be written");
-        writeln!(file, "{k}").expect("can be written");
-    }
-}
+        writeln!(file, "{{k}}").expect("can be written");
+    }}
+}}
 '''
-WATCH = 4096
 
 
 def main():
     repository, folder, count, seed = Path(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
+    if not 0 < count < WATCH:
+        raise SystemExit(f"{count} changes: a run takes 1 to {WATCH - 1}")
     folder.mkdir(parents=True, exist_ok=True)
     changes, programs = built(repository, folder, count, seed)
     tests = watched(programs, folder, len(changes))
@@ -66,7 +67,8 @@ def main():
     def tried(number, change):
         key = f"{change.file}: {change.name} in byte {change.begin}"
         if key not in done:
-            reaching = sorted((test for test in tests if number in test["reached"] and test["seconds"] < LONGEST), key=lambda test: test["seconds"])
+            quick = [test for test in tests if number in test["reached"] and test["seconds"] < LONGEST]
+            reaching = sorted(quick, key=lambda test: test["seconds"])
             fate, by = "survived", f"{len(reaching)} tests"
             for test in reaching:
                 fate, _ = trial(programs[test["program"]], test["name"], number, PATIENCE * test["seconds"] + GRACE, folder)
