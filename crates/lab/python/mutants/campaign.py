@@ -26,9 +26,9 @@ PROGRAMS = ["strength", "fmi2", "integrator", "geometry", "contact", "model"]
 PATIENCE, GRACE = 5.0, 10.0
 # tests that take longer without a change [s] try none: they ask which settings act at all, not how much
 LONGEST = 300.0
-# in place of a change's number: those that are come by are written to a file
+# in place of a change's number: those that a test reaches are written to a file
 WATCH = 4096
-SWITCH = f'''//! Which change acts, and which ones a test comes by.
+SWITCH = f'''//! Which change acts, and which ones a test reaches.
 use std::io::Write;
 use std::sync::OnceLock;
 use std::sync::atomic::{{AtomicBool, Ordering}};
@@ -39,12 +39,12 @@ static REACHED: [AtomicBool; {WATCH}] = [const {{ AtomicBool::new(false) }}; {WA
 pub fn on(k: u32) -> bool {{
     let chosen = *CHOSEN.get_or_init(|| std::env::var("MUTANT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
     if chosen == {WATCH} {{
-        come_by(k);
+        reach(k);
     }}
     k == chosen
 }}
 #[cold]
-fn come_by(k: u32) {{
+fn reach(k: u32) {{
     if !REACHED[k as usize].swap(true, Ordering::Relaxed) {{
         let file = std::env::var("MUTANTS_REACHED").expect("a file");
         let mut file = std::fs::OpenOptions::new().append(true).create(true).open(file).expect("can be written");
@@ -88,7 +88,7 @@ def main():
 
 
 def watched(programs, folder, count):
-    """Each test without a change: its seconds, and which changes it comes by."""
+    """Each test without a change: its seconds, and which changes it reaches."""
     store = folder / "tests.json"
     names = [(program, line.removesuffix(": test")) for program, path in programs.items()
              for line in subprocess.run([path, "--list"], capture_output=True, text=True, check=True).stdout.splitlines()
