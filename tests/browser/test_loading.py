@@ -7,8 +7,6 @@ def test_the_page_comes_from_its_file_alone_with_the_network_cut_off(live, found
     live.wait("page.view.differential.gears")
     own = [address for address in live.asked if address.split("#")[0] == live.address]
     inside = [address for address in live.asked if address.startswith(INSIDE)]
-    # that the picture is coarse is said for some seconds
-    live.wait("document.getElementById('message').hidden")
     # requests are seen: that for the page is one
     assert len(own) == 1
     assert len(own) + len(inside) == len(live.asked)

@@ -68,9 +68,7 @@ export class Page {
     this.walk = new Walk($("walk"), (step) => this.walkTo(step), () => this.makeRoom());
     bind(this);
     this.restore();
-    if (this.view.isCoarse && !this.odd) {
-      this.notice.say("This browser draws without a graphics unit: the picture is coarse, the results are the same.");
-    }
+    $("coarse").hidden = !this.view.isCoarse;
     requestAnimationFrame((now) => {
       this.last = now;
       this.frame(now);

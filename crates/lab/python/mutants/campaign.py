@@ -5,6 +5,7 @@ usage: campaign.py REPOSITORY FOLDER COUNT SEED
 Results are in FOLDER, where a run that was stopped goes on. Prints the report as Markdown."""
 
 import hashlib
+import html
 import json
 import os
 import shutil
@@ -198,7 +199,7 @@ def report(changes, fates, seed, repository):
         lines += ["", "| survivor | explanation |", "|---|---|"]
     for change in survivors:
         why = next((each["why"] for each in said if (each["file"], each["change"]) == (change.file, change.name)), "**not explained**")
-        lines.append(f"| `{change.file}`: `{change.name}`".replace("||", "\\|\\|") + f" | {why} |")
+        lines.append(f"| `{change.file}`: <code>{html.escape(change.name)}</code>".replace("||", "\\|\\|") + f" | {why} |")
     return "\n".join(lines)
 
 
