@@ -51,14 +51,14 @@ impl PairLaw for Impact {
 
 /// The elastic part of IMPACT with another damping law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Power {
+pub struct DampedImpact {
     /// Elastic part; its own damping is not used.
     pub elastic: Impact,
     /// Damping.
     pub damping: Damping,
 }
 
-impl PairLaw for Power {
+impl PairLaw for DampedImpact {
     const PLACED: bool = false;
     #[inline(always)]
     fn respond<const STORED: bool>(&self, d: f64, rate: f64, _s: f64) -> Response {
@@ -97,7 +97,7 @@ impl PairLaw for Lumped {
 
 /// A pair whose slices over the face width all follow one specific law Φ(p, s), p = d/R: U = J Φ with J = ∫R² dR.
 #[derive(Clone, Debug)]
-pub struct Face<S> {
+pub struct FaceLaw<S> {
     /// Specific law, per unit of J.
     pub specific: S,
     /// J [m³].
@@ -108,7 +108,7 @@ pub struct Face<S> {
     pub damping: Damping,
 }
 
-impl<S: Spring> Face<S> {
+impl<S: Spring> FaceLaw<S> {
     /// The response at the place `place` of the specific law.
     #[inline(always)]
     pub fn respond_at(&self, place: &S::Place, d: f64, rate: f64) -> Response {
@@ -134,7 +134,7 @@ impl<S: Spring> Face<S> {
     }
 }
 
-impl<S: Spring> PairLaw for Face<S> {
+impl<S: Spring> PairLaw for FaceLaw<S> {
     const PLACED: bool = true;
     #[inline(always)]
     fn respond<const STORED: bool>(&self, d: f64, rate: f64, s: f64) -> Response {

@@ -1,7 +1,7 @@
 //! The laws there are, in both their forms: those of a plain mesh with their damping, and the elastic parts alone, of which a mesh
 //! in detail is made. A new law is a line in each list and in each dispatch.
 
-use super::law::{Face, Lumped, PairLaw, Power};
+use super::law::{DampedImpact, FaceLaw, Lumped, PairLaw};
 use super::solid::mesh::SolidMesh;
 use super::spring::{self, Anywhere, Linear};
 use super::stiffness::{Line, LineWeber};
@@ -13,11 +13,11 @@ pub enum Law {
     /// Adams IMPACT.
     Impact(Impact),
     /// Its elastic part with another damping.
-    Power(Power),
+    DampedImpact(DampedImpact),
     /// Stiffness of the teeth, linear.
-    Line(Face<Line>),
+    Line(FaceLaw<Line>),
     /// Stiffness of the teeth with the Hertz part by load.
-    LineWeber(Face<LineWeber>),
+    LineWeber(FaceLaw<LineWeber>),
     /// One spring per mesh.
     Lumped(Lumped),
     /// Solid teeth.
@@ -29,7 +29,7 @@ macro_rules! with_law {
     ($of:expr, $law:ident => $body:expr, $solid:ident => $other:expr) => {
         match $of {
             $crate::contact::laws::Law::Impact($law) => $body,
-            $crate::contact::laws::Law::Power($law) => $body,
+            $crate::contact::laws::Law::DampedImpact($law) => $body,
             $crate::contact::laws::Law::Line($law) => $body,
             $crate::contact::laws::Law::LineWeber($law) => $body,
             $crate::contact::laws::Law::Lumped($law) => $body,
@@ -60,7 +60,7 @@ impl Law {
 #[derive(Clone, Debug)]
 pub enum AnySpring {
     /// K dᵉ.
-    Power(spring::Power),
+    Impact(spring::ImpactSpring),
     /// A linear spring.
     Linear(Linear),
     /// Stiffness of the teeth, per unit of ∫R² dR.
@@ -73,7 +73,7 @@ pub enum AnySpring {
 macro_rules! with_spring {
     ($of:expr, $law:ident => $body:expr) => {
         match $of {
-            $crate::contact::laws::AnySpring::Power($law) => $body,
+            $crate::contact::laws::AnySpring::Impact($law) => $body,
             $crate::contact::laws::AnySpring::Linear($law) => $body,
             $crate::contact::laws::AnySpring::Line($law) => $body,
             $crate::contact::laws::AnySpring::LineWeber($law) => $body,
@@ -100,7 +100,7 @@ impl Spring for AnySpring {
     #[inline(always)]
     fn place(&self, s: f64) -> AnyPlace {
         match self {
-            Self::Power(_) | Self::Linear(_) => AnyPlace::Anywhere,
+            Self::Impact(_) | Self::Linear(_) => AnyPlace::Anywhere,
             Self::Line(law) => AnyPlace::Line(law.place(s)),
             Self::LineWeber(law) => AnyPlace::LineWeber(law.place(s)),
         }
@@ -108,7 +108,7 @@ impl Spring for AnySpring {
 
     fn respond(&self, place: &AnyPlace, p: f64) -> Elastic {
         match (self, place) {
-            (Self::Power(law), _) => law.respond(&Anywhere, p),
+            (Self::Impact(law), _) => law.respond(&Anywhere, p),
             (Self::Linear(law), _) => law.respond(&Anywhere, p),
             (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
             (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),

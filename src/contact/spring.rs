@@ -46,14 +46,14 @@ pub struct Anywhere;
 
 /// K dᵉ of the penetration at a cone distance, whatever the place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Power {
+pub struct ImpactSpring {
     /// The law; its damping is not used.
     pub law: Impact,
     /// Cone distance at which it acts [m].
     pub cone: f64,
 }
 
-impl Spring for Power {
+impl Spring for ImpactSpring {
     type Place = Anywhere;
 
     #[inline(always)]

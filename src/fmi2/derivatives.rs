@@ -4,7 +4,7 @@ use super::types::Kind;
 use super::values::{finite, row, wrong_type};
 use super::{CallError, CallResult, InputArray, Instance, OutputArray, Phase, Snapshot};
 use crate::model::{
-    Along, Direction, Forces, InputDerivatives, Inputs, Kept, ORDERS, PairLines, STATES, STENCIL, Simulation,
+    Along, Direction, Forces, GearCache, InputDerivatives, Inputs, ORDERS, PairLines, STATES, STENCIL, Simulation,
 };
 use crate::variables::{Access, OutputSource, Variable, check_value, table};
 
@@ -127,7 +127,7 @@ impl Instance {
             return Ok(());
         }
         let simulation = self.simulation()?;
-        let present = simulation.present();
+        let present = simulation.with_inputs_applied();
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.time_direction();
         let mut slopes = Slopes::new(simulation, &direction);
@@ -158,7 +158,7 @@ impl Instance {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
-            return initial_derivatives((&self.now, &self.kept), (unknown, &sources), known, values);
+            return initial_derivatives((&self.now, &self.cache), (unknown, &sources), known, values);
         }
         let (mut states, mut inputs) = ([0.0; STATES], Inputs::ZERO);
         for (reference, change) in known.0.iter().zip(known.1.iter()) {
@@ -176,7 +176,7 @@ impl Instance {
             }
         }
         let simulation = self.simulation()?;
-        let present = simulation.present();
+        let present = simulation.with_inputs_applied();
         let simulation = present.as_ref().unwrap_or(simulation);
         let direction = simulation.direction(&states, &inputs);
         let mut slopes = Slopes::new(simulation, &direction);
@@ -248,7 +248,7 @@ impl<'a> Slopes<'a> {
 /// Derivatives of initial values with respect to inputs and parameters, by differences: initialisation solves for an
 /// equilibrium.
 fn initial_derivatives(
-    (now, kept): (&Snapshot, &Kept),
+    (now, cache): (&Snapshot, &GearCache),
     (unknown, sources): (InputArray<u32>, &[OutputSource]),
     (references, change): (InputArray<u32>, InputArray<f64>),
     values: OutputArray<f64>,
@@ -290,7 +290,7 @@ fn initial_derivatives(
     let offsets = sides.into_iter().find(all_valid).unwrap_or(&STENCIL);
     let mut sums = vec![0.0; sources.len()];
     for &(offset, weight) in offsets {
-        let mut simulation = moved(offset)?.start(kept).map_err(|problems| {
+        let mut simulation = moved(offset)?.start(cache).map_err(|problems| {
             CallError::error(format!(
                 "there is no derivative, because initialisation fails close to these values:\n{}",
                 crate::problem::list(&problems)

@@ -27,7 +27,7 @@ pub struct Instance {
     /// Messages to the host.
     pub log: Log,
     /// What all instances keep for their next starts.
-    pub kept: Share,
+    pub cache: Share,
     /// Warnings that are logged once in a run, so far.
     reported: Reported,
     /// Variables of which the log says that their values change nothing.
@@ -48,7 +48,7 @@ pub struct Experiment {
 impl Instance {
     /// A new instance with start values.
     pub fn new(kind: Kind, log: Log) -> Self {
-        Self { now: Snapshot::new(kind), log, kept: Share::new(), reported: Reported::default(), unfelt: Vec::new() }
+        Self { now: Snapshot::new(kind), log, cache: Share::new(), reported: Reported::default(), unfelt: Vec::new() }
     }
 
     /// fmi2SetupExperiment. A tolerance that the host set as a parameter takes precedence over this one.
@@ -168,7 +168,7 @@ impl Instance {
         if now.simulation.is_none() {
             match now.phase {
                 Phase::Initialization => {
-                    now.simulation = Some(now.start(&self.kept).map_err(|p| initial_problems(&p))?)
+                    now.simulation = Some(now.start(&self.cache).map_err(|p| initial_problems(&p))?)
                 }
                 phase => {
                     return Err(CallError::error(format!(

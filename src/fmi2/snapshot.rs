@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Phase;
 use super::types::Kind;
-use crate::model::{Accepted, Given, InputDerivatives, Inputs, Kept, Parameters, Simulation, State, Watched};
+use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
 use crate::problem::{self, Problem};
 use crate::variables::{Access, check_ranges, check_value, fnv1a, guid, table};
 
@@ -65,12 +65,12 @@ type Running = (Option<(State, Watched)>, Option<Accepted>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs, or returns every problem with them.
-    pub fn start(&self, kept: &Kept) -> Result<Simulation, Vec<Problem>> {
+    pub fn start(&self, cache: &GearCache) -> Result<Simulation, Vec<Problem>> {
         let problems = check_ranges(&self.parameters);
         if !problems.is_empty() {
             return Err(problems);
         }
-        Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(kept))
+        Simulation::start_with(&self.effective(), &self.inputs, self.start_time, &given(cache))
     }
 
     /// Parameters for the simulation: in model exchange every planet has its own states, and the motion between completed steps
@@ -102,7 +102,7 @@ impl Snapshot {
     }
 
     /// The snapshot in `bytes`, or why they cannot be used.
-    pub fn from_bytes(bytes: &[u8], kept: &Kept) -> Result<Self, String> {
+    pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
         let payload = open(bytes)?;
         let read = postcard::take_from_bytes::<(Self, Running)>(payload);
         let ((mut snapshot, running), rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
@@ -111,7 +111,7 @@ impl Snapshot {
         }
         snapshot.check(&running)?;
         if let (Some(state), accepted) = running {
-            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, state, &given(kept));
+            let resumed = Simulation::resume_with(&snapshot.effective(), &snapshot.inputs, state, &given(cache));
             snapshot.simulation = Some(resumed.map_err(|p| problem::list(&p))?.from_accepted(accepted));
         }
         Ok(snapshot)
@@ -151,8 +151,8 @@ impl Snapshot {
     }
 }
 
-fn given(kept: &Kept) -> Given<'_> {
-    Given { kept: Some(kept), ..Given::default() }
+fn given(cache: &GearCache) -> Given<'_> {
+    Given { cache: Some(cache), ..Given::default() }
 }
 
 /// Checks everything around the payload and returns it.

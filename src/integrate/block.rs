@@ -26,7 +26,7 @@ impl<const N: usize> Block<N> {
     pub fn fill<E: SecondOrder<N> + ?Sized>(
         &mut self,
         (system, shape): (&E, Shape),
-        lin: &Linearisation<N, E::Power>,
+        lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
         let mut matrix = [[0.0; N]; N];

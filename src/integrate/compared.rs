@@ -30,11 +30,11 @@ impl Method for Compared {
         &self,
         system: &S,
         start: (&Point<N>, f64),
-        lin: &Linearisation<N, S::Power>,
+        lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N, S::Power>> {
+    ) -> Option<Trial<N, S::Rates>> {
         match self {
             Self::Radau => Radau.step(system, start, lin, h, norm, counts),
             Self::Rodas4 => Rodas4.step(system, start, lin, h, norm, counts),

@@ -72,7 +72,7 @@ pub struct ComplexBlock<const N: usize> {
 impl<const N: usize> ComplexBlock<N> {
     /// Factorises a I − J; `None` if it is singular.
     #[inline]
-    pub fn new<E: SecondOrder<N> + ?Sized>(system: &E, lin: &Linearisation<N, E::Power>, a: Complex) -> Option<Self> {
+    pub fn new<E: SecondOrder<N> + ?Sized>(system: &E, lin: &Linearisation<N, E::Rates>, a: Complex) -> Option<Self> {
         let (n, mut product) = (system.freedoms(), lin.by_position);
         system.times_rates(&mut product);
         let per_a = a.inverse();

@@ -61,11 +61,11 @@ impl Method for DormandPrince {
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),
-        lin: &Linearisation<N, S::Power>,
+        lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N, S::Power>> {
+    ) -> Option<Trial<N, S::Rates>> {
         let mut k = [Point { q: system.rates(&start.v), v: lin.acceleration }; 7];
         let mut end = *start;
         for (row, weights) in A.iter().enumerate() {

@@ -107,7 +107,7 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     time: &mut f64,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let mut course = Course::new(*point, *time, until);
     let outcome = proceed(method, system, &mut course, until, context, |step, _| observe(step));
@@ -124,10 +124,10 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
     system: &S,
-    course: &mut Course<N, S::Power>,
+    course: &mut Course<N, S::Rates>,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Power>, &Pending<N, S::Power>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Rates>, &Pending<N, S::Rates>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let SolverContext { tolerance, control, statistics, budget } = context;
     let resolution = course.resolution;
@@ -270,7 +270,7 @@ fn linearise<const N: usize, M: Method, S: SecondOrder<N> + ?Sized>(
     method: &M,
     system: &S,
     (point, time): (&Point<N>, f64),
-    lin: &mut Linearisation<N, S::Power>,
+    lin: &mut Linearisation<N, S::Rates>,
     mut statistics: Option<&mut Statistics>,
 ) -> [f64; 2] {
     if let Some(statistics) = &mut statistics {

@@ -33,7 +33,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     until: f64,
     step: f64,
     (statistics, budget): (&mut Statistics, &mut u64),
-    mut observe: impl FnMut(Step<N, S::Power>) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
     let begin = *time;
     let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
@@ -117,7 +117,7 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
 /// I − s D − s² K B.
 fn matrix_of<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
-    lin: &Linearisation<N, S::Power>,
+    lin: &Linearisation<N, S::Rates>,
     s: f64,
 ) -> Matrix<N> {
     let mut matrix = lin.by_position;

@@ -219,7 +219,7 @@ mod tests {
 
     struct Some3;
     impl<const N: usize> SecondOrder<N> for Some3 {
-        type Power = ();
+        type Rates = ();
         fn inner(&self) -> Range<usize> {
             if N >= 5 { N - 2..N } else { N..N }
         }

@@ -34,7 +34,7 @@ impl<const N: usize, P: Copy> Trial<N, P> {
     /// the motion contradicts the equations by a defect, of which `solve` makes an error: (I/s − J)⁻¹ times it, with s some
     /// part of h.
     #[inline]
-    pub fn looked_into<S: SecondOrder<N, Power = P> + ?Sized>(
+    pub fn looked_into<S: SecondOrder<N, Rates = P> + ?Sized>(
         self,
         system: &S,
         (time, h): (f64, f64),
@@ -107,11 +107,11 @@ pub trait Method {
         &self,
         system: &S,
         start: (&Point<N>, f64),
-        lin: &Linearisation<N, S::Power>,
+        lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N, S::Power>>;
+    ) -> Option<Trial<N, S::Rates>>;
 
     /// x^(1/(p+1)), to a per mille, which suffices for a step size.
     #[inline]

@@ -64,11 +64,11 @@ impl Method for Radau {
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),
-        lin: &Linearisation<N, S::Power>,
+        lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N, S::Power>> {
+    ) -> Option<Trial<N, S::Rates>> {
         let per_h = 1.0 / h;
         let shape = Shape::of(system);
         let mut real = Block::EMPTY;

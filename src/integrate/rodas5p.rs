@@ -21,11 +21,11 @@ impl Method for Rodas5P {
         &self,
         system: &S,
         (start, time): (&Point<N>, f64),
-        lin: &Linearisation<N, S::Power>,
+        lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
         counts: &mut Statistics,
-    ) -> Option<Trial<N, S::Power>> {
+    ) -> Option<Trial<N, S::Rates>> {
         rosenbrock::step(&RODAS5P, system, (start, time), lin, h, norm, counts)
     }
 }

@@ -51,11 +51,11 @@ pub fn step<const S: usize, const N: usize, E: SecondOrder<N> + ?Sized>(
     tableau: &Tableau<S>,
     system: &E,
     (start, time): (&Point<N>, f64),
-    lin: &Linearisation<N, E::Power>,
+    lin: &Linearisation<N, E::Rates>,
     h: f64,
     norm: &ErrorNorm<N>,
     counts: &mut Statistics,
-) -> Option<Trial<N, E::Power>> {
+) -> Option<Trial<N, E::Rates>> {
     let shape = Shape::of(system);
     let mut block = Block::EMPTY;
     block.fill((system, shape), lin, h * tableau.gamma)?;

@@ -89,7 +89,7 @@ impl<const N: usize, P: Default> Default for Linearisation<N, P> {
 /// may be smaller than its type: what lies beyond [`Self::freedoms`] is zero and stays zero.
 pub trait SecondOrder<const N: usize> {
     /// Ledger rates: powers that are integrated along with the motion but do not act on it.
-    type Power: Copy + Default;
+    type Rates: Copy + Default;
 
     /// Degrees of freedom, `N` or less.
     #[inline]
@@ -114,10 +114,10 @@ pub trait SecondOrder<const N: usize> {
     fn times_rates(&self, _m: &mut Matrix<N>) {}
 
     /// Accelerations and ledger rates.
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Self::Power);
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Self::Rates);
 
     /// Accelerations, ledger rates and exact derivatives.
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Power>;
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Self::Rates>;
 
     /// Whether accelerations depend on the time as well.
     #[inline]
@@ -127,7 +127,7 @@ pub trait SecondOrder<const N: usize> {
 
     /// [`Self::evaluate`] of a driven system at `time` [s].
     #[inline]
-    fn evaluate_at(&self, at: &Point<N>, _time: f64) -> ([f64; N], Self::Power) {
+    fn evaluate_at(&self, at: &Point<N>, _time: f64) -> ([f64; N], Self::Rates) {
         self.evaluate(at)
     }
 
@@ -139,7 +139,7 @@ pub trait SecondOrder<const N: usize> {
 
     /// [`Self::linearise`] of a driven system at `time` [s].
     #[inline]
-    fn linearise_at(&self, at: &Point<N>, _time: f64) -> Linearisation<N, Self::Power> {
+    fn linearise_at(&self, at: &Point<N>, _time: f64) -> Linearisation<N, Self::Rates> {
         self.linearise(at)
     }
 
@@ -160,7 +160,7 @@ pub trait SecondOrder<const N: usize> {
     /// Writes [`Self::linearise_at`] to `lin` and returns [`Self::energy`] at the same point, for systems that find both in
     /// one go.
     #[inline]
-    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Self::Power>) -> [f64; 2] {
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Self::Rates>) -> [f64; 2] {
         *lin = self.linearise_at(at, time);
         self.energy(at)
     }
@@ -168,7 +168,7 @@ pub trait SecondOrder<const N: usize> {
     /// By how much the ledger of a step of size `h` does not close, relative to the energy exchanged in the step, from the
     /// energies at its ends and the ledger rates at begin, middle and end.
     #[inline]
-    fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Power; 3]) -> f64 {
+    fn imbalance(&self, _energies: [[f64; 2]; 2], _h: f64, _power: &[Self::Rates; 3]) -> f64 {
         0.0
     }
 

@@ -19,8 +19,8 @@ mod scene;
 mod setup;
 
 pub use crate::contact::tooth_load::{ToothLoad, Touch};
+pub use assembly::gear_cache::{GearCache, Share};
 pub use assembly::inertias::Inertias;
-pub use assembly::kept::{Kept, Share};
 pub use assembly::model::Given;
 pub use dynamics::accepted::Accepted;
 pub use dynamics::state::State;

@@ -6,7 +6,7 @@ use bevel_differential::contact::ContactSpec;
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::Slice;
 use bevel_differential::contact::impact::Impact;
-use bevel_differential::contact::law::{Face, Lumped, Power};
+use bevel_differential::contact::law::{DampedImpact, FaceLaw, Lumped};
 use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::mesh::{Law, Mesh};
 use bevel_differential::contact::spring::{self, Linear};
@@ -30,7 +30,7 @@ pub fn gears((planet_teeth, side_teeth, _, backlash): (i32, i32, f64, f64)) -> P
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
     Impact,
-    Power,
+    DampedImpact,
     Line,
     LineWeber,
     Lumped,
@@ -73,21 +73,31 @@ impl Built {
             Kind::Impact => {
                 let Damping::Step { coefficient, .. } = damping else { panic!("IMPACT has its own damping") };
                 let law = Law::Impact(impact(exponent, coefficient));
-                (law, AnySpring::Power(spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
+                (
+                    law,
+                    AnySpring::Impact(spring::ImpactSpring { law: elastic, cone: pair.mean_cone }),
+                    pair.mean_cone,
+                    1.0,
+                )
             }
-            Kind::Power => {
-                let law = Law::Power(Power { elastic, damping });
-                (law, AnySpring::Power(spring::Power { law: elastic, cone: pair.mean_cone }), pair.mean_cone, 1.0)
+            Kind::DampedImpact => {
+                let law = Law::DampedImpact(DampedImpact { elastic, damping });
+                (
+                    law,
+                    AnySpring::Impact(spring::ImpactSpring { law: elastic, cone: pair.mean_cone }),
+                    pair.mean_cone,
+                    1.0,
+                )
             }
             Kind::Line => {
                 let specific = stiffness.line();
                 let spring = AnySpring::Line(specific.clone());
-                (Law::Line(Face { specific, moment, per_cone, damping }), spring, centroid, moment)
+                (Law::Line(FaceLaw { specific, moment, per_cone, damping }), spring, centroid, moment)
             }
             Kind::LineWeber => {
                 let specific = stiffness.line_weber();
                 let spring = AnySpring::LineWeber(specific.clone());
-                (Law::LineWeber(Face { specific, moment, per_cone, damping }), spring, centroid, moment)
+                (Law::LineWeber(FaceLaw { specific, moment, per_cone, damping }), spring, centroid, moment)
             }
             Kind::Lumped => {
                 let k = stiffness.mesh_mean() * moment / (centroid * centroid);

@@ -16,7 +16,7 @@ struct Wall {
 }
 
 impl SecondOrder<1> for Wall {
-    type Power = ();
+    type Rates = ();
 
     fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
         (self.linearise(at).acceleration, ())

@@ -62,7 +62,7 @@ struct Counting<S> {
 }
 
 impl<const N: usize, S: SecondOrder<N>> SecondOrder<N> for Counting<S> {
-    type Power = S::Power;
+    type Rates = S::Rates;
 
     fn rates(&self, v: &[f64; N]) -> [f64; N] {
         self.inner.rates(v)
@@ -70,11 +70,11 @@ impl<const N: usize, S: SecondOrder<N>> SecondOrder<N> for Counting<S> {
     fn times_rates(&self, m: &mut Matrix<N>) {
         self.inner.times_rates(m);
     }
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], S::Power) {
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], S::Rates) {
         self.evaluations.set(self.evaluations.get() + 1);
         self.inner.evaluate(at)
     }
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N, S::Power> {
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, S::Rates> {
         self.evaluations.set(self.evaluations.get() + 1);
         self.jacobians.set(self.jacobians.get() + 1);
         self.inner.linearise(at)

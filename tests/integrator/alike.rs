@@ -23,7 +23,7 @@ impl<const N: usize> Alike<N> {
 
 impl<const N: usize> SecondOrder<N> for Alike<N> {
     /// Power at the first body.
-    type Power = f64;
+    type Rates = f64;
 
     fn inner(&self) -> std::ops::Range<usize> {
         1..N

@@ -31,7 +31,7 @@ impl Driven {
 }
 
 impl SecondOrder<1> for Driven {
-    type Power = ();
+    type Rates = ();
 
     fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
         self.evaluate_at(at, 0.0)

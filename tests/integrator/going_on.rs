@@ -39,7 +39,7 @@ fn run_of<M: Known, S: SecondOrder<2>>(system: &S, start: Point<2>, times: &[f64
         let mut budget = 10_000;
         let context =
             SolverContext { tolerance: TOLERANCE, control: &mut control, statistics: counts, budget: &mut budget };
-        let observe = |step: Step<2, S::Power>, _: &Pending<2, S::Power>| {
+        let observe = |step: Step<2, S::Rates>, _: &Pending<2, S::Rates>| {
             assert!(step.time < time, "nothing beyond {time} is completed");
             steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
             Ok::<_, ()>(AfterStep::Continue)

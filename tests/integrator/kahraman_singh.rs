@@ -69,7 +69,7 @@ impl Oscillator {
 }
 
 impl SecondOrder<2> for Oscillator {
-    type Power = [f64; 2];
+    type Rates = [f64; 2];
 
     fn evaluate(&self, at: &Point<2>) -> ([f64; 2], [f64; 2]) {
         let force = self.mesh.force(&Self::state(at)).force[0];

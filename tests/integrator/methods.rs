@@ -83,7 +83,7 @@ macro_rules! with_every_method {
 pub(crate) use with_every_method;
 
 /// One step of size `h`. A method that needs no derivatives gets unusable ones.
-pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N, S::Power> {
+pub fn step<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, at: &Point<N>, h: f64) -> Trial<N, S::Rates> {
     step_from::<M, N, S>(s, (at, 0.0), h)
 }
 
@@ -92,7 +92,7 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(
     s: &S,
     (at, time): (&Point<N>, f64),
     h: f64,
-) -> Trial<N, S::Power> {
+) -> Trial<N, S::Rates> {
     let lin = if M::METHOD.is_implicit() {
         s.linearise_at(at, time)
     } else {

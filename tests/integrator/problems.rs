@@ -12,7 +12,7 @@ pub struct System<F, const N: usize> {
 }
 
 impl<const N: usize, F: Fn(&Point<N>) -> Jet<N>> SecondOrder<N> for System<F, N> {
-    type Power = ();
+    type Rates = ();
 
     fn evaluate(&self, at: &Point<N>) -> ([f64; N], ()) {
         ((self.acceleration)(at).0, ())
@@ -72,7 +72,7 @@ impl Logarithmic {
 }
 
 impl SecondOrder<2> for Logarithmic {
-    type Power = f64;
+    type Rates = f64;
 
     fn rates(&self, v: &[f64; 2]) -> [f64; 2] {
         times(&B, v)

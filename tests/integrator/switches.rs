@@ -16,7 +16,7 @@ struct Kinked {
 const LANDING: f64 = 1e-11;
 
 impl SecondOrder<1> for Kinked {
-    type Power = ();
+    type Rates = ();
 
     fn evaluate(&self, at: &Point<1>) -> ([f64; 1], ()) {
         ([if self.side > 0.0 { -at.q[0] } else { -4.0 * at.q[0] }], ())

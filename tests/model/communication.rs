@@ -269,7 +269,7 @@ fn a_copy_within_a_step_goes_on_to_the_same_bits() {
     for scene in scenes() {
         let mut simulation = scene.start();
         simulation.advance(0.0104).unwrap();
-        assert!(simulation.state().ahead.is_some(), "{}", scene.name);
+        assert!(simulation.state().pending_step.is_some(), "{}", scene.name);
         let state = (*simulation.state(), *simulation.watched());
         let copy = Simulation::resume_with(&scene.parameters, &scene.inputs, state, &Given::default()).unwrap();
         for mut other in [simulation.clone(), copy] {

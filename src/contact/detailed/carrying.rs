@@ -23,7 +23,7 @@ pub struct Moves {
     /// ∂R/∂A and ∂R/∂E of both ends.
     ends: [[f64; 2]; 2],
     /// By how much the part stretches, by its length.
-    stretch: [f64; 2],
+    integration: [f64; 2],
 }
 
 impl Moves {
@@ -32,8 +32,8 @@ impl Moves {
         let [from, to] = span.ends;
         let per_length = 1.0 / (to - from);
         let [low, high] = [0, 1].map(|i| [span.by_arc[i], -span.by_arc[i] / span.ends[i]]);
-        let stretch = [0, 1].map(|by| (high[by] - low[by]) * per_length);
-        Self { from, per_length, ends: [low, high], stretch }
+        let integration = [0, 1].map(|by| (high[by] - low[by]) * per_length);
+        Self { from, per_length, ends: [low, high], integration }
     }
 
     /// By A and by E: how far the point at `cone` moves, and by how much the width that it stands for grows.
@@ -41,7 +41,7 @@ impl Moves {
     pub fn at(&self, cone: f64) -> [[f64; 2]; 2] {
         let along = (cone - self.from) * self.per_length;
         let [low, high] = self.ends;
-        [0, 1].map(|by| [low[by] + along * (high[by] - low[by]), self.stretch[by]])
+        [0, 1].map(|by| [low[by] + along * (high[by] - low[by]), self.integration[by]])
     }
 }
 

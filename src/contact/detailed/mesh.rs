@@ -36,7 +36,7 @@ pub struct Detailed {
 
 /// Teeth of a mesh: their openings, and which planet and side gear they are of.
 #[derive(Clone, Copy)]
-pub struct Teeth<'a> {
+pub struct MeshTeeth<'a> {
     /// Tooth pairs.
     pub engagement: &'a Engagement,
     /// Errors of the teeth.
@@ -47,7 +47,7 @@ pub struct Teeth<'a> {
     pub side: usize,
 }
 
-impl Teeth<'_> {
+impl MeshTeeth<'_> {
     /// The pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
     #[inline(always)]
     fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
@@ -91,28 +91,33 @@ impl Detailed {
     }
 
     /// Loads at `state`.
-    pub fn load(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<f64> {
+    pub fn load(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<f64> {
         let mut totals = Totals::<0, LOCAL>::default();
         with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
         totals.load()
     }
 
     /// Loads at `state` with their exact derivatives by q, x, w and their rates.
-    pub fn linearise(&self, teeth: &Teeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
+    pub fn linearise(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
         let mut totals = Totals::<7, LOCAL>::default();
         with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.thrust, |_| {}));
         totals.linearised()
     }
 
     /// Loads at `state`; calls `look` with each loaded slice. Compiled once for all laws and whoever looks.
-    pub fn look(&self, teeth: &Teeth, state: &DetailedState, look: &mut dyn FnMut(&SliceLoad)) -> DetailedLoad<f64> {
+    pub fn look(
+        &self,
+        teeth: &MeshTeeth,
+        state: &DetailedState,
+        look: &mut dyn FnMut(&SliceLoad),
+    ) -> DetailedLoad<f64> {
         let mut totals = Totals::<0, LOCAL>::default();
         self.sum(&self.spring, &mut totals, teeth, state, true, look);
         totals.load()
     }
 
     /// Whether the flanks of pairs may not fit.
-    fn is_open(&self, teeth: &Teeth) -> bool {
+    fn is_open(&self, teeth: &MeshTeeth) -> bool {
         self.seats || teeth.gaps.is_some()
     }
 
@@ -120,7 +125,7 @@ impl Detailed {
     /// arc [rad].
     pub fn opened(
         &self,
-        teeth: &Teeth,
+        teeth: &MeshTeeth,
         state: &DetailedState,
         (flank, number, s): (Flank, i64, f64),
         cone: f64,
@@ -138,7 +143,7 @@ impl Detailed {
         &self,
         spring: &S,
         totals: &mut Totals<ROWS, LOCAL>,
-        teeth: &Teeth,
+        teeth: &MeshTeeth,
         state: &DetailedState,
         thrust: bool,
         mut look: impl FnMut(&SliceLoad),
@@ -156,7 +161,7 @@ impl Detailed {
     }
 
     /// Elastic energy V [J].
-    pub fn energy(&self, teeth: &Teeth, state: &DetailedState) -> f64 {
+    pub fn energy(&self, teeth: &MeshTeeth, state: &DetailedState) -> f64 {
         let (spring, mut energy) = (&self.spring, 0.0);
         self.each(teeth, state, [0.0; 2], |name, pair| {
             let mut opening = self.opening(teeth, name, pair.s);
@@ -185,7 +190,7 @@ impl Detailed {
     #[inline(always)]
     pub(super) fn each(
         &self,
-        teeth: &Teeth,
+        teeth: &MeshTeeth,
         state: &DetailedState,
         margin: [f64; 2],
         mut visit: impl FnMut(&PairName, &ToothPair),
@@ -210,13 +215,13 @@ impl Detailed {
     }
 
     #[inline(always)]
-    pub(super) fn opening(&self, teeth: &Teeth, name: &PairName, s: f64) -> Opening {
+    pub(super) fn opening(&self, teeth: &MeshTeeth, name: &PairName, s: f64) -> Opening {
         teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
     }
 
     /// What opens the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs where seats need them.
     #[inline(always)]
-    pub(super) fn opened_pair(&self, teeth: &Teeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
+    pub(super) fn opened_pair(&self, teeth: &MeshTeeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
         let mut opening = self.opening(teeth, name, s);
         if !self.seats {
             return (opening, [0.0; 2], Arcs::NONE);
@@ -231,7 +236,7 @@ impl Detailed {
     #[inline(always)]
     fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
         &self,
-        (spring, teeth, thrust): (&S, &Teeth, bool),
+        (spring, teeth, thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, LOCAL>,
         (name, pair): (&PairName, &ToothPair),
         state: &DetailedState,

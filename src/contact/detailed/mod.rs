@@ -27,7 +27,7 @@ pub use directions::Arms;
 pub use face::Face;
 pub use face_load::KnownSlice;
 pub use loads::{DetailedLoad, DetailedState, Gaps, Opening, PairName, Slice, SliceLoad};
-pub use mesh::{Detailed, Teeth};
+pub use mesh::{Detailed, MeshTeeth};
 pub use pair::PairMotion;
 pub use points::Node;
 pub use shared::SharedTeeth;

@@ -11,7 +11,7 @@ use super::loads::Look;
 use super::sums::{Approach, Sums};
 use super::touching::Touching;
 use super::{
-    Detailed, DetailedLoad, DetailedState, Opening, PairMotion, PairName, SliceLoad, Teeth, Totals, WITH_OTHER,
+    Detailed, DetailedLoad, DetailedState, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER,
 };
 use crate::contact::{AnySpring, Damping, Flank, Spring, ToothPair};
 use crate::numeric::Dual;
@@ -34,7 +34,7 @@ const COORDINATES: usize = 6;
 #[derive(Clone, Copy)]
 pub struct SharedTeeth<'a> {
     /// Teeth, left and right.
-    pub teeth: [Teeth<'a>; 2],
+    pub teeth: [MeshTeeth<'a>; 2],
     /// The bodies.
     pub bodies: &'a SharedBodies,
     /// Number of the planet's tooth of a pair, of the unrolled sequence.

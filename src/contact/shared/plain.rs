@@ -6,7 +6,7 @@ use super::couplings::{MOST, place_for};
 use super::{Bends, Change, Couplings, Gradients, Moved, Own};
 use crate::contact::bodies::{SharedBodies, Standing};
 use crate::contact::impact::Force;
-use crate::contact::law::Face;
+use crate::contact::law::FaceLaw;
 use crate::contact::mesh::{MeshForce, MeshState};
 use crate::contact::{Flank, Mesh, Spring, ToothPair};
 
@@ -76,7 +76,7 @@ impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
     #[inline(always)]
     fn new<S: Spring<Place = P>>(
         bodies: &SharedBodies,
-        law: &Face<S>,
+        law: &FaceLaw<S>,
         near: &'a [Option<Near<P>>; MOST],
         count: usize,
     ) -> Self {
@@ -88,7 +88,7 @@ impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
     #[inline(always)]
     fn with_bends<S: Spring<Place = P>>(
         bodies: &SharedBodies,
-        law: &Face<S>,
+        law: &FaceLaw<S>,
         near: &'a [Option<Near<P>>; MOST],
         count: usize,
     ) -> (Self, Bends<K>) {
@@ -102,7 +102,7 @@ impl<'a, P: Copy, const K: usize> Sharing<'a, P, K> {
     }
 
     #[inline(always)]
-    fn of<S: Spring<Place = P>>(law: &Face<S>, near: &'a [Option<Near<P>>; MOST], couplings: Couplings<K>) -> Self {
+    fn of<S: Spring<Place = P>>(law: &FaceLaw<S>, near: &'a [Option<Near<P>>; MOST], couplings: Couplings<K>) -> Self {
         let arc = std::array::from_fn(|k| near[k].as_ref().map_or(0.0, |near| near.pair.depth));
         let law = |k: usize, arc: f64| {
             let (Some(near), false) = (&near[k], arc <= 0.0) else { return [0.0; 2] };
@@ -139,7 +139,7 @@ impl SharedMeshes<'_> {
     #[inline(always)]
     fn pairs<S: Spring>(
         &self,
-        law: &Face<S>,
+        law: &FaceLaw<S>,
         states: &[MeshState; 2],
         lookout: f64,
         near: &mut [Option<Near<S::Place>>; MOST],
@@ -180,7 +180,7 @@ impl SharedMeshes<'_> {
 
     /// Forces and heat of both meshes.
     #[inline(never)]
-    pub fn force<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
+    pub fn force<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> [MeshForce; 2] {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, Default::default(), {
@@ -203,7 +203,7 @@ impl SharedMeshes<'_> {
 
     /// The same with their derivatives and the elastic energy.
     #[inline(never)]
-    pub fn linearise<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> SharedForce {
+    pub fn linearise<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> SharedForce {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         by_count!(count, SharedForce::default(), {
@@ -215,7 +215,7 @@ impl SharedMeshes<'_> {
     #[inline(always)]
     fn linearise_pairs<S: Spring, const K: usize>(
         &self,
-        law: &Face<S>,
+        law: &FaceLaw<S>,
         states: &[MeshState; 2],
         sharing: &Sharing<S::Place, K>,
         bends: &Bends<K>,
@@ -286,7 +286,7 @@ impl SharedMeshes<'_> {
 
     /// Elastic energy of both meshes [J].
     #[inline(never)]
-    pub fn energy<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> f64 {
+    pub fn energy<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> f64 {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, 0.0, &mut near);
         let sharing = Sharing::<_, MOST>::new::<S>(self.bodies, law, &near, count);
@@ -299,7 +299,7 @@ impl SharedMeshes<'_> {
 
     /// By how much pairs that touch or are about to are moved by others.
     #[inline(never)]
-    pub fn moved<S: Spring>(&self, law: &Face<S>, states: &[MeshState; 2]) -> Moved {
+    pub fn moved<S: Spring>(&self, law: &FaceLaw<S>, states: &[MeshState; 2]) -> Moved {
         let mut near = std::array::from_fn(|_| None);
         let count = self.pairs(law, states, Moved::LOOKOUT, &mut near);
         let mut moved = Moved::default();
@@ -316,7 +316,7 @@ impl SharedMeshes<'_> {
     #[inline(never)]
     pub fn loaded<S: Spring>(
         &self,
-        law: &Face<S>,
+        law: &FaceLaw<S>,
         states: &[MeshState; 2],
         side: usize,
         visit: &mut dyn FnMut(&ToothPair, &Force),

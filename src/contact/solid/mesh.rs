@@ -18,7 +18,7 @@ pub use super::loads::SolidLoad;
 use super::overlap::Patch;
 use super::turned::Both;
 use super::walk::FlankSection;
-use super::{Displacement, Placement, SineCosine, Softness, Teeth, TurningRay};
+use super::{Displacement, Placement, SineCosine, Softness, ToothAngles, TurningRay};
 use crate::contact::impact::Force;
 use crate::contact::state::{MeshForce, MeshJacobian, MeshState};
 use crate::contact::{Damping, Flank, Impact};
@@ -76,7 +76,7 @@ pub struct SolidMesh {
     pub damping: Damping,
     pub(super) cone: f64,
     flanks: Flanks,
-    teeth: Teeth,
+    teeth: ToothAngles,
     candidates: Candidates,
     soft: Softness,
     pub(super) slices: Vec<PlacedSlice>,
@@ -116,7 +116,7 @@ impl SolidMesh {
             candidates: Candidates::new(pair, &flanks, slack + soft.ahead),
             side_rays: Placement::new(pair, &Displacement::default()).side_rays(&flanks.rays[1]),
             flanks,
-            teeth: Teeth::new(pair),
+            teeth: ToothAngles::new(pair),
             slack: slack + soft.ahead,
             soft,
             slices: Vec::new(),

@@ -18,5 +18,5 @@ mod softness;
 mod turned;
 mod walk;
 
-pub use pose::{Displacement, MOST_TEETH, Placement, SineCosine, Teeth, TurningRay};
+pub use pose::{Displacement, MOST_TEETH, Placement, SineCosine, ToothAngles, TurningRay};
 pub use softness::Softness;

@@ -43,7 +43,7 @@ pub type SineCosine = [f64; 2];
 
 /// Angles of the teeth of both gears.
 #[derive(Clone, Debug)]
-pub struct Teeth {
+pub struct ToothAngles {
     per_sin_base: [f64; 2],
     half_pitch: f64,
     /// Whole pitches from −[`MOST_TEETH`] to [`MOST_TEETH`] of planet and side gear.
@@ -54,7 +54,7 @@ pub struct Teeth {
 #[derive(Clone, Copy, Debug)]
 pub struct Stance([SineCosine; 2]);
 
-impl Teeth {
+impl ToothAngles {
     /// Teeth of `pair`.
     pub fn new(pair: &Pair) -> Self {
         let pitches = pair.gears.map(|gear| {

@@ -5,10 +5,10 @@
 //! slices are similar, so one section holds for all cone distances.
 
 mod beams;
-mod beyond;
 mod compliance;
 mod corner;
 mod laws;
+mod past_end;
 mod profile;
 mod quadrature;
 mod section;
@@ -25,8 +25,8 @@ pub use section::{FlankLoad, RootSpec, SectionSpec, ToothSection};
 use crate::geometry::Pair;
 use crate::problem::Problem;
 use beams::DEDENDUM;
-use beyond::{Beyond, CornerPart};
 use corner::TipCorner;
+use past_end::{CornerPart, PastEnd};
 use table::ComplianceTable;
 
 /// Where neither the path nor a corner on its mate's flank can carry, the stiffness becomes constant within this many base
@@ -116,14 +116,14 @@ impl PairStiffness {
         };
         let table = ComplianceTable::new(range[0], range[1], on_path, |i, end| {
             if corner_range[i] == 0.0 {
-                return Beyond::level(end, LEVEL * base_pitch);
+                return PastEnd::level(end, LEVEL * base_pitch);
             }
             let (corner, own) = (&corners[i], 1 - i);
             let arc = corner.mate_arc(0.0);
             let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], bend: arc * arc };
             // the own tooth carries at its tip all along
             let tip = gear(own, corner.rolls(0.0)[own]);
-            Beyond::corner(&part, end, LEVEL * base_pitch, |delta| {
+            PastEnd::corner(&part, end, LEVEL * base_pitch, |delta| {
                 let rolls = corner.rolls(delta);
                 tip + gear(1 - own, rolls[1 - own]) + teeth.local(rolls, limit * outer_cone)
             })

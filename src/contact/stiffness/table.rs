@@ -4,7 +4,7 @@
 //! the outer quarters the knots close in quadratically on the ends: index = n √(distance). The middle half is even, and
 //! cells meet with like widths. `beyond` continues past the ends.
 
-use super::beyond::Beyond;
+use super::past_end::PastEnd;
 use super::spline::{Cell, cells, cubic};
 use crate::numeric::{Jet, sqrt};
 
@@ -21,13 +21,13 @@ pub struct ComplianceTable {
     per_root: f64,
     per_length: f64,
     cells: Box<[Cell; 3 * CELLS]>,
-    beyond: [Beyond; 2],
+    past_end: [PastEnd; 2],
 }
 
 impl ComplianceTable {
     /// Table of the function `f` on [`low`, `high`]; `beyond` makes its continuation past the lower (0) or the upper end
     /// from value and slopes there, taken outward.
-    pub fn new(low: f64, high: f64, f: impl Fn(f64) -> f64, beyond: impl Fn(usize, Jet) -> Beyond) -> Self {
+    pub fn new(low: f64, high: f64, f: impl Fn(f64) -> f64, past_end: impl Fn(usize, Jet) -> PastEnd) -> Self {
         let span = high - low;
         let knots: Vec<f64> = (0..=3 * CELLS).map(|j| low + span * share(j)).collect();
         let values: Vec<f64> = knots.iter().map(|&s| f(s)).collect();
@@ -46,7 +46,7 @@ impl ComplianceTable {
             per_root: CELLS as f64 / sqrt(quarter),
             per_length: CELLS as f64 / (2.0 * quarter),
             cells,
-            beyond: [beyond(0, Jet { d: -first.d, ..first }), beyond(1, last)],
+            past_end: [past_end(0, Jet { d: -first.d, ..first }), past_end(1, last)],
         }
     }
 
@@ -56,13 +56,13 @@ impl ComplianceTable {
         let (above, below) = (s - self.low, self.high - s);
         let cell = if above < self.quarter {
             if above < 0.0 {
-                let mirrored = self.beyond[0].at(-above);
+                let mirrored = self.past_end[0].at(-above);
                 return Jet { d: -mirrored.d, ..mirrored };
             }
             (self.per_root * sqrt(above)) as usize
         } else if below < self.quarter {
             if below < 0.0 {
-                return self.beyond[1].at(-below);
+                return self.past_end[1].at(-below);
             }
             3 * CELLS - 1 - (self.per_root * sqrt(below)) as usize
         } else {
@@ -98,7 +98,7 @@ mod tests {
     }
 
     fn table() -> ComplianceTable {
-        ComplianceTable::new(-0.5, 1.0, function, |_, end| Beyond::level(end, 0.1))
+        ComplianceTable::new(-0.5, 1.0, function, |_, end| PastEnd::level(end, 0.1))
     }
 
     #[test]

@@ -119,7 +119,7 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     call!(c, DeSerializeFmuState, |instance, host| {
         // SAFETY: the host's promise, see the module
         let bytes = unsafe { host.bytes("serializedState", bytes.cast::<u8>(), size) }?;
-        let snapshot = Snapshot::from_bytes(bytes, &instance.kept).map_err(CallError::error)?;
+        let snapshot = Snapshot::from_bytes(bytes, &instance.cache).map_err(CallError::error)?;
         // SAFETY: the host's promise, see the module
         unsafe { store(host.value("FMUstate", state)?, snapshot) }
     })

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use crate::contact::bodies::SharedBodies;
 use crate::contact::damping::{self};
 use crate::contact::detailed::{Face as CutFace, Slice};
-use crate::contact::law::{Face, Lumped, Power};
+use crate::contact::law::{DampedImpact, FaceLaw, Lumped};
 use crate::contact::spring::{self, Linear};
 use crate::contact::stiffness::PairStiffness;
 use crate::contact::{AnySpring, ContactLaw, Damping, DampingModel, Impact, Law, hertz};
 use crate::geometry::Pair;
 use crate::model::assembly::face::centroid;
-use crate::model::assembly::kept::Kept;
+use crate::model::assembly::gear_cache::GearCache;
 use crate::model::assembly::solid;
 use crate::model::effect_kinds::ToothEffects;
 use crate::model::scene::GearContact;
@@ -35,7 +35,7 @@ pub struct Laws {
 impl Laws {
     /// Law of the scene with what effects do to the teeth: loads that differ over the face, where the law holds at every cone
     /// distance, and elastic bodies.
-    pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, kept: &Kept) -> Result<Self, Problem> {
+    pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
         let cut = tooth.sliced;
         let damping = Self::damping(p);
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
@@ -46,7 +46,7 @@ impl Laws {
         let whole = |cone: f64, weight: f64| CutFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
             let per_width = if p.contact.mesh_stiffness_from_geometry {
-                kept.mesh_mean(p, pair)?
+                cache.mesh_mean(p, pair)?
             } else {
                 p.contact.mesh_stiffness
             };
@@ -61,10 +61,10 @@ impl Laws {
         }
         if p.scene.gear_contact == GearContact::Solid {
             let impact = impact(p, pair);
-            let solids = kept.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
+            let solids = cache.solid(pair, (&p.geometry, &p.solid, &solid::errors(p)), impact, damping);
             return Ok(Self {
                 law: Law::Solid(Box::new(solids)),
-                spring: AnySpring::Power(spring::Power { law: impact, cone: pair.mean_cone }),
+                spring: AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone }),
                 face: whole(pair.mean_cone, 1.0),
                 cone: pair.mean_cone,
                 bodies: None,
@@ -75,22 +75,22 @@ impl Laws {
                 let impact = impact(p, pair);
                 let law = match damping {
                     Damping::Step { .. } => Law::Impact(impact),
-                    Damping::HuntCrossley { .. } => Law::Power(Power { elastic: impact, damping }),
+                    Damping::HuntCrossley { .. } => Law::DampedImpact(DampedImpact { elastic: impact, damping }),
                 };
-                let spring = AnySpring::Power(spring::Power { law: impact, cone: pair.mean_cone });
+                let spring = AnySpring::Impact(spring::ImpactSpring { law: impact, cone: pair.mean_cone });
                 Self { law, spring, face: whole(pair.mean_cone, 1.0), cone: pair.mean_cone, bodies: None }
             }
             ContactLaw::Line => {
-                let (specific, bodies) = of_teeth(p, pair, tooth, kept, PairStiffness::line)?;
+                let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line)?;
                 let spring = AnySpring::Line(specific.clone());
-                let law = Law::Line(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                let law = Law::Line(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::cut(inner, outer) } else { whole(centroid, moment) };
                 Self { law, spring, face, cone: centroid, bodies }
             }
             ContactLaw::LineWeber => {
-                let (specific, bodies) = of_teeth(p, pair, tooth, kept, PairStiffness::line_weber)?;
+                let (specific, bodies) = of_teeth(p, pair, tooth, cache, PairStiffness::line_weber)?;
                 let spring = AnySpring::LineWeber(specific.clone());
-                let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / centroid, damping });
+                let law = Law::LineWeber(FaceLaw { specific, moment, per_cone: 1.0 / centroid, damping });
                 let face = if cut { CutFace::sliced(inner, outer) } else { whole(centroid, moment) };
                 Self { law, spring, face, cone: centroid, bodies }
             }
@@ -116,13 +116,13 @@ fn of_teeth<S>(
     p: &Parameters,
     pair: &Pair,
     tooth: &ToothEffects,
-    kept: &Kept,
+    cache: &GearCache,
     law: impl Fn(&PairStiffness) -> S,
 ) -> Result<(S, Option<Arc<SharedBodies>>), Problem> {
     if !tooth.on_bodies {
-        return Ok((law(&*kept.stiffness(p, pair)?), None));
+        return Ok((law(&*cache.stiffness(p, pair)?), None));
     }
-    let gears = kept.on_bodies(p, pair)?;
+    let gears = cache.on_bodies(p, pair)?;
     Ok((law(&gears.stiffness), Some(gears.bodies.clone())))
 }
 

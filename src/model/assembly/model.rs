@@ -1,9 +1,9 @@
 //! Everything derived from the parameters before the first step: geometry, plan, inertias, meshes, effects.
 
-use super::kept::Kept;
+use super::gear_cache::GearCache;
+use super::ideal_with_effects::IdealWithEffects;
 use super::laws::Laws;
-use super::rigid::Rigid;
-use super::{Additions, BodyEffects, Ideal, Inertias, Teeth, solid};
+use super::{BodyEffects, EffectTerms, Ideal, Inertias, Teeth, solid};
 use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::{FlankGaps, Mesh};
@@ -19,7 +19,7 @@ use crate::problem::Problem;
 #[derive(Clone, Debug)]
 pub enum Gears {
     /// Willis' equation: in closed form while nothing acts on bodies, integrated otherwise.
-    Rigid(Box<Rigid>),
+    Ideal(Box<IdealWithEffects>),
     /// Meshes.
     Teeth(Box<Teeth>),
 }
@@ -30,7 +30,7 @@ pub struct Given<'a> {
     /// Teeth of all gears in place of those that the seed of tooth errors gives.
     pub teeth: Option<&'a [GearTeeth]>,
     /// What is kept from starts before.
-    pub kept: Option<&'a Kept>,
+    pub cache: Option<&'a GearCache>,
 }
 
 /// Everything derived from the parameters; it does not change while a simulation runs, but for tunable parameters.
@@ -61,13 +61,13 @@ pub struct Model {
 impl Model {
     /// Model of the scene, or all that is wrong with it; values must be within the ranges of the interface.
     pub fn new(parameters: &Parameters, given: &Given) -> Result<Self, Vec<Problem>> {
-        let own = Kept::default();
-        let kept = given.kept.unwrap_or(&own);
+        let own = GearCache::default();
+        let cache = given.cache.unwrap_or(&own);
         let spec = parameters.gears();
         if let Some(problem) = checks::shaft_angle(&spec) {
             return Err(vec![problem]);
         }
-        let checked = kept.pair(&spec);
+        let checked = cache.pair(&spec);
         let pair = checked.pair;
         let mut problems = checked.errors.clone();
         problems.extend(validation::problems(parameters, &pair));
@@ -82,19 +82,19 @@ impl Model {
         let individual = tooth.individual || !parameters.solver.merge_planets;
         let plan = Plan::new(&parameters.scene, &spec, &pair, &Requests { individual, ..requests });
         let plan = plan.map_err(|p| vec![p])?;
-        let masses = kept.masses(&pair, &parameters.geometry, parameters.material.density);
+        let masses = cache.masses(&pair, &parameters.geometry, parameters.material.density);
         let inertia = Inertias::new(parameters, &masses);
         let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
         let ideal = Ideal { plan, inertia, ratio };
         let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
         warnings.extend(advice::warnings(parameters));
-        let bodies = BodyEffects::new(parameters, &effects, &plan);
+        let body_effects = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
-            GearContact::Ideal => Gears::Rigid(Box::new(Rigid::new(&ideal, bodies))),
+            GearContact::Ideal => Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects))),
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
-                let laws = Laws::new(parameters, &pair, &tooth, kept).map_err(|p| vec![p])?;
-                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, bodies), kept)))
+                let laws = Laws::new(parameters, &pair, &tooth, cache).map_err(|p| vec![p])?;
+                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, body_effects), cache)))
             }
         };
         let together = match &gears {
@@ -132,17 +132,17 @@ impl Model {
         self.parameters = *parameters;
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
-            Gears::Rigid(rigid) => rigid.bodies.tune(&effects),
+            Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),
             Gears::Teeth(teeth) => {
                 let damping = Laws::damping(parameters);
                 teeth.mesh.law.set_damping(damping);
-                let additions = &mut teeth.additions;
-                additions.detailed.set_damping(damping);
-                additions.detailed.friction = effects.on_flanks().map(|friction| friction.law);
-                additions.bodies.tune(&effects);
+                let effect_terms = &mut teeth.effect_terms;
+                effect_terms.detailed.set_damping(damping);
+                effect_terms.detailed.friction = effects.on_flanks().map(|friction| friction.law);
+                effect_terms.body_effects.tune(&effects);
                 // a coefficient that was 0 needs the loads from now on
-                additions.detailed.thrust = additions.bodies.needs_loads();
-                additions.in_detail |= additions.detailed.thrust;
+                effect_terms.detailed.thrust = effect_terms.body_effects.needs_loads();
+                effect_terms.in_detail |= effect_terms.detailed.thrust;
                 if let Some(together) = &mut self.together {
                     together.mesh.law.set_damping(damping);
                 }
@@ -163,30 +163,30 @@ fn teeth(
     p: &Parameters,
     effects: &SceneEffects,
     ideal: &Ideal,
-    (laws, tooth, mut bodies): (Laws, ToothEffects, BodyEffects),
-    kept: &Kept,
+    (laws, tooth, mut body_effects): (Laws, ToothEffects, BodyEffects),
+    cache: &GearCache,
 ) -> Teeth {
     let (pair, plan) = (effects.setting.pair, ideal.plan);
     let friction = effects.on_flanks();
     // a tooth may neither bend by the working depth nor reach the next gap
     let deflection_limit = pair.working_depth().min(0.5 * pair.base_pitch);
     let single = plan.contact == GearContact::Lumped;
-    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || bodies.needs_loads();
-    bodies.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
-    let engagement = kept.engagement(pair, p.effects.corner_contact, deflection_limit);
+    let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.pins || body_effects.needs_loads();
+    body_effects.always |= in_detail || laws.bodies.is_some() || p.effects.strength || p.effects.mesh_history;
+    let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
     let mesh = Mesh { law: laws.law, cone: laws.cone, engagement };
     let mut detailed = Detailed::new(pair, laws.spring, Laws::damping(p), laws.face, single, friction.map(|f| f.law));
-    (detailed.thrust, detailed.seats) = (bodies.needs_loads(), plan.pins);
-    let additions = Additions {
+    (detailed.thrust, detailed.seats) = (body_effects.needs_loads(), plan.pins);
+    let effect_terms = EffectTerms {
         detailed,
         in_detail,
         friction_heat: friction.map_or(CONTACT_HEAT, |f| f.heat),
         gaps: tooth.gaps,
         perfect: FlankGaps::perfect(pair, p.geometry.planet_count),
         planet_moment: ideal.inertia.planet_moment,
-        bodies,
+        body_effects,
     };
-    Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, additions)
+    Teeth::new(pair, (mesh, laws.bodies), plan, &ideal.inertia, deflection_limit, effect_terms)
 }
 
 /// What steps are watched for.

@@ -36,7 +36,7 @@ pub struct Teeth {
     /// The bodies of the gears that pairs share, where they are elastic.
     pub shared: Option<Arc<SharedBodies>>,
     /// What acts besides plain teeth; boxed, so that the layout of these constants is the same in every build.
-    pub additions: Box<Additions>,
+    pub effect_terms: Box<EffectTerms>,
 }
 
 impl Teeth {
@@ -44,8 +44,9 @@ impl Teeth {
     /// and are plain until then.
     pub fn together(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_planets_together()?;
-        let is_plain =
-            !self.additions.bodies.always && self.layout.plain() == Some(false) && plan.contact != GearContact::Solid;
+        let is_plain = !self.effect_terms.body_effects.always
+            && self.layout.plain() == Some(false)
+            && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
     }
 
@@ -56,7 +57,7 @@ impl Teeth {
         plan: Plan,
         inertias: &Inertias,
         deflection_limit: f64,
-        additions: Additions,
+        effect_terms: EffectTerms,
     ) -> Self {
         let layout = plan.layout();
         let (inertia, rigid_end) = inertias.by_freedom(&plan);
@@ -87,14 +88,14 @@ impl Teeth {
             base_pitch: pair.base_pitch,
             deflection_limit,
             shared,
-            additions: Box::new(additions),
+            effect_terms: Box::new(effect_terms),
         }
     }
 }
 
 /// What acts in a scene besides plain teeth.
 #[derive(Clone, Debug)]
-pub struct Additions {
+pub struct EffectTerms {
     /// The mesh in detail.
     pub detailed: Detailed,
     /// Whether an effect needs it while all teeth are sound.
@@ -108,5 +109,5 @@ pub struct Additions {
     /// Mass of a planet times its distance from the carrier's axis [kg·m].
     pub planet_moment: f64,
     /// Effects on bodies.
-    pub bodies: BodyEffects,
+    pub body_effects: BodyEffects,
 }

@@ -3,12 +3,12 @@
 use std::iter::Chain;
 use std::ops::Range;
 
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Jacobian, State};
 use crate::integrate::Point;
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::{Bodies, Friction, FrictionState, Mode, Slip, SurfaceLoad};
+use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan,
 };
@@ -32,11 +32,11 @@ pub struct Acting {
 impl Acting {
     /// What acts at `state` under `inputs`, with the effects `bodies` where there are any.
     #[inline]
-    pub fn new(bodies: Option<&BodyEffects>, inputs: &Inputs, state: &State) -> Self {
+    pub fn new(body_effects: Option<&BodyEffects>, inputs: &Inputs, state: &State) -> Self {
         let inputs = Inputs { carrier_speed: state.carrier_command, ..*inputs };
         let (input_derivatives, driven) =
             (state.input_derivatives.unwrap_or(InputDerivatives::ZERO), state.input_derivatives.is_some());
-        let friction = bodies.map(|bodies| bodies.friction(state.lock, &inputs, &input_derivatives));
+        let friction = body_effects.map(|effects| effects.friction(state.lock, &inputs, &input_derivatives));
         let rubs = friction.as_ref().is_some_and(Friction::is_any);
         Self { inputs, input_derivatives, driven, friction_state: state.friction, friction, rubs }
     }
@@ -124,9 +124,9 @@ pub trait Acted<const N: usize> {
     }
 
     /// All positions and velocities as effects see them.
-    fn bodies<'b>(&'b self, at: &'b Point<N>) -> Bodies<'b> {
+    fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
         let Acting { inputs, input_derivatives, .. } = self.acting();
-        Bodies { q: &at.q, v: &at.v, layout: self.layout(), inputs, input_rates: &input_derivatives.rates[0] }
+        BodyMotion { q: &at.q, v: &at.v, layout: self.layout(), inputs, input_rates: &input_derivatives.rates[0] }
     }
 
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear with a rigid one.
@@ -188,7 +188,7 @@ pub trait Acted<const N: usize> {
         at: &Point<N>,
         surface_loads: &[SurfaceLoad; FRICTION_BODIES],
         sum: &mut [f64; N],
-        power: &mut Power,
+        power: &mut LedgerRates,
     ) {
         for i in bodies_with_friction(self) {
             let (friction, state, count) = self.friction_on(i);
@@ -304,7 +304,7 @@ pub trait Acted<const N: usize> {
 
     /// Drags the anchors of bodies that slide along to `at`, where the ledger rates are `power`.
     #[inline]
-    fn drag_anchors(&self, at: &Point<N>, power: &Power, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag_anchors(&self, at: &Point<N>, power: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.rubs() {
             return;
         }

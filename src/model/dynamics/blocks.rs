@@ -2,7 +2,7 @@
 
 use super::Equations;
 use super::in_detail::Local;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use crate::contact::detailed::{DetailedLoad, LOCAL};
 use crate::contact::mesh::MeshForce;
 use crate::contact::shared::SharedForce;
@@ -111,7 +111,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         [by_position, by_rate]: [&mut Matrix<N>; 2],
-        power: &mut Power,
+        power: &mut LedgerRates,
     ) -> f64 {
         let mut load = [[MeshForce::default(); 2]; G];
         let (mut position, mut rate) = ([[[[0.0; 3]; 3]; 2]; G], [[[[0.0; 3]; 3]; 2]; G]);

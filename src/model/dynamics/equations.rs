@@ -12,7 +12,7 @@
 //! α − β takes the place of α and the reaction goes to the pin), ends of the half-shafts with the twist as position.
 
 use super::friction::by_body;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::sizes::EXACT;
 use super::{Acted, Acting, Largest, State};
 use crate::contact::Law;
@@ -56,7 +56,7 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
                 offset[g][s] = teeth.base_pitch * (state.turns[LEFT + s] - spin) as f64;
             }
         }
-        let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.additions.bodies), inputs, state);
+        let acting = Acting::new(WITH_EFFECTS.then_some(&teeth.effect_terms.body_effects), inputs, state);
         Self { teeth, acting, fault: state.fault, offset, wrapped }
     }
 
@@ -223,7 +223,13 @@ impl<'a, const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'a,
 
     /// Turns sums of forces into accelerations, given those of imposed motions; completes the ledger rates.
     #[inline(always)]
-    pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], imposed: &[f64; N], power: &mut Power) {
+    pub(in crate::model) fn finish(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        imposed: &[f64; N],
+        power: &mut LedgerRates,
+    ) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.acting.input_derivatives.rates[0];
         let mut input = 0.0;
@@ -369,7 +375,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Acted<N> for Equa
     }
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
-        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], Power::default());
+        let (mut sum, mut imposed, mut power) = ([0.0; N], [0.0; N], LedgerRates::default());
         self.add_brakes(&mut sum);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
         self.finish(at, &mut sum, &imposed, &mut power);

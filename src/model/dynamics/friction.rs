@@ -1,7 +1,7 @@
 //! Dry friction of gears with teeth: under the loads of their meshes, with derivatives by these.
 
 use super::in_detail::Local;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Acted, Equations, Jacobian};
 use crate::contact::detailed::{DetailedLoad, LOCAL, WITH_OTHER};
 use crate::integrate::{Matrix, Point};
@@ -32,14 +32,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         loads: Option<&MeshLoads<G>>,
         sum: &mut [f64; N],
-        power: &mut Power,
+        power: &mut LedgerRates,
     ) {
         if self.rubs() {
             self.rub_under(at, loads, sum, power);
         }
     }
 
-    fn rub_under(&self, at: &Point<N>, loads: Option<&MeshLoads<G>>, sum: &mut [f64; N], power: &mut Power) {
+    fn rub_under(&self, at: &Point<N>, loads: Option<&MeshLoads<G>>, sum: &mut [f64; N], power: &mut LedgerRates) {
         let mut all = by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
         self.rub(at, &all, sum, power);

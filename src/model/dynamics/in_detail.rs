@@ -1,10 +1,10 @@
 //! Meshes in detail: loads of all slices with their derivatives by the variables of one mesh.
 
 use super::friction::MeshLoads;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Acted, Equations, Jacobian};
 use crate::contact::detailed::{
-    Detailed, DetailedLoad, DetailedState, LOCAL, SharedTeeth, SliceLoad, Teeth as MeshTeeth, WITH_OTHER,
+    Detailed, DetailedLoad, DetailedState, LOCAL, MeshTeeth, SharedTeeth, SliceLoad, WITH_OTHER,
 };
 use crate::contact::mesh::MeshState;
 use crate::contact::shared::Moved;
@@ -87,12 +87,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     /// Whether the meshes are summed in detail: where an effect needs it, and once a tooth is broken.
     #[inline]
     pub(in crate::model) fn in_detail(&self) -> bool {
-        self.teeth.additions.in_detail || self.fault
+        self.teeth.effect_terms.in_detail || self.fault
     }
 
     /// Gaps of the teeth as they are now.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
-        self.teeth.additions.gaps[usize::from(self.fault)].as_deref()
+        self.teeth.effect_terms.gaps[usize::from(self.fault)].as_deref()
     }
 
     /// State of the mesh of group `g` with side `s` in detail.
@@ -131,7 +131,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         let (mesh, state) = (&self.teeth.mesh, self.mesh_state(at, g, s));
         let moved_by = |flank: Flank, number: i64| moved.map_or(0.0, |moved| moved.of(s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
-            let (teeth, detailed) = (self.mesh_teeth(g, s), &self.teeth.additions.detailed);
+            let (teeth, detailed) = (self.mesh_teeth(g, s), &self.teeth.effect_terms.detailed);
             if teeth.gaps.is_some() {
                 let in_detail = self.detailed_state(at, g, s);
                 return mesh.kink_of_open(&state, h, |flank, number, place| {
@@ -160,10 +160,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                         look(slice);
                     }
                 };
-                self.teeth.additions.detailed.look_shared(teeth, &self.detailed_states(at, g), &mut look)[s]
+                self.teeth.effect_terms.detailed.look_shared(teeth, &self.detailed_states(at, g), &mut look)[s]
             });
         }
-        self.teeth.additions.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), &mut look)
+        self.teeth.effect_terms.detailed.look(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s), &mut look)
     }
 
     /// Degree of freedom that carries the planets of group `g` around: their pin, or the carrier.
@@ -173,7 +173,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Centrifugal force m r ω² of a planet of group `g`, away from the apex [N], and its slope by ω [N·s/rad].
     pub(super) fn centrifugal(&self, at: &Point<N>, g: usize) -> [f64; 2] {
-        let per_speed = self.teeth.additions.planet_moment * at.v[self.orbit(g)];
+        let per_speed = self.teeth.effect_terms.planet_moment * at.v[self.orbit(g)];
         [per_speed * at.v[self.orbit(g)], 2.0 * per_speed]
     }
 
@@ -214,7 +214,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         loads: &[[DetailedLoad<T>; 2]; G],
         sum: &mut [f64; N],
-        power: &mut Power,
+        power: &mut LedgerRates,
         slopes: Option<&mut Jacobian<'_, N>>,
     ) {
         self.add_forces(|g, s| [loads[g][s].force[0].value(), loads[g][s].force[1].value()], sum);
@@ -223,7 +223,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 sum[self.seat(s)] += self.sum(|g| self.members(g) * loads[g][s].force[2].value());
             }
         }
-        for (i, place) in [CONTACT_HEAT, self.teeth.additions.friction_heat].into_iter().enumerate() {
+        for (i, place) in [CONTACT_HEAT, self.teeth.effect_terms.friction_heat].into_iter().enumerate() {
             if i == 0 || place != CONTACT_HEAT {
                 power.heat[place] = self.sum(|g| self.members(g) * (loads[g][0].heat[i] + loads[g][1].heat[i]));
             }
@@ -254,10 +254,10 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Elastic energy of the mesh of group `g` with side `s` [J].
     pub(in crate::model) fn mesh_energy(&self, at: &Point<N>, g: usize, s: usize) -> f64 {
-        let additions = &self.teeth.additions;
+        let effect_terms = &self.teeth.effect_terms;
         if !(WITH_EFFECTS && self.in_detail()) {
             return self.teeth.mesh.energy(&self.mesh_state(at, g, s));
         }
-        additions.detailed.energy(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s))
+        effect_terms.detailed.energy(&self.mesh_teeth(g, s), &self.detailed_state(at, g, s))
     }
 }

@@ -1,6 +1,6 @@
 //! The equations of motion with teeth, linearised: exact derivatives of the accelerations.
 
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Equations, Jacobian};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::CARRIER;
@@ -35,8 +35,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Writes the equations linearised to `lin`; returns the elastic energy of all meshes [J].
     #[inline]
-    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
-        (lin.acceleration, lin.power) = ([0.0; N], Power::default());
+    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        (lin.acceleration, lin.power) = ([0.0; N], LedgerRates::default());
         // rows beyond are never anything but zero
         for i in 0..self.count() {
             (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
@@ -46,7 +46,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Adds to `lin` the equations of teeth without effects, linearised; returns the elastic energy [J].
     #[inline]
-    fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
+    fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, power } = lin;
         let energy = self.add_linearised(at, acceleration, [&mut *by_position, &mut *by_velocity], power);
         // α̇ = ω_s − ω_c
@@ -59,7 +59,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Adds to `lin` the equations with all effects, linearised; returns the elastic energy of all meshes [J].
     #[inline]
-    fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, Power>) -> f64 {
+    fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, power } = lin;
         let mut imposed = [0.0; N];
         let mut slopes = Jacobian::new([&mut *by_position, &mut *by_velocity]);

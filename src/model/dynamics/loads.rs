@@ -49,7 +49,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         s: usize,
         mut visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>),
     ) {
-        let detailed = &self.teeth.additions.detailed;
+        let detailed = &self.teeth.effect_terms.detailed;
         let is_sliced = self.is_sliced();
         self.visit_loads(at, g, s, &|_| [0.0; 3], &mut |load, slice| match slice {
             Some(slice) if is_sliced => visit(load, Some(&|cone| detailed.line_load(slice, cone))),
@@ -70,7 +70,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     ) {
         let mesh = &self.teeth.mesh;
         let planet = self.teeth.plan.group(g).planet;
-        let teeth = |flank: Flank, number: i64| self.teeth.additions.perfect.teeth(self.pair_name(g, s, flank, number));
+        let teeth =
+            |flank: Flank, number: i64| self.teeth.effect_terms.perfect.teeth(self.pair_name(g, s, flank, number));
         if WITH_EFFECTS && self.in_detail() {
             self.detail(at, g, s, |slice| {
                 let load = ToothLoad {
@@ -129,7 +130,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 s: contact.s,
                 cone: mesh.cone,
                 share: 1.0,
-                line_load: force.total / self.teeth.additions.detailed.face.width(),
+                line_load: force.total / self.teeth.effect_terms.detailed.face.width(),
                 depth: contact.depth * mesh.cone,
                 normal: force.total,
                 friction: 0.0,

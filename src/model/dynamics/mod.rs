@@ -1,25 +1,25 @@
-//! The equations of motion, and the state they move: with teeth (`equations` and its parts), and of ideal gears (`rigid_equations`,
+//! The equations of motion, and the state they move: with teeth (`equations` and its parts), and of ideal gears (`ideal_equations`,
 //! `ideal_step`). Forces, exact derivatives and the rates of the ledger come together.
 
 pub mod accepted;
 pub mod acting;
-pub mod ahead;
 pub mod bias;
 mod blocks;
 pub mod clock;
 pub mod cycle;
 pub mod equations;
 mod friction;
+pub mod ideal_equations;
 mod ideal_step;
 mod in_detail;
 pub mod jacobian;
+pub mod ledger_rates;
 mod linearised;
 mod loads;
 mod motion;
 mod on_bodies;
 mod pair_loads;
-pub mod power;
-pub mod rigid_equations;
+pub mod pending_step;
 pub mod sizes;
 pub mod state;
 mod twists;
@@ -30,8 +30,8 @@ pub use accepted::Accepted;
 pub use acting::{Acted, Acting};
 pub use clock::Clock;
 pub use equations::Equations;
+pub use ideal_equations::{IdealEquations, IdealTorques};
 pub use jacobian::Jacobian;
-pub use rigid_equations::{RigidEquations, RigidTorques};
 pub use sizes::{LARGEST, Largest};
 pub use state::State;
 pub use watched::{LastLoads, Watched};

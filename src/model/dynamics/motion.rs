@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Acted, Equations, twists};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::CARRIER;
@@ -22,7 +22,7 @@ const TWIST_FLOOR: f64 = 1e-3;
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Accelerations; completes the ledger rates.
     #[inline]
-    fn accelerate(&self, at: &Point<N>, power: &mut Power) -> [f64; N] {
+    fn accelerate(&self, at: &Point<N>, power: &mut LedgerRates) -> [f64; N] {
         let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
         if WITH_EFFECTS {
             self.act(at, &mut sum, &mut imposed, power, None);
@@ -37,7 +37,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 }
 
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> for Equations<'_, N, G, WITH_EFFECTS> {
-    type Power = Power;
+    type Rates = LedgerRates;
 
     #[inline]
     fn freedoms(&self) -> usize {
@@ -84,12 +84,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn evaluate(&self, at: &Point<N>) -> ([f64; N], Power) {
-        let mut power = Power::default();
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], LedgerRates) {
+        let mut power = LedgerRates::default();
         (self.accelerate(at, &mut power), power)
     }
 
-    fn linearise(&self, at: &Point<N>) -> Linearisation<N, Power> {
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, LedgerRates> {
         let mut lin = Linearisation::default();
         self.linearise_and_store(at, &mut lin);
         lin
@@ -101,18 +101,18 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], Power) {
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], LedgerRates) {
         if self.is_driven_by_inputs() { self.later(time).evaluate(at) } else { self.evaluate(at) }
     }
 
     #[inline]
-    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, Power> {
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, LedgerRates> {
         if self.is_driven_by_inputs() { self.later(time).linearise(at) } else { self.linearise(at) }
     }
 
     #[inline]
     fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let power = &mut Power::default();
+        let power = &mut LedgerRates::default();
         if self.is_driven_by_inputs() { self.later(time).accelerate(at, power) } else { self.accelerate(at, power) }
     }
 
@@ -157,7 +157,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, Power>) -> [f64; 2] {
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, LedgerRates>) -> [f64; 2] {
         let teeth = if self.is_driven_by_inputs() {
             self.later(time).linearise_and_store(at, lin)
         } else {
@@ -168,12 +168,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> SecondOrder<N> fo
     }
 
     #[inline]
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[LedgerRates; 3]) -> f64 {
         // pairs that come and go abruptly bring energy that no force gave
         if !self.teeth.mesh.engagement.corner_contact() {
             return 0.0;
         }
-        Power::imbalance::<WITH_EFFECTS>(energies, h, power)
+        LedgerRates::imbalance::<WITH_EFFECTS>(energies, h, power)
     }
 
     fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {

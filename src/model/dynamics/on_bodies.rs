@@ -2,7 +2,7 @@
 
 use super::Equations;
 use super::in_detail::Local;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use crate::contact::bodies::SharedBodies;
 use crate::contact::detailed::{DetailedLoad, PairName, SharedTeeth};
 use crate::contact::impact::Force;
@@ -51,7 +51,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     #[inline]
     fn meshes<'b>(&'b self, bodies: &'b SharedBodies, g: usize) -> SharedMeshes<'b> {
-        let opposite = self.teeth.additions.perfect.opposite(self.teeth.plan.group(g).planet);
+        let opposite = self.teeth.effect_terms.perfect.opposite(self.teeth.plan.group(g).planet);
         SharedMeshes { mesh: &self.teeth.mesh, bodies, opposite, wrapped: [0, 1].map(|s| self.wrapped(g, s)) }
     }
 
@@ -82,7 +82,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         if WITH_EFFECTS && self.in_detail() {
             let states = [0, 1].map(|s| self.detailed_state(at[s], g, s));
             return self
-                .with_shared_teeth(bodies, g, |teeth| self.teeth.additions.detailed.energy_shared(teeth, &states));
+                .with_shared_teeth(bodies, g, |teeth| self.teeth.effect_terms.detailed.energy_shared(teeth, &states));
         }
         let states = [0, 1].map(|s| self.mesh_state(at[s], g, s));
         with_teeth!(&self.teeth.mesh.law, law => self.meshes(bodies, g).energy(law, &states), 0.0)
@@ -113,7 +113,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
     pub(super) fn moved_pairs(&self, bodies: &SharedBodies, at: &Point<N>, g: usize) -> Moved {
         if self.in_detail() {
             return self.with_shared_teeth(bodies, g, |teeth| {
-                self.teeth.additions.detailed.moved(teeth, &self.detailed_states(at, g))
+                self.teeth.effect_terms.detailed.moved(teeth, &self.detailed_states(at, g))
             });
         }
         let states = self.mesh_states(at, g);
@@ -127,14 +127,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         g: usize,
         act: impl FnOnce(&SharedTeeth) -> R,
     ) -> R {
-        let numbers = |name: PairName| self.teeth.additions.perfect.unrolled(&name)[0];
+        let numbers = |name: PairName| self.teeth.effect_terms.perfect.unrolled(&name)[0];
         act(&SharedTeeth { teeth: [0, 1].map(|s| self.mesh_teeth(g, s)), bodies, numbers: &numbers })
     }
 
     /// Writes the loads of both meshes of group `g` in detail to where they stay.
     #[inline]
     pub(super) fn write_planet_loads<T: Local>(&self, at: &Point<N>, g: usize, loads: &mut [DetailedLoad<T>; 2]) {
-        let mesh = &self.teeth.additions.detailed;
+        let mesh = &self.teeth.effect_terms.detailed;
         match self.bodies_of_gears() {
             Some(bodies) => {
                 self.with_shared_teeth(bodies, g, |teeth| {
@@ -180,7 +180,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         [by_position, by_rate]: [&mut Matrix<N>; 2],
-        power: &mut Power,
+        power: &mut LedgerRates,
     ) -> f64 {
         let mut shared = [SharedForce::default(); G];
         for g in 0..self.groups() {

@@ -15,7 +15,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         // slices of a pair come one after the other
         let mut open: Option<([usize; 2], PairLoad)> = None;
         let mut close = |load: &mut PairLoad| {
-            let detailed = &self.teeth.additions.detailed;
+            let detailed = &self.teeth.effect_terms.detailed;
             if self.is_sliced() {
                 // the pressure where the load is the largest, be it between slices or at an end
                 let mean = load.moment / detailed.moment_of_face();
@@ -39,13 +39,13 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Whether meshes are summed slice by slice over the face.
     pub(super) fn is_sliced(&self) -> bool {
-        let additions = &self.teeth.additions;
-        WITH_EFFECTS && self.in_detail() && additions.detailed.face.is_cut()
+        let effect_terms = &self.teeth.effect_terms;
+        WITH_EFFECTS && self.in_detail() && effect_terms.detailed.face.is_cut()
     }
 
     /// K_Hβ of the pair of which `slice` is a loaded slice; 1 where a law has one resultant for the whole face.
     fn face_load_factor(&self, pair: &Pair, at: &Point<N>, g: usize, slice: &ToothLoad) -> f64 {
-        let additions = &self.teeth.additions;
+        let effect_terms = &self.teeth.effect_terms;
         if let (false, Law::Solid(solid)) = (self.in_detail(), &self.teeth.mesh.law) {
             return solid.face_load_factor(&self.mesh_state(at, g, slice.side), slice.flank, slice.s);
         }
@@ -61,6 +61,6 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             opening.even.v += at.q[self.seat(slice.side)] * axial;
         }
         let known = KnownSlice { cone: slice.cone, arc: slice.depth / slice.cone, s: slice.s };
-        additions.detailed.face_load_factor(&known, &opening)
+        effect_terms.detailed.face_load_factor(&known, &opening)
     }
 }

@@ -18,12 +18,12 @@ pub type Largest<'a> = Equations<'a, LARGEST, MAX_GROUPS, true>;
 macro_rules! with_equations {
     ($model:expr, $state:expr, $inputs:expr, |$equations:ident| $body:expr) => {
         match &$model.gears {
-            $crate::model::assembly::model::Gears::Rigid(rigid) => {
+            $crate::model::assembly::model::Gears::Ideal(ideal) => {
                 #[allow(unused)]
-                const N: usize = $crate::model::assembly::rigid::MOST;
+                const N: usize = $crate::model::assembly::ideal_with_effects::MOST;
                 #[allow(unused_mut)]
                 let mut $equations =
-                    $crate::model::dynamics::rigid_equations::RigidEquations::new(rigid, $inputs, $state);
+                    $crate::model::dynamics::ideal_equations::IdealEquations::new(ideal, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ahead::Ahead;
 use super::bias::Bias;
+use super::pending_step::PendingStep;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
@@ -52,7 +52,7 @@ pub struct State {
     /// How long inputs had held before [s].
     pub held: f64,
     /// The integrator's step that goes beyond the present. Work, heat and friction are those at its begin, and so is damage.
-    pub ahead: Option<Ahead>,
+    pub pending_step: Option<PendingStep>,
 }
 
 impl State {
@@ -76,7 +76,7 @@ impl State {
             energy_at_start: 0.0,
             begun: None,
             held: f64::INFINITY,
-            ahead: None,
+            pending_step: None,
         }
     }
 
@@ -104,14 +104,14 @@ impl State {
     /// Moves to `until` [s] if the step ahead contains it, for `n` degrees of freedom. Returns whether it does.
     #[inline]
     pub fn move_within(&mut self, until: f64, n: usize) -> bool {
-        let Some(ahead) = &mut self.ahead else { return false };
-        let now = ahead.clock.now + (until - self.time);
-        if now > ahead.end() {
+        let Some(pending_step) = &mut self.pending_step else { return false };
+        let now = pending_step.clock.now + (until - self.time);
+        if now > pending_step.end() {
             return false;
         }
-        ahead.clock.now = now;
+        pending_step.clock.now = now;
         self.time = until;
-        ahead.motion(n, [&mut self.q, &mut self.v]);
+        pending_step.motion(n, [&mut self.q, &mut self.v]);
         true
     }
 
@@ -131,15 +131,15 @@ impl State {
         let alike = |i: usize| {
             self.q[i] == self.q[PLANET] && self.v[i] == self.v[PLANET] && self.turns[i] == self.turns[PLANET]
         };
-        !teeth.additions.bodies.act_in(self) && (PLANET + 1..PLANET + layout.groups).all(alike)
+        !teeth.effect_terms.body_effects.act_in(self) && (PLANET + 1..PLANET + layout.groups).all(alike)
     }
 
     /// Lets the other planets of `layout` move as the first does.
     pub fn let_others_follow(&mut self, layout: &Layout) {
         for i in PLANET + 1..PLANET + layout.groups {
             (self.q[i], self.v[i]) = (self.q[PLANET], self.v[PLANET]);
-            if let Some(ahead) = &mut self.ahead {
-                ahead.let_follow(i, PLANET);
+            if let Some(pending_step) = &mut self.pending_step {
+                pending_step.let_follow(i, PLANET);
             }
         }
     }
@@ -191,7 +191,7 @@ impl State {
 
     /// Whether a simulation can continue from all numbers.
     pub fn is_valid(&self) -> bool {
-        self.is_sound() && self.ahead.as_ref().is_none_or(Ahead::is_valid)
+        self.is_sound() && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
     }
 
     /// The same where a step has just been taken: what is ahead has passed its error test, which nothing does that is not

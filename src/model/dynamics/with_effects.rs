@@ -1,6 +1,6 @@
 //! Forces of a scene with effects: meshes, in detail where an effect needs it, forces on bodies, dry friction.
 
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use super::{Acted, Equations, Jacobian};
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::integrate::{Matrix, Point};
@@ -17,7 +17,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         imposed: &mut [f64; N],
-        power: &mut Power,
+        power: &mut LedgerRates,
         slopes: Option<&mut Jacobian<'_, N>>,
     ) {
         match slopes {
@@ -42,8 +42,8 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
                 self.act_on_bodies(at, sum, imposed, power);
                 let mut imposed_by = [[0.0; N]; 2];
                 let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed_by);
-                for effect in self.teeth.additions.bodies.forces.iter() {
-                    effect.slopes(&self.bodies(at), &mut out);
+                for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+                    effect.slopes(&self.body_motion(at), &mut out);
                 }
                 j.of_imposed = imposed_by;
             }
@@ -52,7 +52,12 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Forces of meshes, and the dry friction that these cause; the torques of the meshes on the side gears alone.
     #[inline]
-    pub(in crate::model) fn act_of_teeth(&self, at: &Point<N>, sum: &mut [f64; N], power: &mut Power) -> [f64; 2] {
+    pub(in crate::model) fn act_of_teeth(
+        &self,
+        at: &Point<N>,
+        sum: &mut [f64; N],
+        power: &mut LedgerRates,
+    ) -> [f64; 2] {
         if self.in_detail() {
             let loads = self.all_loads::<f64>(at);
             self.act_in_detail(at, &loads, sum, power, None);
@@ -71,14 +76,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
         at: &Point<N>,
         sum: &mut [f64; N],
         imposed: &mut [f64; N],
-        power: &mut Power,
+        power: &mut LedgerRates,
     ) {
-        let bodies = self.bodies(at);
-        imposed[CARRIER] += bodies.input_rates.carrier_speed;
+        let motion = self.body_motion(at);
+        imposed[CARRIER] += motion.input_rates.carrier_speed;
         let mut out =
             Action { force: sum, imposed: &mut imposed[CARRIER], drive: &mut power.drive, heat: &mut power.heat };
-        for effect in self.teeth.additions.bodies.forces.iter() {
-            effect.act(&bodies, &mut out);
+        for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+            effect.act(&motion, &mut out);
         }
         if self.ends() {
             power.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
@@ -91,14 +96,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             return self.acting.inputs.load_torque[s];
         }
         let end = self.end(s);
-        self.teeth.additions.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
+        self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
     /// Sums of the forces of meshes, pins and seats at rest, and their derivatives, for the static equilibrium.
     pub(in crate::model) fn structure(&self, at: &Point<N>) -> ([f64; N], Matrix<N>) {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         let j = Jacobian::new([&mut by_position, &mut by_velocity]);
-        let mut power = Power::default();
+        let mut power = LedgerRates::default();
         let still = Point { q: at.q, v: [0.0; N] };
         let loads = self.all_loads::<Dual<WITH_OTHER>>(&still);
         self.add_forces(|g, s| [loads[g][s].force[0].v, loads[g][s].force[1].v], &mut sum);
@@ -114,14 +119,14 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
             self.add_blocks::<true>(&self.cross_blocks(&loads), j.by_position);
         }
         let mut carrier = 0.0;
-        let bodies = self.bodies(&still);
+        let motion = self.body_motion(&still);
         let mut action =
             Action { force: &mut sum, imposed: &mut carrier, drive: &mut power.drive, heat: &mut power.heat };
         let mut unused = [[0.0; N]; 2];
         let mut slopes = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut unused);
-        for effect in self.teeth.additions.bodies.forces.iter().filter(|e| e.is_structure()) {
-            effect.act(&bodies, &mut action);
-            effect.slopes(&bodies, &mut slopes);
+        for effect in self.teeth.effect_terms.body_effects.forces.iter().filter(|e| e.is_structure()) {
+            effect.act(&motion, &mut action);
+            effect.slopes(&motion, &mut slopes);
         }
         (sum, by_position)
     }
@@ -138,9 +143,9 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, 
 
     /// Elastic energy of pins, and with `all` of half-shafts and stuck friction too [J].
     pub(in crate::model) fn stored_in_bodies(&self, at: &Point<N>, all: bool) -> f64 {
-        let forces = &self.teeth.additions.bodies.forces;
-        let bodies = self.bodies(at);
-        let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&bodies)).sum::<f64>();
+        let forces = &self.teeth.effect_terms.body_effects.forces;
+        let motion = self.body_motion(at);
+        let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&motion)).sum::<f64>();
         if all { energy + self.friction_energy(at) } else { energy }
     }
 }

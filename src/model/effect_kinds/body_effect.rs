@@ -6,7 +6,7 @@ use crate::integrate::Matrix;
 use crate::model::scene::{Inputs, Layout};
 
 /// Positions and velocities of all degrees of freedom, and what the host commands.
-pub struct Bodies<'a> {
+pub struct BodyMotion<'a> {
     /// Positions.
     pub q: &'a [f64],
     /// Velocities.
@@ -74,15 +74,15 @@ impl<'a> Slopes<'a> {
 /// An effect that acts on bodies, apart from the teeth.
 pub trait BodyEffect: Debug + Send + Sync {
     /// Adds forces and heat.
-    fn act(&self, at: &Bodies, out: &mut Action);
+    fn act(&self, at: &BodyMotion, out: &mut Action);
     /// Adds the exact derivatives of the forces.
-    fn slopes(&self, at: &Bodies, out: &mut Slopes);
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes);
     /// Whether it is part of the structure that carries static loads.
     fn is_structure(&self) -> bool {
         false
     }
     /// Energy it stores [J].
-    fn energy(&self, _at: &Bodies) -> f64 {
+    fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0
     }
     /// Speed that an imposed carrier has instead of `command` [rad/s].

@@ -5,7 +5,7 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{Bodies, BodyEffect, FlankFriction, FrictionSource, ToothEffects};
+use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
 use crate::declaration::{DisplayUnit, Parameter, Row, Unit};
@@ -94,7 +94,7 @@ pub struct Instant<'a> {
     /// Plan of the scene.
     pub plan: &'a Plan,
     /// Motion and inputs.
-    pub bodies: &'a Bodies<'a>,
+    pub motion: &'a BodyMotion<'a>,
     /// Torques that the half-shafts deliver to the wheels, left and right [N·m].
     pub shaft_torque: [f64; 2],
 }

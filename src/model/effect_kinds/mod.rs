@@ -13,7 +13,7 @@ pub mod friction_source;
 pub mod friction_state;
 pub mod teeth;
 
-pub use body_effect::{Action, Bodies, BodyEffect, Slopes};
+pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use friction::Friction;
 pub use friction_part::{FrictionPart, Slip, SurfaceLoad};

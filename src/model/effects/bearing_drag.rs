@@ -5,7 +5,7 @@
 
 use crate::declaration::units::{self, DEG_PER_S};
 use crate::declaration::{Parameter, Row, row};
-use crate::model::effect_kinds::{Action, Bodies, BodyEffect, Declare, Effect, Heat, Setting, Slopes};
+use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::Plan;
 
 spec! {
@@ -80,7 +80,7 @@ struct Drag {
 
 impl Drag {
     /// Torque against the rotation of body `i` and its slope by the speed.
-    fn drag(&self, at: &Bodies, i: usize) -> (f64, f64) {
+    fn drag(&self, at: &BodyMotion, i: usize) -> (f64, f64) {
         let spec = &self.spec;
         let (coulomb, viscous, churning) = if i == at.layout.carrier() {
             (spec.carrier_torque, spec.carrier_viscous, spec.carrier_churning)
@@ -97,7 +97,7 @@ impl Drag {
 }
 
 impl BodyEffect for Drag {
-    fn act(&self, at: &Bodies, out: &mut Action) {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
         for i in 0..3 {
             let (torque, _) = self.drag(at, i);
             out.force[i] -= torque;
@@ -105,7 +105,7 @@ impl BodyEffect for Drag {
         }
     }
 
-    fn slopes(&self, at: &Bodies, out: &mut Slopes) {
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         for i in 0..3 {
             out.velocity(i, i, -self.drag(at, i).1);
         }

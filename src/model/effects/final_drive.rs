@@ -2,7 +2,7 @@
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ) — the first harmonic of a gear pair's mesh excitation.
 
 use crate::declaration::{Parameter, Row, row, units};
-use crate::model::effect_kinds::{Action, Bodies, BodyEffect, Declare, Effect, Setting, Slopes};
+use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Setting, Slopes};
 use crate::model::scene::{CARRIER, Plan};
 use crate::numeric::{cos, sin};
 
@@ -49,7 +49,7 @@ struct Excitation {
 }
 
 impl BodyEffect for Excitation {
-    fn act(&self, at: &Bodies, out: &mut Action) {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
         let c = at.layout.carrier();
         let wave = sin(self.teeth * at.q[c]);
         if self.imposed {
@@ -60,7 +60,7 @@ impl BodyEffect for Excitation {
         }
     }
 
-    fn slopes(&self, at: &Bodies, out: &mut Slopes) {
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         let c = at.layout.carrier();
         let (wave, slope) = (sin(self.teeth * at.q[c]), self.teeth * cos(self.teeth * at.q[c]));
         if self.imposed {

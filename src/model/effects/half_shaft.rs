@@ -5,7 +5,7 @@
 use crate::declaration::units::{self, DEG};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{
-    Action, Bodies, BodyEffect, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
+    Action, BodyEffect, BodyMotion, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
 };
 use crate::model::scene::{Plan, Requests, SideDrive};
 use crate::problem::Problem;
@@ -80,7 +80,7 @@ impl Effect for HalfShaftSpec {
     fn read(&self, at: &Instant, out: &mut [f64]) {
         for s in 0..2 {
             if at.plan.shafts[s] {
-                out[s] = at.bodies.q[at.bodies.layout.end(s)];
+                out[s] = at.motion.q[at.motion.layout.end(s)];
             } else if at.on && self.stiffness[s] > 0.0 {
                 // the static twist, as the end is no degree of freedom
                 out[s] = at.shaft_torque[s] / self.stiffness[s];
@@ -133,7 +133,7 @@ struct Twist {
 }
 
 impl BodyEffect for Twist {
-    fn act(&self, at: &Bodies, out: &mut Action) {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
         for s in 0..2 {
             let end = at.layout.end(s);
             let rate = at.v[s] - at.v[end];
@@ -144,7 +144,7 @@ impl BodyEffect for Twist {
         }
     }
 
-    fn slopes(&self, at: &Bodies, out: &mut Slopes) {
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         for s in 0..2 {
             let end = at.layout.end(s);
             let (k, c) = (self.shafts.stiffness[s], self.shafts.damping[s]);
@@ -157,7 +157,7 @@ impl BodyEffect for Twist {
         }
     }
 
-    fn energy(&self, at: &Bodies) -> f64 {
+    fn energy(&self, at: &BodyMotion) -> f64 {
         (0..2)
             .map(|s| {
                 let twist = at.q[at.layout.end(s)];

@@ -7,7 +7,7 @@
 use crate::declaration::units::{self, N_PER_UM};
 use crate::declaration::{Parameter, Row, row};
 use crate::model::effect_kinds::{
-    Action, Bodies, BodyEffect, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
+    Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
 };
 use crate::model::scene::layout::over_groups;
 use crate::model::scene::{GearContact, Plan, Requests};
@@ -87,7 +87,7 @@ struct Springs {
 }
 
 impl BodyEffect for Springs {
-    fn act(&self, at: &Bodies, out: &mut Action) {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
         let layout = at.layout;
         let carrier = layout.carrier();
         let mut pins = [0.0; 4];
@@ -109,7 +109,7 @@ impl BodyEffect for Springs {
         }
     }
 
-    fn slopes(&self, at: &Bodies, out: &mut Slopes) {
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         let layout = at.layout;
         let (carrier, c) = (layout.carrier(), self.pin * self.time);
         for g in 0..layout.groups {
@@ -132,7 +132,7 @@ impl BodyEffect for Springs {
         true
     }
 
-    fn energy(&self, at: &Bodies) -> f64 {
+    fn energy(&self, at: &BodyMotion) -> f64 {
         let layout = at.layout;
         let square = |i: usize| at.q[i] * at.q[i];
         let pins = over_groups(layout.groups, |g| layout.members[g] * self.pin * square(layout.pin(g)));

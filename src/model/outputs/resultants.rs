@@ -6,9 +6,9 @@ use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
-use crate::model::dynamics::power::Power;
-use crate::model::dynamics::{Acted, LARGEST, Largest, RigidEquations, RigidTorques, State};
-use crate::model::effect_kinds::{Bodies, Changes, Instant};
+use crate::model::dynamics::ledger_rates::LedgerRates;
+use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State};
+use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::MeshLoad;
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, Plan};
 use crate::model::setup::effect_outputs::{HEATS_WITHIN, places_of};
@@ -61,8 +61,8 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 /// Sets the readings of the effects that follow from the motion.
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let bodies = Bodies { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
-    let at = Instant { on: false, plan, bodies: &bodies, shaft_torque: out.shaft_torque };
+    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO };
+    let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
 }
 
@@ -131,13 +131,13 @@ struct ForcesAtInstant {
     carrier_torque: f64,
     /// Torque of what imposes the spin, all planets together [N·m].
     spin_torque: f64,
-    power: Power,
+    power: LedgerRates,
 }
 
 impl Largest<'_> {
     fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut power) = ([0.0; LARGEST], [0.0; LARGEST], Power::default());
+        let (mut sum, mut imposed, mut power) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
         let gears = self.act_of_teeth(at, &mut sum, &mut power);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut power);
         let carrier_torque = if plan.carrier_imposed {
@@ -178,7 +178,7 @@ fn without_teeth(
     model: &Model,
     (inputs, state): (&Inputs, &State),
     (carrier_acceleration, side_acceleration): (f64, [f64; 2]),
-    (torques, shaft_torque): (&RigidTorques, [f64; 2]),
+    (torques, shaft_torque): (&IdealTorques, [f64; 2]),
     heat: f64,
 ) -> Forces {
     let plan = &model.ideal.plan;
@@ -204,16 +204,16 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
     let motion = ideal.motion(inputs);
     let a = ideal.side_accelerations(&motion);
     let with = |inertia: &[f64; 2]| [0, 1].map(|s| inputs.load_torque[s] + inertia[s] * a[s]);
-    let torques = RigidTorques { carrier: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
+    let torques = IdealTorques { carrier: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
     without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), 0.0)
 }
 
 /// Forces of the ideal differential with effects on bodies.
-pub fn rigid_forces(model: &Model, equations: &RigidEquations, inputs: &Inputs, state: &State) -> Forces {
+pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inputs: &Inputs, state: &State) -> Forces {
     let (plan, point) = (&model.ideal.plan, &state.point());
     let (a, power) = equations.evaluate(point);
     let brakes = equations.brake_torques(point);
-    let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.rigid.rigid_end[s] * a[s];
+    let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.ideal.rigid_end[s] * a[s];
     let shafts = [0, 1].map(|s| if plan.shafts[s] { power.shaft[s] } else { by_rigid(s) });
     let heat = lost(&power.heat);
     without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&equations.torques(point), shafts), heat)

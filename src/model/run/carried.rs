@@ -3,7 +3,7 @@
 use super::imposed::body_effects;
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
-use crate::model::effect_kinds::{Action, Bodies};
+use crate::model::effect_kinds::{Action, BodyMotion};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF};
 use crate::model::setup::HEATS;
 
@@ -85,11 +85,11 @@ fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1
     for (i, to) in model.layout.attached() {
         v[i] = v[to];
     }
-    let bodies = Bodies { q: &q, v: &v, layout: &model.layout, inputs, input_rates: &Inputs::ZERO };
+    let motion = BodyMotion { q: &q, v: &v, layout: &model.layout, inputs, input_rates: &Inputs::ZERO };
     let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);
     let mut out = Action { force: &mut force, imposed: &mut imposed, drive: &mut drive, heat: &mut heat };
     for effect in body_effects(model).forces.iter() {
-        effect.act(&bodies, &mut out);
+        effect.act(&motion, &mut out);
     }
     [force[0], force[1], force[CARRIER] + drive]
 }

@@ -2,10 +2,10 @@
 
 use crate::integrate::{Extension, Pending, Point, SecondOrder, Step};
 use crate::model::dynamics::LARGEST;
-use crate::model::dynamics::power::Power;
+use crate::model::dynamics::ledger_rates::LedgerRates;
 
 /// A completed step, and the same while it was pending.
-pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, Power>, Option<&'a Pending<N, Power>>);
+pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<&'a Pending<N, LedgerRates>>);
 
 /// A completed step of equations of any size, for what looks at its motion.
 pub struct Passed {
@@ -34,7 +34,7 @@ impl Passed {
 }
 
 /// A continuous extension of a step without one: positions by the cubic through both ends, velocities in proportion.
-fn cubic<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, Power>) -> Extension<N> {
+fn cubic<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, LedgerRates>) -> Extension<N> {
     let Step { h, start, end, .. } = *step;
     let [before, after] = [start, end].map(|at| equations.rates(&at.v));
     let mut bends = [Point::ZERO; 3];

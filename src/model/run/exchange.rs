@@ -107,7 +107,7 @@ impl Simulation {
 
     /// All states; 0 of bodies that do not move independently.
     pub fn states(&self) -> [f64; STATES] {
-        let present = self.present();
+        let present = self.with_inputs_applied();
         let state = &present.as_ref().unwrap_or(self).state;
         self.states_of(|i| state.position(i, &self.model.periods), &state.v)
     }
@@ -115,7 +115,7 @@ impl Simulation {
     /// Their rates.
     pub fn state_rates(&self) -> [f64; STATES] {
         let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
-        let present = self.present();
+        let present = self.with_inputs_applied();
         let simulation = present.as_ref().unwrap_or(self);
         simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
         self.states_of(|i| dq[i], &dv)

@@ -50,7 +50,7 @@ impl ExcessiveDeflection {
     pub fn message(&self, model: &Model) -> String {
         let (limit, cone) = match &model.gears {
             Gears::Teeth(teeth) => (teeth.deflection_limit, teeth.mesh.cone),
-            Gears::Rigid(_) => (0.0, model.pair.mean_cone),
+            Gears::Ideal(_) => (0.0, model.pair.mean_cone),
         };
         format!(
             "tooth deflection exceeds {} between planet[{}] and the {} side gear: {:.3} mm along the line of action, \

@@ -17,8 +17,8 @@ pub struct ImposedSpeed {
 /// Effects of `model` that act on bodies.
 pub fn body_effects(model: &Model) -> &BodyEffects {
     match &model.gears {
-        Gears::Rigid(rigid) => &rigid.bodies,
-        Gears::Teeth(teeth) => &teeth.additions.bodies,
+        Gears::Ideal(ideal) => &ideal.body_effects,
+        Gears::Teeth(teeth) => &teeth.effect_terms.body_effects,
     }
 }
 
@@ -30,7 +30,7 @@ pub fn imposed_speeds<'a>(
 ) -> impl Iterator<Item = ImposedSpeed> + 'a {
     let (plan, layout, inertias) = (&model.ideal.plan, &model.layout, &model.ideal.inertia);
     let inertia = move |i: usize| match &model.gears {
-        Gears::Rigid(rigid) => rigid.inertia[i],
+        Gears::Ideal(ideal) => ideal.inertia[i],
         Gears::Teeth(teeth) => teeth.inertia[i],
     };
     let ends = (0..2).filter(|&s| plan.side_imposed[s]).map(move |s| ImposedSpeed {
@@ -66,7 +66,7 @@ pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
     for speed in imposed_speeds(model, inputs, &q) {
         state.v[speed.freedom] = speed.value;
     }
-    if let Gears::Rigid(_) = &model.gears {
+    if let Gears::Ideal(_) = &model.gears {
         model.ideal.constrain(&mut state.v);
     }
 }
@@ -74,7 +74,7 @@ pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
 /// Whether free speeds of gears without teeth must follow a jump of imposed ones from `before` to `inputs`.
 pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
     let [by_carrier, by_spin] = model.ideal.impulse();
-    matches!(&model.gears, Gears::Rigid(_))
+    matches!(&model.gears, Gears::Ideal(_))
         && (by_carrier != 0.0 && before.carrier_speed != inputs.carrier_speed
             || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
 }
@@ -104,17 +104,17 @@ pub fn jump(model: &Model, inputs: &Inputs, state: &mut State) {
         return;
     }
     let (q, before) = (state.q, state.v);
-    let rigid = matches!(&model.gears, Gears::Rigid(_));
+    let ideal = matches!(&model.gears, Gears::Ideal(_));
     let mut work = 0.0;
     for ImposedSpeed { freedom, value, inertia } in imposed_speeds(model, inputs, &q) {
         // gears without teeth move as one: the energy of their jump is counted below
-        if value != before[freedom] && (!rigid || freedom > PLANET) {
+        if value != before[freedom] && (!ideal || freedom > PLANET) {
             work += 0.5 * inertia * (value * value - before[freedom] * before[freedom]);
         }
         state.v[freedom] = value;
     }
     let changes = [CARRIER, PLANET].map(|i| state.v[i] - before[i]);
-    if rigid && changes != [0.0; 2] {
+    if ideal && changes != [0.0; 2] {
         add_impulse(model, changes, &mut state.v);
         model.ideal.constrain(&mut state.v);
         work += model.ideal.kinetic_energy(&state.v) - model.ideal.kinetic_energy(&before);

@@ -5,11 +5,11 @@ use super::failure::ExcessiveDeflection;
 use super::watching::watch_step;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
-use crate::model::assembly::rigid::MOST;
+use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::dynamics::bias::Bias;
 use crate::model::dynamics::cycle::Cycle;
-use crate::model::dynamics::power::{Power, add_to_ledger, simpson};
-use crate::model::dynamics::{Acted, Equations, RigidEquations, Watched};
+use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
+use crate::model::dynamics::{Acted, Equations, IdealEquations, Watched};
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 
@@ -28,7 +28,7 @@ pub struct Records<'a> {
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
-pub trait Recorded<const N: usize>: SecondOrder<N, Power = Power> + Acted<N> {
+pub trait Recorded<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
     /// Returns the tooth that is bent too far, if one is.
     fn admit(&self, at: &Point<N>) -> Result<(), ExcessiveDeflection>;
     /// Records a completed step, with what it was while pending; steps of fixed size and of a host's solver never were.
@@ -63,7 +63,7 @@ impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Recorded<N> for E
     }
 }
 
-impl Recorded<MOST> for RigidEquations<'_> {
+impl Recorded<MOST> for IdealEquations<'_> {
     fn admit(&self, _: &Point<MOST>) -> Result<(), ExcessiveDeflection> {
         Ok(())
     }
@@ -76,7 +76,7 @@ impl Recorded<MOST> for RigidEquations<'_> {
 impl<const N: usize, const G: usize, const WITH_EFFECTS: bool> Equations<'_, N, G, WITH_EFFECTS> {
     /// Elastic energy that pairs bring along or take away where they come and go abruptly, bent as they are [J].
     #[inline(never)]
-    fn energy_of_jumps(&self, step: &Step<N, Power>) -> f64 {
+    fn energy_of_jumps(&self, step: &Step<N, LedgerRates>) -> f64 {
         let between = |t: f64| Point {
             q: std::array::from_fn(|i| step.start.q[i] + t * (step.end.q[i] - step.start.q[i])),
             v: std::array::from_fn(|i| step.start.v[i] + t * (step.end.v[i] - step.start.v[i])),

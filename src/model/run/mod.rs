@@ -8,6 +8,7 @@ mod exchange;
 mod failure;
 mod hints;
 mod imposed;
+mod integration;
 mod ledger;
 mod progress;
 mod readings;
@@ -16,7 +17,6 @@ mod sensitivity;
 mod simulation;
 mod start;
 mod start_report;
-mod stretch;
 mod timeline;
 mod watching;
 

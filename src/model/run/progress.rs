@@ -5,7 +5,7 @@
 //! present, and the integration begins anew there.
 
 use super::events::{break_tooth, update_friction};
-use super::stretch::{self, Stretch};
+use super::integration::{self, Integration};
 use super::timeline::{self, Stop};
 use super::{StepFailure, imposed};
 use crate::model::assembly::{Gears, Model};
@@ -23,19 +23,19 @@ pub fn begin_anew(model: &Model, inputs: &Inputs, (state, watched): (&mut State,
 /// Completes the step ahead up to the present, under the inputs that acted in it. Switches of friction that are due at the
 /// present take place.
 pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
-    let Some(ahead) = &state.ahead else { return };
-    let (inputs, mut clock) = (ahead.inputs, ahead.clock);
+    let Some(pending_step) = &state.pending_step else { return };
+    let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
     clock.end = clock.now;
     let before = *state;
     state.input_derivatives = None;
-    let mut budget = stretch::budget(model);
+    let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
-    let stretch = Stretch { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
-    let outcome = stretch::integrate(model, state, stretch, &mut budget);
+    let integration = Integration { clock: &mut clock, begin, is_shown: true, inputs: &inputs, watched };
+    let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
         // what was shown holds; the ledger tells what it lacks
         *state = before;
-        state.ahead = None;
+        state.pending_step = None;
     }
     state.input_derivatives = before.input_derivatives;
     keep_together(model, state);
@@ -47,7 +47,7 @@ pub fn integrate(
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     until: f64,
 ) -> Result<(), StepFailure> {
-    let mut budget = stretch::budget(model);
+    let mut budget = integration::budget(model);
     while state.time() < until {
         let begin = state.time();
         let stop = timeline::next_stop(model, state, until);
@@ -76,7 +76,7 @@ fn to_end(
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let mut outcome = Ok(());
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
+        outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin), budget);
     }
     keep_together(model, state);
     arrive(state, stop, begin + clock.time, outcome)
@@ -94,14 +94,14 @@ fn go_on(
     let mut begin = state.time() - clock.now;
     clock.now = if stop.is_change { clock.end } else { clock.now + (stop.time - state.time()) };
     loop {
-        let outcome = one_stretch(model, inputs, (state, watched), (&mut clock, begin), budget);
+        let outcome = one_interval(model, inputs, (state, watched), (&mut clock, begin), budget);
         let mut reached = clock.time;
-        if let Some(ahead) = &state.ahead {
-            ahead.motion(model.layout.count(), [&mut state.q, &mut state.v]);
-            reached = clock.now.min(ahead.end());
+        if let Some(pending_step) = &state.pending_step {
+            pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
+            reached = clock.now.min(pending_step.end());
         }
         keep_together(model, state);
-        if outcome.is_err() || state.ahead.is_some() || clock.time >= clock.end {
+        if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             return arrive(state, stop, begin + reached, outcome);
         }
         begin += clock.set_back();
@@ -116,28 +116,28 @@ fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepF
     outcome.and_then(|()| timeline::arrive(state, stop.time, reached))
 }
 
-fn one_stretch(
+fn one_interval(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
     (clock, begin): (&mut Clock, f64),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let stretch = Stretch { clock, begin, is_shown: false, inputs, watched };
+    let integration = Integration { clock, begin, is_shown: false, inputs, watched };
     if let Some(teeth) = model.together.as_deref().filter(|teeth| state.is_together(teeth, &model.layout)) {
-        let outcome = stretch::integrate_teeth(teeth, model, state, stretch, budget);
+        let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);
         return outcome;
     }
-    stretch::integrate(model, state, stretch, budget)
+    integration::integrate(model, state, integration, budget)
 }
 
 /// Wraps positions unless a step leads on from them, and lets gears without teeth turn together to the last bit.
 pub fn keep_together(model: &Model, state: &mut State) {
-    if state.ahead.is_none() {
+    if state.pending_step.is_none() {
         state.wrap(&model.periods, &model.layout);
     }
-    if let Gears::Rigid(_) = &model.gears {
+    if let Gears::Ideal(_) = &model.gears {
         model.ideal.constrain(&mut state.v);
     }
 }

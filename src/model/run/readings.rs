@@ -6,7 +6,7 @@ use super::{Simulation, imposed};
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::model::assembly::{Gears, Inertias};
-use crate::model::dynamics::{Largest, RigidEquations, State, Watched};
+use crate::model::dynamics::{IdealEquations, Largest, State, Watched};
 use crate::model::effect_kinds::{Changes, Mode};
 use crate::model::outputs::forces::Forces;
 use crate::model::outputs::pairs::{PairLines, pair_lines};
@@ -26,7 +26,7 @@ impl Simulation {
 
     /// The simulation as its inputs have it: speeds follow commands that were set since the last step, and brakes their
     /// torques, where there are any. The step itself begins with the change, and records its work.
-    pub fn present(&self) -> Option<Self> {
+    pub fn with_inputs_applied(&self) -> Option<Self> {
         let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
         // with a solver of the host friction changes at events
         let may_brake = !self.is_model_exchange() && has_brakes(&self.model);
@@ -46,7 +46,7 @@ impl Simulation {
 
     /// Angles and speeds.
     pub fn motion(&self) -> Motion {
-        if let Some(present) = self.present() { present.motion_of_state() } else { self.motion_of_state() }
+        if let Some(present) = self.with_inputs_applied() { present.motion_of_state() } else { self.motion_of_state() }
     }
 
     pub(super) fn motion_of_state(&self) -> Motion {
@@ -89,8 +89,8 @@ impl Simulation {
 
     fn forces_with(&mut self, parts: bool) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| parts && !forces.has_parts) {
-            let mut shown = self.present();
-            if self.model.layout.ends() && self.state.ahead.is_some() {
+            let mut shown = self.with_inputs_applied();
+            if self.model.layout.ends() && self.state.pending_step.is_some() {
                 // means over mesh cycles count up to the present
                 shown.get_or_insert_with(|| self.clone()).state.bias = self.completed().0.bias;
             }
@@ -102,9 +102,9 @@ impl Simulation {
     pub(super) fn forces_of_state(&self, parts: bool) -> Forces {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         match &model.gears {
-            Gears::Rigid(rigid) if !rigid.bodies.act_in(state) => resultants::ideal_forces(model, inputs, state),
-            Gears::Rigid(rigid) => {
-                resultants::rigid_forces(model, &RigidEquations::new(rigid, inputs, state), inputs, state)
+            Gears::Ideal(ideal) if !ideal.body_effects.act_in(state) => resultants::ideal_forces(model, inputs, state),
+            Gears::Ideal(ideal) => {
+                resultants::ideal_forces_with_effects(model, &IdealEquations::new(ideal, inputs, state), inputs, state)
             }
             Gears::Teeth(teeth) => {
                 resultants::teeth_forces(model, &Largest::new(teeth, inputs, state), inputs, (state, parts))
@@ -114,7 +114,7 @@ impl Simulation {
 
     /// Loaded tooth pairs of planet 1 with the left side gear under the present inputs.
     pub fn pair_lines(&self) -> PairLines {
-        self.present().as_ref().unwrap_or(self).pair_lines_of_state()
+        self.with_inputs_applied().as_ref().unwrap_or(self).pair_lines_of_state()
     }
 
     pub(super) fn pair_lines_of_state(&self) -> PairLines {
@@ -231,10 +231,10 @@ impl Simulation {
     /// What a step costs at present; a lock or a broken tooth may change it.
     pub fn cost(&self) -> CostClass {
         match &self.model.gears {
-            Gears::Rigid(rigid) if !rigid.bodies.act_in(&self.state) => CostClass::ClosedForm,
-            Gears::Rigid(_) => CostClass::Rigid,
-            Gears::Teeth(teeth) if teeth.additions.in_detail || self.state.fault => CostClass::TeethInDetail,
-            Gears::Teeth(teeth) if teeth.additions.bodies.act_in(&self.state) => CostClass::TeethAndBodies,
+            Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state) => CostClass::ClosedForm,
+            Gears::Ideal(_) => CostClass::Ideal,
+            Gears::Teeth(teeth) if teeth.effect_terms.in_detail || self.state.fault => CostClass::TeethInDetail,
+            Gears::Teeth(teeth) if teeth.effect_terms.body_effects.act_in(&self.state) => CostClass::TeethAndBodies,
             Gears::Teeth(_) => CostClass::Teeth,
         }
     }
@@ -263,7 +263,7 @@ pub enum CostClass {
     /// No teeth and no effect on bodies: a step is a formula.
     ClosedForm,
     /// No teeth, but torques of effects: integrated, without fast motion.
-    Rigid,
+    Ideal,
     /// Teeth or springs that see no effect.
     Teeth,
     /// The same with effects on bodies.

@@ -68,7 +68,7 @@ impl Simulation {
             return None;
         }
         let Gears::Teeth(teeth) = &model.gears else { return None };
-        let friction = teeth.additions.detailed.friction.as_ref()?;
+        let friction = teeth.effect_terms.detailed.friction.as_ref()?;
         let mut found = None;
         let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
         for g in 0..model.ideal.plan.groups().len() {

@@ -233,7 +233,7 @@ impl Simulation {
                 _ => speed.value,
             };
         }
-        if let Gears::Rigid(_) = &self.model.gears {
+        if let Gears::Ideal(_) = &self.model.gears {
             if !self.is_model_exchange() {
                 add_impulse(&self.model, [v[CARRIER], v[PLANET]], v);
             }

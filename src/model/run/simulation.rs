@@ -51,7 +51,7 @@ impl Simulation {
         let mut preload = None;
         if parameters.scene.start == Start::Equilibrium {
             match &model.gears {
-                Gears::Rigid(rigid) => start::wind(model, &rigid.bodies.half_shafts, inputs, state),
+                Gears::Ideal(ideal) => start::wind(model, &ideal.body_effects.half_shafts, inputs, state),
                 Gears::Teeth(teeth) => {
                     let equations = Largest::new(teeth, inputs, state);
                     let pressed = start::preload(&equations, model, inputs, state);
@@ -130,7 +130,7 @@ impl Simulation {
         self.forces = None;
         let Self { model, state, watched, inputs, .. } = self;
         let model = &**model;
-        let holds = state.ahead.as_ref().is_some_and(|ahead| ahead.inputs == *inputs);
+        let holds = state.pending_step.as_ref().is_some_and(|pending_step| pending_step.inputs == *inputs);
         if holds && state.input_derivatives.is_none() {
             if timeline::move_within(model, state, until) {
                 progress::keep_together(model, state);
@@ -139,8 +139,8 @@ impl Simulation {
         } else {
             begin_anew(model, inputs, (state, watched));
         }
-        if let Gears::Rigid(rigid) = &model.gears
-            && !rigid.bodies.act_in(state)
+        if let Gears::Ideal(ideal) = &model.gears
+            && !ideal.body_effects.act_in(state)
         {
             let h = until - state.time();
             let (q, v, work) = (state.q, state.v, state.work);
@@ -157,17 +157,17 @@ impl Simulation {
         }
         let before = (*inputs, *state);
         // what nothing counts need not be kept
-        let kept = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
+        let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
         let mut outcome = progress::integrate(model, (inputs, state, watched), until);
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // a step that was to lead beyond what has been shown cannot be completed: from here another may
-            go_back((inputs, state, watched), &before, &kept);
+            go_back((inputs, state, watched), &before, &saved);
             begin_anew(model, inputs, (state, watched));
             outcome = progress::integrate(model, (inputs, state, watched), until);
         }
         if outcome.is_ok() && !state.is_sound() {
             outcome = Err(StepFailure::not_finite(state.time()));
-            go_back((inputs, state, watched), &before, &kept);
+            go_back((inputs, state, watched), &before, &saved);
         }
         outcome
     }
@@ -198,10 +198,10 @@ impl Simulation {
 fn go_back(
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     before: &(Inputs, State),
-    kept: &Option<Watched>,
+    saved: &Option<Watched>,
 ) {
     (*inputs, *state) = *before;
-    if let Some(kept) = kept {
-        *watched = *kept;
+    if let Some(saved) = saved {
+        *watched = *saved;
     }
 }

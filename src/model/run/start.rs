@@ -126,7 +126,8 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
             point.v[s] = speeds[CARRIER] - by_spin / own;
         }
         if plan.shafts[s] {
-            point.q[teeth.layout.end(s)] = teeth.additions.bodies.half_shafts.static_twist(s, carried.shaft[s]);
+            point.q[teeth.layout.end(s)] =
+                teeth.effect_terms.body_effects.half_shafts.static_twist(s, carried.shaft[s]);
         }
     }
     state.set_point(&point);

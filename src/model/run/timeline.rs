@@ -5,7 +5,7 @@
 //! of these. The time moves by as much as the integrator's clock has moved, or the call fails.
 
 use super::StepFailure;
-use super::stretch::STRETCH;
+use super::integration::LONGEST_INTERVAL;
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
@@ -26,7 +26,7 @@ pub struct Stop {
 
 /// Times that are closer than this cannot be told apart near `time` [s].
 fn resolution(time: f64) -> f64 {
-    ROUNDED * f64::EPSILON * time.abs().max(STRETCH)
+    ROUNDED * f64::EPSILON * time.abs().max(LONGEST_INTERVAL)
 }
 
 /// Time at which the equations change by themselves, if that is still to come [s]: a tooth breaks.
@@ -50,7 +50,7 @@ fn has_come(time: f64, state: &State) -> bool {
 
 /// The first stop on the way to `until` [s].
 pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
-    let time = if until - state.time() > 1.5 * STRETCH { state.time() + STRETCH } else { until };
+    let time = if until - state.time() > 1.5 * LONGEST_INTERVAL { state.time() + LONGEST_INTERVAL } else { until };
     match next_change(model, state) {
         // a communication point that rounding parts from the change is the change
         Some(change) if (change - time).abs() <= resolution(change) => Stop { time, is_change: true },
@@ -74,8 +74,8 @@ pub fn begin_holding(state: &mut State) {
 
 /// The clock of the step ahead, or a new one that starts now.
 pub fn clock(model: &Model, state: &State) -> Clock {
-    if let Some(ahead) = &state.ahead {
-        return ahead.clock;
+    if let Some(pending_step) = &state.pending_step {
+        return pending_step.clock;
     }
     let held = state.held - state.begun.map_or(0.0, |begun| state.time() - begun);
     let change = next_change(model, state).unwrap_or(f64::INFINITY);

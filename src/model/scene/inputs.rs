@@ -69,8 +69,8 @@ macro_rules! inputs {
             pub fn where_equal(&self, one: &Self, other: &Self) -> Self {
                 Self {
                     $($name: {
-                        let kept = one.$name.combine(other.$name, |a, b| f64::from(a == b));
-                        self.$name.combine(kept, |value, kept| value * kept)
+                        let same = one.$name.combine(other.$name, |a, b| f64::from(a == b));
+                        self.$name.combine(same, |value, same| value * same)
                     }),+
                 }
             }

@@ -2,7 +2,7 @@
 
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
-    Detailed, DetailedLoad, DetailedState, Face, Gaps, Opening, PairName, SliceLoad, Teeth,
+    Detailed, DetailedLoad, DetailedState, Face, Gaps, MeshTeeth, Opening, PairName, SliceLoad,
 };
 use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::pairs::{Engagement, Flank, Spot};
@@ -19,7 +19,7 @@ pub const STATES: usize = 2000;
 /// Deepest approach tried [rad]: 0.1 mm at R_m.
 pub const DEEPEST: f64 = 3e-3;
 
-pub const KINDS: [Kind; 5] = [Kind::Impact, Kind::Power, Kind::Line, Kind::LineWeber, Kind::Lumped];
+pub const KINDS: [Kind; 5] = [Kind::Impact, Kind::DampedImpact, Kind::Line, Kind::LineWeber, Kind::Lumped];
 
 pub const NAMES: (usize, usize) = (1, 0);
 
@@ -64,9 +64,9 @@ impl Both {
         &self.plain.engagement
     }
 
-    pub fn teeth<'a>(&'a self, gaps: Option<&'a dyn Gaps>) -> Teeth<'a> {
+    pub fn teeth<'a>(&'a self, gaps: Option<&'a dyn Gaps>) -> MeshTeeth<'a> {
         let (planet, side) = NAMES;
-        Teeth { engagement: self.engagement(), gaps, planet, side }
+        MeshTeeth { engagement: self.engagement(), gaps, planet, side }
     }
 
     pub fn load(&self, gaps: Option<&dyn Gaps>, state: &DetailedState) -> DetailedLoad<f64> {

@@ -19,7 +19,7 @@ pub fn impact_meshes(damping: f64, corner_contact: bool) -> Vec<(Mesh, Pair)> {
 }
 
 /// Laws besides IMPACT.
-pub const OTHERS: [Kind; 4] = [Kind::Power, Kind::Line, Kind::LineWeber, Kind::Lumped];
+pub const OTHERS: [Kind; 4] = [Kind::DampedImpact, Kind::Line, Kind::LineWeber, Kind::Lumped];
 
 pub fn at(position: [f64; 2]) -> MeshState {
     MeshState { position, ..MeshState::default() }

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use super::setup::{Gears, Kind, STEEL, UNDAMPED};
 
-/// Teeth and bores [m] of planet and side gear: few and many, thin shafts and thick ones.
+/// MeshTeeth and bores [m] of planet and side gear: few and many, thin shafts and thick ones.
 const SETS: [([i32; 2], [f64; 2]); 8] = [
     ([10, 16], [0.0, 0.0]),
     ([40, 40], [0.0, 0.0]),

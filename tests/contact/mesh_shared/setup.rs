@@ -3,10 +3,10 @@
 use bevel_differential::contact::bodies::{MeshOnBodies, SharedBodies, Support};
 use bevel_differential::contact::damping::Damping;
 use bevel_differential::contact::detailed::{
-    Detailed, DetailedState, Face as CutFace, Gaps, Opening, PairName, SharedTeeth, Slice, Teeth,
+    Detailed, DetailedState, Face as CutFace, Gaps, MeshTeeth, Opening, PairName, SharedTeeth, Slice,
 };
 use bevel_differential::contact::gaps::FlankGaps;
-use bevel_differential::contact::law::Face;
+use bevel_differential::contact::law::FaceLaw;
 use bevel_differential::contact::laws::AnySpring;
 use bevel_differential::contact::mesh::{Law, Mesh, MeshState};
 use bevel_differential::contact::pairs::{Engagement, Flank};
@@ -25,7 +25,7 @@ pub const RESTITUTION: Damping = Damping::HuntCrossley { lambda: 3.6 };
 /// Line load of Hertz's part at the mean cone distance [N/m].
 pub const LINE_LOAD: f64 = 4e5;
 
-/// Teeth of planet and side gear, bores [m], backlash [m].
+/// MeshTeeth of planet and side gear, bores [m], backlash [m].
 pub const GEARS: [([i32; 2], [f64; 2], f64); 4] = [
     ([10, 16], [0.016, 0.03], 1e-4),
     ([9, 14], [0.01, 0.02], 0.0),
@@ -87,7 +87,7 @@ impl Gears {
                 let specific = stiffness.line();
                 let spring = AnySpring::Line(specific.clone());
                 (
-                    Law::Line(Face { specific, moment, per_cone: 1.0 / cone, damping }),
+                    Law::Line(FaceLaw { specific, moment, per_cone: 1.0 / cone, damping }),
                     spring,
                     CutFace::cut(inner, outer),
                 )
@@ -95,7 +95,7 @@ impl Gears {
             Kind::LineWeber => {
                 let specific = stiffness.line_weber();
                 let spring = AnySpring::LineWeber(specific.clone());
-                let law = Law::LineWeber(Face { specific, moment, per_cone: 1.0 / cone, damping });
+                let law = Law::LineWeber(FaceLaw { specific, moment, per_cone: 1.0 / cone, damping });
                 (law, spring, CutFace::sliced(inner, outer))
             }
         };
@@ -133,7 +133,7 @@ impl Gears {
 
     /// Calls `act` with the teeth of both meshes.
     pub fn shared<R>(&self, gaps: Option<&dyn Gaps>, act: impl FnOnce(&SharedTeeth) -> R) -> R {
-        let teeth = [0, 1].map(|side| Teeth { engagement: &self.mesh.engagement, gaps, planet: 0, side });
+        let teeth = [0, 1].map(|side| MeshTeeth { engagement: &self.mesh.engagement, gaps, planet: 0, side });
         act(&SharedTeeth { teeth, bodies: &self.bodies, numbers: &|name| self.teeth.unrolled(&name)[0] })
     }
 

@@ -17,7 +17,7 @@ use crate::text::{numbers, shown};
 fn meaning(cost: CostClass) -> &'static str {
     match cost {
         CostClass::ClosedForm => "closed form: no teeth, a step is a formula, whatever its length",
-        CostClass::Rigid => "effects without teeth: integrated, with no motion faster than the effects' own",
+        CostClass::Ideal => "effects without teeth: integrated, with no motion faster than the effects' own",
         CostClass::Teeth => "plain teeth: stiff, integrated step by step; nothing is evaluated but the tooth pairs",
         CostClass::TeethAndBodies => "teeth and effects on bodies: plain teeth and torques on bodies",
         CostClass::TeethInDetail => "teeth in detail: errors, friction or pins, evaluated slice by slice of the face",

@@ -1,13 +1,13 @@
 //! What is kept from earlier starts changes nothing but the time that a start takes.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{GearContact, Given, Inputs, Kept, Parameters, PlanetSpin, Simulation};
+use bevel_differential::model::{GearCache, GearContact, Given, Inputs, Parameters, PlanetSpin, Simulation};
 use bevel_differential::variables::{Access, Variable, check_ranges, table};
 
 /// State and forces after the start and some steps, or the problems; as text, which tells all bits of numbers.
-fn outcome(p: &Parameters, kept: Option<&Kept>) -> String {
+fn outcome(p: &Parameters, cache: Option<&GearCache>) -> String {
     let inputs = Inputs { carrier_speed: 20.0, planet_spin: 3.0, ..Inputs::default() };
-    let mut simulation = match Simulation::start_with(p, &inputs, 0.0, &Given { kept, ..Given::default() }) {
+    let mut simulation = match Simulation::start_with(p, &inputs, 0.0, &Given { cache, ..Given::default() }) {
         Ok(simulation) => simulation,
         Err(problems) => return format!("{problems:?}"),
     };
@@ -68,13 +68,13 @@ fn changed(p: &Parameters, row: &Variable) -> Vec<Parameters> {
 #[test]
 fn every_parameter_acts_at_once_whatever_is_kept() {
     for base in scenes() {
-        let (kept, unchanged) = (Kept::default(), outcome(&base, None));
+        let (cache, unchanged) = (GearCache::default(), outcome(&base, None));
         let mut acting = Vec::new();
         for row in &table().rows {
             for p in changed(&base, row) {
                 let expected = outcome(&p, None);
-                assert_eq!(outcome(&p, Some(&kept)), expected, "{}", row.name);
-                assert_eq!(outcome(&base, Some(&kept)), unchanged, "after {}", row.name);
+                assert_eq!(outcome(&p, Some(&cache)), expected, "{}", row.name);
+                assert_eq!(outcome(&base, Some(&cache)), unchanged, "after {}", row.name);
                 if expected != unchanged {
                     acting.push(row.name);
                 }
@@ -107,14 +107,14 @@ fn threads_that_share_have_the_bits_of_those_that_do_not() {
         })
         .collect();
     let expected: Vec<String> = scenes.iter().map(|p| outcome(p, None)).collect();
-    let kept = Kept::default();
+    let cache = GearCache::default();
     std::thread::scope(|scope| {
         for thread in 0..8 {
-            let (scenes, expected, kept) = (&scenes, &expected, &kept);
+            let (scenes, expected, cache) = (&scenes, &expected, &cache);
             scope.spawn(move || {
                 for i in 0..2 * scenes.len() {
                     let i = (i + 5 * thread) % scenes.len();
-                    assert!(outcome(&scenes[i], Some(kept)) == expected[i], "{i}");
+                    assert!(outcome(&scenes[i], Some(cache)) == expected[i], "{i}");
                 }
             });
         }

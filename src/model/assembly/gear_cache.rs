@@ -6,7 +6,7 @@
 use std::ops::Deref;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use super::shelf::Shelf;
+use super::cache::Cache;
 use super::solid;
 use crate::contact::bodies::{MeshOnBodies, SharedBodies, Support};
 use crate::contact::errors::ToothErrorSpec;
@@ -41,17 +41,17 @@ pub struct OnBodies {
 
 /// What is kept.
 #[derive(Debug, Default)]
-pub struct Kept {
-    pairs: Shelf<Arc<CheckedPair>>,
-    masses: Shelf<[GearMass; 2]>,
-    engagements: Shelf<Engagement>,
-    stiffness: Shelf<Result<Arc<PairStiffness>, Problem>>,
-    bodies: Shelf<Result<Arc<OnBodies>, Problem>>,
-    means: Shelf<Result<f64, Problem>>,
-    solids: Shelf<SolidMesh>,
+pub struct GearCache {
+    pairs: Cache<Arc<CheckedPair>>,
+    masses: Cache<[GearMass; 2]>,
+    engagements: Cache<Engagement>,
+    stiffness: Cache<Result<Arc<PairStiffness>, Problem>>,
+    bodies: Cache<Result<Arc<OnBodies>, Problem>>,
+    means: Cache<Result<f64, Problem>>,
+    solids: Cache<SolidMesh>,
 }
 
-impl Kept {
+impl GearCache {
     /// The pair of `spec`, whose pitch angles must be below 90°.
     pub fn pair(&self, spec: &GearSpec) -> Arc<CheckedPair> {
         self.pairs.get(spec, || {
@@ -128,10 +128,10 @@ fn elasticity(p: &Parameters) -> [f64; 3] {
 /// What is kept in common, and how many share in it.
 struct Common {
     shares: usize,
-    kept: Option<Arc<Kept>>,
+    cache: Option<Arc<GearCache>>,
 }
 
-static COMMON: Mutex<Common> = Mutex::new(Common { shares: 0, kept: None });
+static COMMON: Mutex<Common> = Mutex::new(Common { shares: 0, cache: None });
 
 fn common() -> MutexGuard<'static, Common> {
     COMMON.lock().unwrap_or_else(PoisonError::into_inner)
@@ -139,7 +139,7 @@ fn common() -> MutexGuard<'static, Common> {
 
 /// A share in what is kept in common; it is released with the last share.
 #[derive(Debug)]
-pub struct Share(Arc<Kept>);
+pub struct Share(Arc<GearCache>);
 
 impl Share {
     /// A share.
@@ -147,14 +147,14 @@ impl Share {
     pub fn new() -> Self {
         let mut common = common();
         common.shares += 1;
-        Self(common.kept.get_or_insert_default().clone())
+        Self(common.cache.get_or_insert_default().clone())
     }
 }
 
 impl Deref for Share {
-    type Target = Kept;
+    type Target = GearCache;
 
-    fn deref(&self) -> &Kept {
+    fn deref(&self) -> &GearCache {
         &self.0
     }
 }
@@ -164,7 +164,7 @@ impl Drop for Share {
         let mut common = common();
         common.shares -= 1;
         if common.shares == 0 {
-            common.kept = None;
+            common.cache = None;
         }
     }
 }
@@ -175,14 +175,14 @@ mod tests {
 
     #[test]
     fn what_a_parameter_does_not_change_is_the_same_thing() {
-        let (kept, p) = (Kept::default(), Parameters::default());
-        let pair = kept.pair(&p.gears());
-        let stiffness = |p: &Parameters, pair: &Pair| kept.stiffness(p, pair).expect("a stiffness");
+        let (cache, p) = (GearCache::default(), Parameters::default());
+        let pair = cache.pair(&p.gears());
+        let stiffness = |p: &Parameters, pair: &Pair| cache.stiffness(p, pair).expect("a stiffness");
         let here = stiffness(&p, &pair.pair);
         let mut other = p;
         (other.material.density, other.contact.damping, other.geometry.planet_count) = (8000.0, 1.0, 4);
-        assert!(Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
-        assert!(Arc::ptr_eq(&pair, &kept.pair(&p.gears())));
+        assert!(Arc::ptr_eq(&here, &stiffness(&other, &cache.pair(&other.gears()).pair)));
+        assert!(Arc::ptr_eq(&pair, &cache.pair(&p.gears())));
         let changes: [fn(&mut Parameters); 6] = [
             |p| p.geometry.module *= 1.001,
             |p| p.geometry.root_fillet *= 1.001,
@@ -194,18 +194,18 @@ mod tests {
         for change in changes {
             let mut other = p;
             change(&mut other);
-            assert!(!Arc::ptr_eq(&here, &stiffness(&other, &kept.pair(&other.gears()).pair)));
+            assert!(!Arc::ptr_eq(&here, &stiffness(&other, &cache.pair(&other.gears()).pair)));
         }
     }
 
     #[test]
     fn solid_teeth_kept_take_the_law_that_is_asked_for() {
-        let (kept, p) = (Kept::default(), Parameters::default());
+        let (cache, p) = (GearCache::default(), Parameters::default());
         let pair = Pair::new(&p.gears());
         let mesh = |stiffness: f64, coefficient: f64| {
             let elastic = Impact { stiffness, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
             let damping = Damping::Step { coefficient, per_full_depth: 1e4 };
-            let mesh = kept.solid(&pair, (&p.geometry, &p.solid, &solid::errors(&p)), elastic, damping);
+            let mesh = cache.solid(&pair, (&p.geometry, &p.solid, &solid::errors(&p)), elastic, damping);
             (mesh.elastic.stiffness, mesh.damping)
         };
         let damping = |coefficient: f64| Damping::Step { coefficient, per_full_depth: 1e4 };

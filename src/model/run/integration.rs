@@ -6,11 +6,11 @@ use crate::contact::Law;
 use crate::integrate::{
     self, AfterStep, Compared, Course, Failure, Pending, Rodas5P, SecondOrder, SolverContext, Step,
 };
-use crate::model::assembly::rigid::MOST;
+use crate::model::assembly::ideal_with_effects::MOST;
 use crate::model::assembly::{Gears, Model, Teeth};
-use crate::model::dynamics::power::Power;
+use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::sizes::{DIFFERENT, EXACT, LEAST};
-use crate::model::dynamics::{Clock, Equations, LARGEST, RigidEquations, State, Watched};
+use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State, Watched};
 use crate::model::scene::{FRICTION_BODIES, Inputs, MAX_GROUPS, Method};
 
 /// Attempts at steps of plain teeth granted to one call: bounds the time that a host can be kept waiting to some seconds.
@@ -28,11 +28,11 @@ const PLAIN: usize = 16;
 const RADAU_IN_STEPS: usize = 8;
 
 /// Longest stretch integrated before positions are wrapped and the clock is set back [s].
-pub const STRETCH: f64 = 1.0;
+pub const LONGEST_INTERVAL: f64 = 1.0;
 /// Longest step [s].
-const LONGEST: f64 = STRETCH;
+const LONGEST: f64 = LONGEST_INTERVAL;
 /// What a double can resolve of times up to the length of a stretch [s].
-const RESOLUTION: f64 = 4.0 * f64::EPSILON * STRETCH;
+const RESOLUTION: f64 = 4.0 * f64::EPSILON * LONGEST_INTERVAL;
 
 /// Attempts at steps granted to one call: the fewer, the more each costs.
 pub fn budget(model: &Model) -> u64 {
@@ -43,12 +43,12 @@ pub fn budget(model: &Model) -> u64 {
             solid.section_count() * (SOLID_PER_FACET * model.parameters.solid.facets as usize).max(LEAST_SOLID)
         }
         _ => {
-            let in_detail = if teeth.additions.in_detail { teeth.additions.detailed.face.points() } else { 0 };
+            let in_detail = if teeth.effect_terms.in_detail { teeth.effect_terms.detailed.face.points() } else { 0 };
             let on_bodies = if teeth.shared.is_some() { ON_BODIES } else { 0 };
             ((in_detail + on_bodies) * teeth.layout.groups).max(1)
         }
     };
-    let effects = if teeth.additions.bodies.always { EFFECTS } else { 0 };
+    let effects = if teeth.effect_terms.body_effects.always { EFFECTS } else { 0 };
     // matrices of few rows cost by their number of entries, and an implicit step that iterates some steps that do not
     let freedoms = teeth.layout.count();
     let steps = if model.parameters.solver.method == Method::Radau { RADAU_IN_STEPS } else { 1 };
@@ -56,7 +56,7 @@ pub fn budget(model: &Model) -> u64 {
 }
 
 /// What to integrate.
-pub struct Stretch<'a> {
+pub struct Integration<'a> {
     /// The integrator's clock.
     pub clock: &'a mut Clock,
     /// Time at which it shows zero [s].
@@ -71,13 +71,18 @@ pub struct Stretch<'a> {
 
 /// Integrates the motion of `state` until the step ahead contains the clock's `now`, the equations end, or the clock is to
 /// be set back.
-pub fn integrate(model: &Model, state: &mut State, stretch: Stretch, budget: &mut u64) -> Result<(), StepFailure> {
+pub fn integrate(
+    model: &Model,
+    state: &mut State,
+    integration: Integration,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
     match &model.gears {
-        Gears::Rigid(rigid) => {
-            let equations: &mut dyn Recorded<MOST> = &mut RigidEquations::new(rigid, stretch.inputs, state);
-            integrate_stretch::<MOST, true, _>(equations, model, state, stretch, budget)
+        Gears::Ideal(ideal) => {
+            let equations: &mut dyn Recorded<MOST> = &mut IdealEquations::new(ideal, integration.inputs, state);
+            integrate_equations::<MOST, true, _>(equations, model, state, integration, budget)
         }
-        Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, stretch, budget),
+        Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
 }
 
@@ -86,26 +91,26 @@ pub fn integrate_teeth(
     teeth: &Teeth,
     model: &Model,
     state: &mut State,
-    stretch: Stretch,
+    integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let method = model.parameters.solver.method;
-    if method == Method::Adaptive && !teeth.additions.bodies.act_in(state) {
+    if method == Method::Adaptive && !teeth.effect_terms.body_effects.act_in(state) {
         return match teeth.layout.groups {
-            1 => whole::<LEAST, 1, false>(teeth, model, state, stretch, budget),
-            2 => whole::<DIFFERENT, 2, false>(teeth, model, state, stretch, budget),
-            _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, stretch, budget),
+            1 => whole::<LEAST, 1, false>(teeth, model, state, integration, budget),
+            2 => whole::<DIFFERENT, 2, false>(teeth, model, state, integration, budget),
+            _ => whole::<7, MAX_GROUPS, false>(teeth, model, state, integration, budget),
         };
     }
     let is_default = method == Method::Adaptive;
     match (teeth.layout.groups, teeth.layout.plain()) {
         (1, Some(false)) if is_default || method == Method::FixedStep => {
-            whole::<LEAST, 1, true>(teeth, model, state, stretch, budget)
+            whole::<LEAST, 1, true>(teeth, model, state, integration, budget)
         }
-        (2, Some(false)) if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, stretch, budget),
-        (1, Some(true)) if is_default => whole::<EXACT, 1, true>(teeth, model, state, stretch, budget),
-        _ if teeth.layout.count() <= MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, stretch, budget),
-        _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, stretch, budget),
+        (2, Some(false)) if is_default => whole::<DIFFERENT, 2, true>(teeth, model, state, integration, budget),
+        (1, Some(true)) if is_default => whole::<EXACT, 1, true>(teeth, model, state, integration, budget),
+        _ if teeth.layout.count() <= MOST => by_table::<MOST, MAX_GROUPS>(teeth, model, state, integration, budget),
+        _ => by_table::<LARGEST, MAX_GROUPS>(teeth, model, state, integration, budget),
     }
 }
 
@@ -115,11 +120,11 @@ fn whole<const N: usize, const G: usize, const WITH_EFFECTS: bool>(
     teeth: &Teeth,
     model: &Model,
     state: &mut State,
-    stretch: Stretch,
+    integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let equations = &mut Equations::<N, G, WITH_EFFECTS>::new(teeth, stretch.inputs, state);
-    integrate_stretch::<N, WITH_EFFECTS, _>(equations, model, state, stretch, budget)
+    let equations = &mut Equations::<N, G, WITH_EFFECTS>::new(teeth, integration.inputs, state);
+    integrate_equations::<N, WITH_EFFECTS, _>(equations, model, state, integration, budget)
 }
 
 /// Teeth with any effects on more: the integration calls their forces through a table of functions.
@@ -128,36 +133,36 @@ fn by_table<const N: usize, const G: usize>(
     teeth: &Teeth,
     model: &Model,
     state: &mut State,
-    stretch: Stretch,
+    integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn Recorded<N> = &mut Equations::<N, G, true>::new(teeth, stretch.inputs, state);
-    integrate_stretch::<N, true, _>(equations, model, state, stretch, budget)
+    let equations: &mut dyn Recorded<N> = &mut Equations::<N, G, true>::new(teeth, integration.inputs, state);
+    integrate_equations::<N, true, _>(equations, model, state, integration, budget)
 }
 
 /// By any method, or by the default one alone. Those that are there to compare with are not compiled in small sizes, and steps of
 /// fixed size in the least of them alone: [`integrate_teeth`] knows.
-fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
+fn integrate_equations<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?Sized>(
     equations: &mut E,
     model: &Model,
     state: &mut State,
-    stretch: Stretch,
+    integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Stretch { clock, begin, is_shown, inputs, watched } = stretch;
+    let Integration { clock, begin, is_shown, inputs, watched } = integration;
     let mut course = Course {
         longest: LONGEST,
         resolution: RESOLUTION,
         expected: clock.expected,
         ..Course::new(state.point(), clock.time, clock.end)
     };
-    if let Some(ahead) = &state.ahead {
-        ahead.resume(&mut course);
+    if let Some(pending_step) = &state.pending_step {
+        pending_step.resume(&mut course);
         course.end_at(clock.end);
     }
     // where the end is near the clock need not be set back
-    let longest = if clock.now < clock.end { STRETCH } else { f64::INFINITY };
+    let longest = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
     let mut anchors = equations.acting().anchors();
@@ -165,7 +170,7 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
         switched = false;
         let State { control, statistics, work, heat, bias, .. } = state;
         let mut records = Records { begin, work, heat, bias, watched: &mut *watched };
-        let mut observe = |step: Step<N, Power>, pending: Option<&Pending<N, Power>>| {
+        let mut observe = |step: Step<N, LedgerRates>, pending: Option<&Pending<N, LedgerRates>>| {
             if !is_shown {
                 equations.admit(step.end)?;
             }
@@ -179,7 +184,7 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
         outcome = match solver.method {
             Method::FixedStep if ANY_METHOD && (N == LEAST || N > EXACT) => {
                 let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
-                let observe = |step: Step<N, Power>| observe(step, None);
+                let observe = |step: Step<N, LedgerRates>| observe(step, None);
                 integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
             }
             other => match other_than_default(other) {
@@ -203,9 +208,9 @@ fn integrate_stretch<const N: usize, const ANY_METHOD: bool, E: Recorded<N> + ?S
     clock.time = course.time;
     match &course.pending {
         Some(pending) if outcome.is_ok() => {
-            state.ahead.get_or_insert_default().set(pending, *clock, inputs);
+            state.pending_step.get_or_insert_default().set(pending, *clock, inputs);
         }
-        _ => state.ahead = None,
+        _ => state.pending_step = None,
     }
     outcome.map_err(|failure| explain(failure, begin + clock.time, model))
 }
@@ -222,14 +227,14 @@ fn other_than_default(method: Method) -> Option<Compared> {
 
 /// What looks at completed steps, each with what it was while pending.
 type Observer<'a, const N: usize> =
-    &'a mut dyn FnMut(Step<N, Power>, Option<&Pending<N, Power>>) -> Result<AfterStep, ExcessiveDeflection>;
+    &'a mut dyn FnMut(Step<N, LedgerRates>, Option<&Pending<N, LedgerRates>>) -> Result<AfterStep, ExcessiveDeflection>;
 
 /// Integrates by another method of variable steps than the default.
 #[inline(never)]
 fn compared<const N: usize>(
     method: &Compared,
-    system: &(impl SecondOrder<N, Power = Power> + ?Sized),
-    course: &mut Course<N, Power>,
+    system: &(impl SecondOrder<N, Rates = LedgerRates> + ?Sized),
+    course: &mut Course<N, LedgerRates>,
     until: f64,
     context: SolverContext,
     observe: Observer<N>,

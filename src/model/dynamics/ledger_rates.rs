@@ -8,7 +8,7 @@ use crate::model::setup::{CONTACT_HEAT, HEATS};
 
 /// Rates of the ledger.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Power {
+pub struct LedgerRates {
     /// Net power of all inputs into the system [W].
     pub input: f64,
     /// Power turned into heat by cause [W].
@@ -24,7 +24,7 @@ pub struct Power {
 /// Part of the kinetic energy that rounding may take from the balance of a step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
-impl Power {
+impl LedgerRates {
     /// Halfway between two.
     pub fn mean(&self, other: &Self) -> Self {
         let mean = |a: f64, b: f64| 0.5 * (a + b);
@@ -59,14 +59,14 @@ impl Power {
 
 /// Simpson's rule on begin, middle and end of a step.
 #[inline]
-pub fn simpson<const N: usize>(step: &Step<N, Power>, of: impl Fn(&Power) -> f64) -> f64 {
+pub fn simpson<const N: usize>(step: &Step<N, LedgerRates>, of: impl Fn(&LedgerRates) -> f64) -> f64 {
     let [a, m, b] = &step.power;
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 
 /// Adds work and heat of a step to the ledger; heat other than that of contact only where effects act.
 #[inline]
-pub fn add_to_ledger<const N: usize>(step: &Step<N, Power>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
+pub fn add_to_ledger<const N: usize>(step: &Step<N, LedgerRates>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
     *work += simpson(step, |p| p.input);
     for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {
         heat[i] += simpson(step, |p| p.heat[i]);

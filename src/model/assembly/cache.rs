@@ -1,6 +1,6 @@
 //! Values kept for the next time they are asked for, by the exact bits of what they follow from.
 //!
-//! A shelf has few places; the value that was not asked for the longest makes way. Several threads may share it: one makes
+//! A cache has few places; the value that was not asked for the longest makes way. Several threads may share it: one makes
 //! a value, the others wait for it.
 
 use std::fmt;
@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use serde::Serialize;
 
-/// Places of a shelf.
+/// Places of a cache.
 pub const PLACES: usize = 16;
 /// Bytes that most origins fit in.
 const USUAL: usize = 1024;
@@ -19,24 +19,24 @@ struct Place<V> {
     value: Arc<OnceLock<V>>,
 }
 
-/// A shelf of values, the last asked for first.
-pub struct Shelf<V> {
+/// A cache of values, the last asked for first.
+pub struct Cache<V> {
     places: Mutex<Vec<Place<V>>>,
 }
 
-impl<V> Default for Shelf<V> {
+impl<V> Default for Cache<V> {
     fn default() -> Self {
         Self { places: Mutex::default() }
     }
 }
 
-impl<V> fmt::Debug for Shelf<V> {
+impl<V> fmt::Debug for Cache<V> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_struct("Shelf").field("filled", &self.places().len()).finish()
+        f.debug_struct("Cache").field("filled", &self.places().len()).finish()
     }
 }
 
-impl<V> Shelf<V> {
+impl<V> Cache<V> {
     /// The places; whoever panicked while holding them left them whole.
     fn places(&self) -> MutexGuard<'_, Vec<Place<V>>> {
         self.places.lock().unwrap_or_else(PoisonError::into_inner)
@@ -55,8 +55,8 @@ impl<V> Shelf<V> {
     }
 }
 
-impl<V: Clone> Shelf<V> {
-    /// What follows from `origin`: `make` makes it where it is not on the shelf.
+impl<V: Clone> Cache<V> {
+    /// What follows from `origin`: `make` makes it where it is not on the cache.
     pub fn get(&self, origin: &impl Serialize, make: impl FnOnce() -> V) -> V {
         match postcard::to_extend(origin, Vec::with_capacity(USUAL)) {
             Ok(origin) => self.place(origin).get_or_init(make).clone(),
@@ -76,9 +76,9 @@ mod tests {
 
     #[test]
     fn a_value_is_made_once_for_the_same_bits_and_anew_for_others() {
-        let (shelf, made) = (Shelf::default(), Cell::new(0));
+        let (cache, made) = (Cache::default(), Cell::new(0));
         let get = |x: f64, n: i32| {
-            shelf.get(&(x, n), || {
+            cache.get(&(x, n), || {
                 made.set(made.get() + 1);
                 made.get()
             })
@@ -91,10 +91,10 @@ mod tests {
 
     #[test]
     fn the_value_not_asked_for_the_longest_makes_way() {
-        let (shelf, value) = (Shelf::default(), Arc::new(()));
+        let (cache, value) = (Cache::default(), Arc::new(()));
         let get = |n: usize| {
             let made = Cell::new(false);
-            shelf.get(&n, || {
+            cache.get(&n, || {
                 made.set(true);
                 value.clone()
             });
@@ -105,19 +105,19 @@ mod tests {
         // asked for again, 0 stays, and 1 goes
         assert!(!get(0) && get(PLACES) && !get(0) && get(1));
         assert!((100..1000).all(get));
-        assert_eq!((shelf.places().len(), Arc::strong_count(&value)), (PLACES, PLACES + 1));
-        drop(shelf);
+        assert_eq!((cache.places().len(), Arc::strong_count(&value)), (PLACES, PLACES + 1));
+        drop(cache);
         assert_eq!(Arc::strong_count(&value), 1);
     }
 
     #[test]
     fn threads_share_one_value() {
-        let (shelf, made, begin) = (Shelf::default(), AtomicUsize::new(0), Barrier::new(8));
+        let (cache, made, begin) = (Cache::default(), AtomicUsize::new(0), Barrier::new(8));
         let value = || Arc::new(made.fetch_add(1, Ordering::Relaxed));
         std::thread::scope(|scope| {
             let run = || {
                 begin.wait();
-                (0..100).map(|n| shelf.get(&(n % 10), value)).collect::<Vec<_>>()
+                (0..100).map(|n| cache.get(&(n % 10), value)).collect::<Vec<_>>()
             };
             let threads: Vec<_> = (0..8).map(|_| scope.spawn(run)).collect();
             let seen: Vec<_> = threads.into_iter().map(|thread| thread.join().unwrap()).collect();
@@ -127,14 +127,14 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_leaves_the_shelf_usable() {
-        let shelf = Shelf::default();
-        assert!(catch_unwind(AssertUnwindSafe(|| shelf.get(&1, || panic!("no value")))).is_err());
+    fn a_panic_leaves_the_cache_usable() {
+        let cache = Cache::default();
+        assert!(catch_unwind(AssertUnwindSafe(|| cache.get(&1, || panic!("no value")))).is_err());
         let poisoned = catch_unwind(AssertUnwindSafe(|| {
-            let _held = shelf.places();
+            let _held = cache.places();
             panic!("with the places in hand");
         }));
-        assert!(poisoned.is_err() && shelf.places.is_poisoned());
-        assert_eq!([shelf.get(&1, || 5), shelf.get(&1, || 6)], [5, 5]);
+        assert!(poisoned.is_err() && cache.places.is_poisoned());
+        assert_eq!([cache.get(&1, || 5), cache.get(&1, || 6)], [5, 5]);
     }
 }

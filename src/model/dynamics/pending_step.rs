@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Clock;
-use super::power::Power;
+use super::ledger_rates::LedgerRates;
 use crate::integrate::{Attempt, Course, Extension, Pending, Point, bent};
 use crate::model::scene::{Inputs, MAX_DOF};
 
@@ -12,7 +12,7 @@ type Motion = [[f64; MAX_DOF]; 2];
 
 /// A step that is not completed at the present time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Ahead {
+pub struct PendingStep {
     /// Inputs that act in it.
     pub inputs: Inputs,
     /// Its begin, the present, and the end of the equations.
@@ -21,13 +21,13 @@ pub struct Ahead {
     start: Motion,
     end: Motion,
     bends: [Motion; 3],
-    power: [Power; 2],
+    power: [LedgerRates; 2],
     energy: [f64; 2],
 }
 
-impl Ahead {
+impl PendingStep {
     /// Becomes the step `pending`.
-    pub fn set<const N: usize>(&mut self, pending: &Pending<N, Power>, clock: Clock, inputs: &Inputs) {
+    pub fn set<const N: usize>(&mut self, pending: &Pending<N, LedgerRates>, clock: Clock, inputs: &Inputs) {
         let Extension { start, end, bends } = &pending.extension;
         (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
         (self.power, self.energy) = (pending.power, pending.energy);
@@ -39,7 +39,7 @@ impl Ahead {
     }
 
     /// The course of the integration, as far as this step tells it.
-    pub fn resume<const N: usize>(&self, course: &mut Course<N, Power>) {
+    pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
         let extension = Extension { start, end, bends: [0, 1, 2].map(|k| restored(&self.bends[k])) };
         let (attempt, power, energy) = (self.attempt, self.power, self.energy);
@@ -82,7 +82,7 @@ impl Ahead {
         let Attempt { h, error, .. } = self.attempt;
         let motions = [&self.start, &self.end, &self.bends[0], &self.bends[1], &self.bends[2]];
         motions.into_iter().flatten().flatten().chain(&self.energy).all(|x| x.is_finite())
-            && self.power.iter().all(Power::is_finite)
+            && self.power.iter().all(LedgerRates::is_finite)
             && self.inputs.is_finite()
             && self.clock.is_valid()
             && error.is_finite()

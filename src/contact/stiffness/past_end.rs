@@ -31,7 +31,7 @@ pub struct CornerPart {
 
 /// Continuation past an end.
 #[derive(Clone, Debug)]
-pub struct Beyond {
+pub struct PastEnd {
     corner: Option<CornerTable>,
     length: f64,
     level: Level,
@@ -160,7 +160,7 @@ fn eighth_root(x: f64) -> f64 {
     sqrt(sqrt(sqrt(x)))
 }
 
-impl Beyond {
+impl PastEnd {
     /// The corner's positive compliance `f` along `part` from value and slopes `end` on, taken outward; constant from
     /// `level` past its end on.
     pub fn corner(part: &CornerPart, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
@@ -214,12 +214,12 @@ mod tests {
     fn a_corner_far_from_and_near_to_its_mate_s_base_circle_is_met() {
         for bend in [0.03, 2e-4, 8e-7] {
             let (f, part) = (function(bend), CornerPart { bend, ..PART });
-            let beyond = Beyond::corner(&part, END, 0.1, &f);
+            let past_end = PastEnd::corner(&part, END, 0.1, &f);
             let mut worst = 0f64;
             for j in 0..=20_000 {
                 let share = 0.5 - 0.5 * (f64::from(j) * std::f64::consts::PI / 20_000.0).cos();
                 let x = part.turn + (part.length - part.turn) * share;
-                worst = worst.max((beyond.at(x).v / f(x) - 1.0).abs());
+                worst = worst.max((past_end.at(x).v / f(x) - 1.0).abs());
             }
             println!("{bend:e}: {worst:e}");
             assert!(worst < 1e-9, "{bend:e}: {worst:e}");
@@ -228,17 +228,17 @@ mod tests {
 
     #[test]
     fn value_slope_and_curvature_have_no_jumps() {
-        let beyond = Beyond::corner(&PART, END, 0.1, function(PART.bend));
-        assert_eq!(beyond.at(0.0), END);
+        let past_end = PastEnd::corner(&PART, END, 0.1, function(PART.bend));
+        assert_eq!(past_end.at(0.0), END);
         for x in [PART.turn, 0.5 * (PART.turn + PART.length), PART.length] {
-            let (a, b) = (beyond.at(x * (1.0 - 1e-14)), beyond.at(x));
+            let (a, b) = (past_end.at(x * (1.0 - 1e-14)), past_end.at(x));
             assert!((a.v - b.v).abs() < 1e-12 && (a.d - b.d).abs() < 1e-9 * b.d.abs(), "{x}: {a:?} {b:?}");
             assert!((a.dd - b.dd).abs() < 1e-5 * b.dd.abs(), "{x}: {a:?} {b:?}");
         }
         for (length, h) in [(PART.turn, 1e-8), (PART.length + 0.11, 1e-7)] {
             for j in 0..2000 {
                 let x = length * (f64::from(j) + 0.5) / 2000.0;
-                let (m, c, p) = (beyond.at(x - h), beyond.at(x), beyond.at(x + h));
+                let (m, c, p) = (past_end.at(x - h), past_end.at(x), past_end.at(x + h));
                 let scale = c.d.abs() + h * c.dd.abs() + 1.0;
                 assert!((c.d - (p.v - m.v) / (2.0 * h)).abs() < 1e-4 * scale, "{x}: {c:?} {m:?} {p:?}");
                 let scale = c.dd.abs() + c.d.abs() / length + 1.0;
@@ -249,10 +249,10 @@ mod tests {
 
     #[test]
     fn without_a_corner_the_function_levels_out_within_the_given_distance() {
-        let beyond = Beyond::level(END, 0.1);
-        assert_eq!(beyond.at(0.0), END);
-        let (before, level) = (beyond.at(0.0999), beyond.at(0.1));
+        let past_end = PastEnd::level(END, 0.1);
+        assert_eq!(past_end.at(0.0), END);
+        let (before, level) = (past_end.at(0.0999), past_end.at(0.1));
         assert!(before.d != 0.0 && before.dd != 0.0);
-        assert_eq!((level.v, level.d, level.dd), (beyond.at(1e3).v, 0.0, 0.0));
+        assert_eq!((level.v, level.d, level.dd), (past_end.at(1e3).v, 0.0, 0.0));
     }
 }

@@ -1,18 +1,18 @@
 //! The ideal differential with effects on bodies: Willis' equation stays a constraint, the rest is integrated.
 //!
-//! Accelerations are v̇ = W Q + f u̇_c (`assembly::rigid`). The torque of the meshes on a side gear is the force of the
+//! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the force of the
 //! constraint, λ_s = J_s ω̇_s − Q_s.
 
 use super::{Acted, Acting, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
-use crate::model::assembly::rigid::{IMPOSED, MOST, Rigid};
-use crate::model::dynamics::power::Power;
+use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, MOST};
+use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, PLANET, Plan};
 
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct RigidTorques {
+pub struct IdealTorques {
     /// Of the carrier's drive [N·m].
     pub carrier: f64,
     /// Of what imposes the spin [N·m].
@@ -23,37 +23,37 @@ pub struct RigidTorques {
 
 /// The equations under given inputs.
 #[derive(Clone, Copy)]
-pub struct RigidEquations<'a> {
+pub struct IdealEquations<'a> {
     /// Constants.
-    pub rigid: &'a Rigid,
+    pub ideal: &'a IdealWithEffects,
     pub(in crate::model) acting: Acting,
 }
 
-impl<'a> RigidEquations<'a> {
+impl<'a> IdealEquations<'a> {
     /// Index of the end of the half-shaft of side `s`.
     fn end(&self, s: usize) -> usize {
-        self.rigid.layout.end(s)
+        self.ideal.layout.end(s)
     }
 
     /// Degrees of freedom.
     fn count(&self) -> usize {
-        self.rigid.layout.count()
+        self.ideal.layout.count()
     }
 
     /// Equations under `inputs` at `state`.
-    pub fn new(rigid: &'a Rigid, inputs: &Inputs, state: &State) -> Self {
-        Self { rigid, acting: Acting::new(Some(&rigid.bodies), inputs, state) }
+    pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
+        Self { ideal, acting: Acting::new(Some(&ideal.body_effects), inputs, state) }
     }
 
     /// Forces, all commanded torques but those of imposed motions among them, and the accelerations of imposed motions.
-    fn forces(&self, at: &Point<MOST>, power: &mut Power) -> ([f64; MOST], [f64; IMPOSED]) {
+    fn forces(&self, at: &Point<MOST>, power: &mut LedgerRates) -> ([f64; MOST], [f64; IMPOSED]) {
         let rates = &self.acting.input_derivatives.rates[0];
         let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
         let mut out = Action { force: &mut sum, imposed: &mut imposed, drive: &mut power.drive, heat: &mut power.heat };
-        for effect in self.rigid.bodies.forces.iter() {
-            effect.act(&self.bodies(at), &mut out);
+        for effect in self.ideal.body_effects.forces.iter() {
+            effect.act(&self.body_motion(at), &mut out);
         }
-        let plan = &self.rigid.plan;
+        let plan = &self.ideal.plan;
         if self.rubs() {
             self.rub(at, &self.surface_loads(at, 0.0), &mut sum, power);
         }
@@ -61,11 +61,11 @@ impl<'a> RigidEquations<'a> {
             power.shaft[s] = self.acting.inputs.load_torque[s];
             if self.ends() && plan.shafts[s] {
                 let end = self.end(s);
-                power.shaft[s] = self.rigid.bodies.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
+                power.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end]);
             }
             let wheel = self.wheel(s);
             if plan.side_imposed[s] {
-                let inertial = self.rigid.inertia[wheel] * rates.side_speed[s];
+                let inertial = self.ideal.inertia[wheel] * rates.side_speed[s];
                 power.input += (inertial - sum[wheel]) * at.v[wheel];
             } else {
                 sum[wheel] -= self.acting.inputs.load_torque[s];
@@ -81,43 +81,43 @@ impl<'a> RigidEquations<'a> {
     }
 
     fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
-        let rigid = self.rigid;
+        let ideal = self.ideal;
         std::array::from_fn(|i| {
-            let free: f64 = (0..self.count()).map(|j| rigid.mobility[i][j] * sum[j]).sum();
-            free + (0..IMPOSED).map(|k| rigid.follow[k][i] * imposed[k]).sum::<f64>()
+            let free: f64 = (0..self.count()).map(|j| ideal.mobility[i][j] * sum[j]).sum();
+            free + (0..IMPOSED).map(|k| ideal.follow[k][i] * imposed[k]).sum::<f64>()
         })
     }
 
-    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], excess: f64) -> RigidTorques {
-        let rigid = self.rigid;
-        let lack: [f64; MOST] = std::array::from_fn(|i| rigid.inertia[i] * a[i] - sum[i]);
-        let plan = &rigid.plan;
-        RigidTorques {
+    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], excess: f64) -> IdealTorques {
+        let ideal = self.ideal;
+        let lack: [f64; MOST] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
+        let plan = &ideal.plan;
+        IdealTorques {
             carrier: if plan.carrier_imposed {
                 lack[0] + lack[1] + lack[CARRIER]
             } else {
                 self.acting.inputs.carrier_torque + excess
             },
-            spin: if plan.spin_imposed { rigid.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
+            spin: if plan.spin_imposed { ideal.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
             gears: [lack[0], lack[1]],
         }
     }
 
     /// Torques that follow from the constraint.
-    pub fn torques(&self, at: &Point<MOST>) -> RigidTorques {
-        let mut power = Power::default();
+    pub fn torques(&self, at: &Point<MOST>) -> IdealTorques {
+        let mut power = LedgerRates::default();
         let (sum, imposed) = self.forces(at, &mut power);
         self.torques_of(&sum, &self.accelerations(&sum, &imposed), power.drive)
     }
 
     /// Energy of half-shafts and stuck friction [J].
     fn stored(&self, at: &Point<MOST>) -> f64 {
-        let bodies: f64 = self.rigid.bodies.forces.iter().map(|e| e.energy(&self.bodies(at))).sum();
+        let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&self.body_motion(at))).sum();
         bodies + self.friction_energy(at)
     }
 }
 
-impl Acted<MOST> for RigidEquations<'_> {
+impl Acted<MOST> for IdealEquations<'_> {
     fn acting(&self) -> &Acting {
         &self.acting
     }
@@ -127,11 +127,11 @@ impl Acted<MOST> for RigidEquations<'_> {
     }
 
     fn plan(&self) -> &Plan {
-        &self.rigid.plan
+        &self.ideal.plan
     }
 
     fn layout(&self) -> &Layout {
-        &self.rigid.layout
+        &self.ideal.layout
     }
 
     fn rubs(&self) -> bool {
@@ -139,7 +139,7 @@ impl Acted<MOST> for RigidEquations<'_> {
     }
 
     fn ends(&self) -> bool {
-        self.rigid.layout.ends()
+        self.ideal.layout.ends()
     }
 
     /// None: planets stick with the side gears.
@@ -152,25 +152,25 @@ impl Acted<MOST> for RigidEquations<'_> {
     }
 
     fn acceleration_by_inputs(&self, at: &Point<MOST>) -> [f64; MOST] {
-        let (sum, imposed) = self.forces(at, &mut Power::default());
+        let (sum, imposed) = self.forces(at, &mut LedgerRates::default());
         self.accelerations(&sum, &imposed)
     }
 }
 
-impl SecondOrder<MOST> for RigidEquations<'_> {
-    type Power = Power;
+impl SecondOrder<MOST> for IdealEquations<'_> {
+    type Rates = LedgerRates;
 
     fn freedoms(&self) -> usize {
         self.count()
     }
 
     fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
-        let kinetic: f64 = (0..self.count()).map(|i| self.rigid.inertia[i] * at.v[i] * at.v[i]).sum();
+        let kinetic: f64 = (0..self.count()).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum();
         [0.5 * kinetic, self.stored(at)]
     }
 
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[Power; 3]) -> f64 {
-        Power::imbalance::<true>(energies, h, power)
+    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, power: &[LedgerRates; 3]) -> f64 {
+        LedgerRates::imbalance::<true>(energies, h, power)
     }
 
     fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {
@@ -178,49 +178,49 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        self.rigid.layout.set_twist_rates(v, &mut rates);
+        self.ideal.layout.set_twist_rates(v, &mut rates);
         rates
     }
 
     fn times_rates(&self, m: &mut Matrix<MOST>) {
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
-            self.rigid.layout.turn_twist_rates(row);
+            self.ideal.layout.turn_twist_rates(row);
         }
     }
 
-    fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], Power) {
-        let mut power = Power::default();
+    fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], LedgerRates) {
+        let mut power = LedgerRates::default();
         let (sum, imposed) = self.forces(at, &mut power);
         let a = self.accelerations(&sum, &imposed);
         let torques = self.torques_of(&sum, &a, power.drive);
-        if self.rigid.plan.carrier_imposed {
+        if self.ideal.plan.carrier_imposed {
             power.input += torques.carrier * at.v[CARRIER];
         }
         power.input += torques.spin * at.v[PLANET];
         (a, power)
     }
 
-    fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, Power> {
+    fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, LedgerRates> {
         let (acceleration, power) = self.evaluate(at);
         let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
         let mut j = Jacobian::new([&mut by_position, &mut by_velocity]);
         let mut imposed = [[0.0; MOST]; 2];
         let mut out = Slopes::new([&mut *j.by_position, &mut *j.by_velocity], &mut imposed);
-        for effect in self.rigid.bodies.forces.iter() {
-            effect.slopes(&self.bodies(at), &mut out);
+        for effect in self.ideal.body_effects.forces.iter() {
+            effect.slopes(&self.body_motion(at), &mut out);
         }
         self.friction_slopes(&mut j);
         let Jacobian { mut by_rate, .. } = j;
         self.times_rates(&mut by_rate);
-        let rigid = self.rigid;
-        let follow = rigid.follow[0];
+        let ideal = self.ideal;
+        let follow = ideal.follow[0];
         let moved = |m: &Matrix<MOST>, imposed: &[f64; MOST]| -> Matrix<MOST> {
             let mut product = [[0.0; MOST]; MOST];
             for (i, row) in product.iter_mut().enumerate() {
                 for k in 0..self.count() {
                     for j in 0..MOST {
-                        row[j] += rigid.mobility[i][k] * m[k][j];
+                        row[j] += ideal.mobility[i][k] * m[k][j];
                     }
                 }
                 for j in 0..MOST {
@@ -246,11 +246,11 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
         self.acting.driven
     }
 
-    fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], Power) {
+    fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], LedgerRates) {
         if self.acting.driven { self.later(time).evaluate(at) } else { self.evaluate(at) }
     }
 
-    fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, Power> {
+    fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, LedgerRates> {
         if self.acting.driven { self.later(time).linearise(at) } else { self.linearise(at) }
     }
 
@@ -265,7 +265,7 @@ impl SecondOrder<MOST> for RigidEquations<'_> {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
-        for (i, _) in self.rigid.layout.attached() {
+        for (i, _) in self.ideal.layout.attached() {
             weights.q[i] = 1.0 / (1e-3 + at.q[i].abs());
         }
         weights

@@ -15,7 +15,7 @@ pub const IMPOSED: usize = 4;
 
 /// Constants of an ideal differential with effects.
 #[derive(Clone, Debug)]
-pub struct Rigid {
+pub struct IdealWithEffects {
     /// Scene plan.
     pub plan: Plan,
     /// Index of each degree of freedom.
@@ -31,12 +31,12 @@ pub struct Rigid {
     /// Columns of f: for the carrier, the spin and both ends; zero where the motion is not imposed.
     pub follow: [[f64; MOST]; IMPOSED],
     /// Effects on bodies.
-    pub bodies: BodyEffects,
+    pub body_effects: BodyEffects,
 }
 
-impl Rigid {
+impl IdealWithEffects {
     /// Constants of the scene.
-    pub fn new(ideal: &Ideal, bodies: BodyEffects) -> Self {
+    pub fn new(ideal: &Ideal, body_effects: BodyEffects) -> Self {
         let plan = ideal.plan;
         let layout = plan.layout();
         let (by_freedom, rigid_end) = ideal.inertia.by_freedom(&plan);
@@ -67,7 +67,7 @@ impl Rigid {
             ratio: r,
             mobility: [[0.0; MOST]; MOST],
             follow: [[0.0; MOST]; IMPOSED],
-            bodies,
+            body_effects,
         };
         for i in 0..n {
             for k in 0..IMPOSED {
